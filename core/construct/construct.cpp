@@ -12,7 +12,7 @@
 #include "core/construct/light/light_pieces.h"
 #include "core/construct/nurbs/quintic_nurbs.h"
 #include "core/construct/polygon/control_polygon.h"
-#include "core/construct/typical/typical_curve.h"
+#include "core/construct/typical/typical_chain.h"
 
 namespace batten {
 

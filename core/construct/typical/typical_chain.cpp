@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/construct/bezier/bezier_chain.h"
-#include "core/construct/fair/fair_fit.h"
 #include "core/construct/stations/piece_stations.h"
 #include "core/construct/typical/typical_growing.h"
+#include "core/construct/typical/typical_line.h"
 #include "core/construct/typical/typical_path_fit.h"
 #include "core/construct/typical/typical_path_geometry.h"
 #include "core/construct/typical/typical_rough_path.h"
@@ -23,193 +22,19 @@ namespace batten {
 
 namespace {
 
-/// More points than this are taken together in groups: they say no more, and cost time.
-constexpr std::size_t kMostPoints = 400;
 /// A path that runs this far [px, rms] from its points while the joints do not has lost its line.
 constexpr double kLostRmsPx = 3.0;
-/// Distance of the joints along a fair fit, and the shortest one that is taken as a guide.
-constexpr double kHoldPx = 0.01, kAgreePx = 0.05;
-/// Without a pixel size, assume the length of a typical line of a drawing.
-constexpr double kUnitsOfLine = 1000.0;
+/// A path laid along the fair fit is held to it by this [px].
+constexpr double kHoldPx = 0.01;
 /// A joint is put in no nearer to its neighbours than this part of their distance.
 constexpr double kLeastSplitShare = 0.01;
-constexpr double kJointPx = 40.0, kLeastFairPx = 40.0;
-
-/// A closed line is opened after the station whose segment bends least: curvature is least at a joint, never inside a
-/// typical curve.
-void turnToStraightest(std::vector<Station>& stations) {
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < stations.size(); ++i) {
-    const double turn = std::abs(angleBetween(stations[i].direction, stations[(i + 1) % stations.size()].direction));
-    if (turn < least) {
-      least = turn;
-      best = i;
-    }
-  }
-  const auto first = static_cast<std::ptrdiff_t>((best + 1) % stations.size());
-  std::rotate(stations.begin(), stations.begin() + first, stations.end());
-}
-
-}  // namespace
-
-namespace {
-
-/// The line as its true and fair fit shows it; absent where there is none.
-std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pixelMm, bool grows,
-                                         const RunContext& context) {
-  ConstructContour contour;
-  contour.pieces = {piece};
-  contour.pieces.front().constraints.clear();
-  contour.pixelMm = pixelMm;
-  FairFitOptions options;
-  options.knotRemovalTolerance = 0.0;
-  const auto fitted = fairFit(contour, options, context);
-  // With sharp turns it still is the line, but nothing grows through them; a curve that only took its place is none.
-  if (!fitted || fitted->size() != 1 || fitted->front().report.why == Termination::Degenerate) return std::nullopt;
-  if (grows && !fitted->front().report.note.empty()) return std::nullopt;
-  const NurbsCurve& curve = fitted->front().curve;
-  const double length = curve.isEmpty() ? 0.0 : ArcLength(curve).total();
-  if (!(pixelMm > 0.0) || !(length > kLeastFairPx * pixelMm)) return std::nullopt;
-  // A fit that lost its line is no guide.
-  if (!(deviation(curve, piece.points, true).rms < kLostRmsPx * pixelMm)) return std::nullopt;
-  TypicalLine line;
-  line.unitMm = pixelMm;
-  line.closed = piece.closed;
-  line.fair = curve;
-  const int joints = std::max(8, static_cast<int>(std::ceil(length / (kJointPx * pixelMm)))) + 1;
-  const auto samples = sampleByArcLength(curve, joints);
-  line.originMm = samples.front().point;
-  line.endMm = samples.back().point;
-  // Where the stations and the fit agree on an end, it is that of the stations, as in the other constructions.
-  const std::vector<Station> stations = line.closed ? std::vector<Station>{} : usableStations(piece, 6);
-  if (!stations.empty()) {
-    const auto agrees = [&](const Vec2& a, const Vec2& b) { return (a - b).norm() < kAgreePx * pixelMm; };
-    if (agrees(stations.front().point, line.originMm)) line.originMm = stations.front().point;
-    if (agrees(stations.back().point, line.endMm)) line.endMm = stations.back().point;
-  }
-  for (const CurveSample& s : samples) line.joints.push_back({line.toLine(s.point), s.tangent, s.kappa * pixelMm});
-  if (line.closed) {
-    line.joints.back() = line.joints.front();
-  } else {
-    line.joints.front().point = Vec2::Zero();
-    line.joints.back().point = line.toLine(line.endMm);
-  }
-  return line;
-}
-
-/// The line as its stations show it.
-TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
-                           const RunContext& context) {
-  TypicalLine line;
-  // A chain needs no closer stations: it goes by the points, and by more joints it only takes longer.
-  std::vector<Station> stations = usableStations(piece, 6);
-  if (stations.size() < (piece.closed ? 3u : 2u)) return line;
-  if (piece.closed) turnToStraightest(stations);
-  const FairedJoints faired = fairedJoints(givenStations(stations), piece.closed, pixelMm, params.lowPass, context);
-  double total = 0.0;
-  for (const double length : faired.lengths) total += length;
-  line.unitMm = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / kUnitsOfLine;
-  line.originMm = stations.front().point;
-  line.endMm = stations.back().point;
-  for (const Joint& j : faired.joints) {
-    line.joints.push_back({line.toLine(j.point), j.tangent, j.kappa * line.unitMm});
-  }
-  line.closed = piece.closed;
-  return line;
-}
-
-}  // namespace
-
-TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
-                        const RunContext& context) {
-  auto fair = lineOnFairFit(piece, pixelMm, params.typical == TypicalMode::Growing, context);
-  TypicalLine line = fair ? std::move(*fair) : lineOnStations(piece, pixelMm, params, context);
-  if (!line.joints.empty()) line.points = pointsAlong(piece, line);
-  return line;
-}
-
-std::vector<Vec2> pointsAlong(const ConstructPiece& piece, const TypicalLine& line) {
-  std::vector<Vec2> all;
-  for (const Vec2& p : piece.points) {
-    if (p.allFinite()) all.push_back(line.toLine(p));
-  }
-  if (line.closed && !all.empty()) {
-    const auto first = std::min_element(all.begin(), all.end(), [&](const Vec2& a, const Vec2& b) {
-      return (a - line.joints.front().point).squaredNorm() < (b - line.joints.front().point).squaredNorm();
-    });
-    std::rotate(all.begin(), first, all.end());
-  }
-  if (all.size() < 2 * line.joints.size()) {
-    // Hardly more points than joints: the joints are the line.
-    all.clear();
-    for (const Joint& j : line.joints) all.push_back(j.point);
-  }
-  const std::size_t group = (all.size() + kMostPoints - 1) / kMostPoints;
-  if (group < 2) return all;
-  std::vector<Vec2> means;
-  std::size_t joint = 0;
-  for (std::size_t i = 0; i + group <= all.size(); i += group) {
-    Vec2 mean = Vec2::Zero();
-    for (std::size_t k = i; k < i + group; ++k) mean += all[k] / static_cast<double>(group);
-    while (joint + 1 < line.joints.size() &&
-           (line.joints[joint + 1].point - mean).squaredNorm() <= (line.joints[joint].point - mean).squaredNorm()) {
-      ++joint;
-    }
-    // The mean of an arc lies inside it: kappa / 2 times the variance of the arc length.
-    const double length =
-        (all[i + group - 1] - all[i]).norm() * static_cast<double>(group) / static_cast<double>(group - 1);
-    means.push_back(mean - line.joints[joint].kappa * length * length / 24.0 * leftNormal(line.joints[joint].tangent));
-  }
-  return means;
-}
-
-Result<NurbsCurve> pathCurve(const TypicalPath& path, const TypicalLine& line) {
-  std::vector<Quintic> pieces;
-  for (std::size_t e = 0; e < path.elements.size(); ++e) {
-    Quintic& q = pieces.emplace_back(path.quintic(e));
-    for (Vec2& p : q) p = line.toModel(p);
-  }
-  return joinedQuintics(pieces, 1.0);
-}
-
-namespace {
-
-/// Why a segment is no typical curve.
-SegmentCause causeOf(double startKappa, double endKappa, double turnRad) {
-  constexpr double kStraightTurn = 0.05;  // [rad]
-  if (startKappa * endKappa < 0.0 || startKappa * turnRad < 0.0) return SegmentCause::Inflection;
-  return std::abs(turnRad) < kStraightTurn ? SegmentCause::Straight : SegmentCause::Even;
-}
-
-}  // namespace
-
-std::vector<SegmentNote> segmentNotes(const TypicalPath& path, const TypicalLine& line) {
-  std::vector<SegmentNote> notes;
-  for (std::size_t e = 0; e < path.elements.size(); ++e) {
-    SegmentNote note;
-    note.typical = path.elements[e].typical;
-    note.startKappa = path.states[e].kappa / line.unitMm;
-    note.endKappa = path.states[e + 1].kappa / line.unitMm;
-    note.startMm = line.toModel(path.states[e].point);
-    note.turnRad = path.states[e + 1].angleRad - path.states[e].angleRad;
-    if (!note.typical) note.turnRad = std::remainder(note.turnRad, 2.0 * std::numbers::pi);
-    if (!note.typical) note.cause = causeOf(path.states[e].kappa, path.states[e + 1].kappa, note.turnRad);
-    if (note.typical) {
-      const TypicalCurve curve = path.typical(e);
-      note.ratio = curve.ratio;
-      note.lengthMm =
-          line.unitMm * curve.edge * (1.0 + curve.ratio * std::cos(curve.turnRad) + curve.ratio * curve.ratio);
-      note.monotone = curve.isMonotone();
-    } else {
-      note.lengthMm = line.unitMm * path.hermiteLength(e);
-    }
-    notes.push_back(note);
-  }
-  return notes;
-}
-
-namespace {
+/// A chain is said to be one of typical curves where they make this part of its length.
+constexpr double kMostOfIt = 0.6;
+/// Another start than a path of so many pieces takes long, and brings nothing where a line turns sharply again and
+/// again.
+constexpr std::size_t kManyElements = 60;
+/// Segments of a grown path for each one of the chain that it may take the place of.
+constexpr std::size_t kMostGrown = 2;
 
 /// Joints nearest to the places that the user set, with those places.
 std::vector<std::size_t> jointsAtPlaces(TypicalLine& line, std::span<const Vec2> placesMm) {
@@ -338,7 +163,8 @@ bool hasSliver(const TypicalPath& path) {
 struct Candidate {
   std::optional<FoundPath> path;
   int falseExtrema = 0;  ///< More than the fair fit of the line has.
-  double rms = 0.0;
+  double rms = 0.0;      ///< [px] of the points.
+  double share = 0.0;    ///< Of the length, that typical curves make.
 
   bool isBetterThan(const Candidate& other) const {
     if (!path || !other.path) return path.has_value();
@@ -354,15 +180,33 @@ Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, co
   if (!curve || isAstray(*curve, line)) return {};
   const int known = line.fair ? countedExtrema(*line.fair, line.closed) : 0;
   const int more = std::max(0, countedExtrema(*curve, line.closed) - known);
-  return {FoundPath{std::move(path), fit->converged}, more, fit->rms};
+  const double share = typicalShare(segmentNotes(path, line));
+  return {FoundPath{std::move(path), fit->converged}, more, fit->rms, share};
+}
+
+/// The better of a chain and the grown path: with no more extrema and no farther off than a light curve may be, the one
+/// with more typical curves.
+std::optional<FoundPath> orGrown(Candidate chain, const TypicalLine& line, const ConstructParams& params,
+                                 const RunContext& context) {
+  if (!chain.path || chain.share >= kMostOfIt || chain.path->path.elements.size() > kManyElements) return chain.path;
+  auto grown = grownPath(line, {}, params, nullptr, context);
+  // Growing sees only what lies before it: on a line that wavers it makes many short segments, which take long to fit.
+  if (!grown || grown->path.elements.size() > kMostGrown * chain.path->path.elements.size()) return chain.path;
+  // The noise of the points is in both.
+  const double farthest = std::hypot(chain.rms, params.lightTolerancePx);
+  for (const PathSearch search : {PathSearch::Tidy, PathSearch::Keep}) {
+    Candidate one = fittedCandidate(grown->path, dataOf(line), search, line, context);
+    if (one.path && one.falseExtrema <= chain.falseExtrema && one.rms <= farthest && one.share > chain.share)
+      return one.path;
+  }
+  return chain.path;
 }
 
 /// The path of the global chain; absent where the points allow none. Laid along the fair fit of the line; where that
 /// brings extrema that the line has not, also from a rough path that is divided and made plain as the points ask for.
-std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2> placesMm, const RunContext& context) {
+std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2> placesMm,
+                                   const ConstructParams& params, const RunContext& context) {
   if (!placesMm.empty()) return dividedPath(line, placesMm, context);
-  // To divide a rough path of so many pieces takes long, and brings nothing where a line turns sharply again and again.
-  constexpr std::size_t kManyElements = 60;
   bool isLong = false;
   Candidate best;
   if (auto tiled = tiledPath(line)) {
@@ -371,10 +215,11 @@ std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2
     isLong = tiled->elements.size() > kManyElements;
     best = fittedCandidate(std::move(*tiled), data, PathSearch::Simplify, line, context);
   }
-  if (best.path && (best.falseExtrema == 0 || isLong)) return best.path;
+  if (best.path && isLong) return best.path;
+  if (best.path && best.falseExtrema == 0) return orGrown(std::move(best), line, params, context);
   Candidate rough =
       fittedCandidate(roughTypicalPath(line.joints, line.closed, {}), dataOf(line), PathSearch::Full, line, context);
-  return rough.isBetterThan(best) ? rough.path : best.path;
+  return orGrown(rough.isBetterThan(best) ? std::move(rough) : std::move(best), line, params, context);
 }
 
 /// The grown path, tidied: growing sees only what lies before it, so that its many short segments bring turns of the
@@ -394,7 +239,6 @@ std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const
 
 /// What a chain with few typical curves says of the rest; empty where they are most of it.
 std::string typicalNote(const std::vector<SegmentNote>& segments) {
-  constexpr double kMostOfIt = 0.6;
   const double share = typicalShare(segments);
   if (segments.empty() || share >= kMostOfIt) return {};
   const auto counted = [&](SegmentCause cause) {
@@ -407,7 +251,7 @@ std::string typicalNote(const std::vector<SegmentNote>& segments) {
   };
   add(counted(SegmentCause::Straight), " nearly straight");
   add(counted(SegmentCause::Inflection), " at inflections");
-  add(counted(SegmentCause::Even), " of hardly changing curvature or beyond what one typical curve can follow");
+  add(counted(SegmentCause::Even), " that one typical curve does not follow as closely");
   return "Typical curves make " + std::to_string(static_cast<int>(std::lround(100.0 * share))) +
          " % of the length; the other segments are transitions: " + why + ".";
 }
@@ -432,7 +276,7 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
   if (line.joints.empty()) return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
   if (context.isCancelled()) return cancelled();
   auto found = params.typical == TypicalMode::Growing ? grownAndTidied(line, piece.breakpoints, params, context)
-                                                      : chainPath(line, piece.breakpoints, context);
+                                                      : chainPath(line, piece.breakpoints, params, context);
   if (context.isCancelled()) return cancelled();
   auto curve = found ? pathCurve(found->path, line) : Result<NurbsCurve>(fail(ErrorCode::Numerical, ""));
   if (!curve) return pathInstead(piece, pixelMm, params, context);

@@ -1,38 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/construct/construct_params.h"
 #include "core/construct/pieces.h"
-#include "core/construct/typical/typical_path.h"
 
 namespace batten {
 
-/// A piece as the typical constructions take it: joints that roughly follow it, and its points, both from its start and
-/// in units of noise (px).
-struct TypicalLine {
-  std::vector<Joint> joints;  ///< Empty: too few stations. Closed: the last repeats the first.
-  std::vector<Vec2> points;
-  bool closed = false;
-  double unitMm = 1.0;
-  Vec2 originMm = Vec2::Zero();
-  Vec2 endMm = Vec2::Zero();       ///< Open: where the line ends; it starts at the origin.
-  std::optional<NurbsCurve> fair;  ///< [mm] The true and fair fit of the line, which the joints then lie on.
-
-  Vec2 toLine(const Vec2& mm) const { return (mm - originMm) / unitMm; }
-  Vec2 toModel(const Vec2& p) const { return originMm + unitMm * p; }
-};
-
-TypicalLine typicalLine(const ConstructPiece&, double pixelMm, const ConstructParams&, const RunContext&);
-/// The points of a piece in order from the start of the line; many are taken together in groups, without bias.
-std::vector<Vec2> pointsAlong(const ConstructPiece&, const TypicalLine&);
-
-/// A path as one B-spline of degree 5 in the model frame, knots of multiplicity 4.
-Result<NurbsCurve> pathCurve(const TypicalPath&, const TypicalLine&);
-std::vector<SegmentNote> segmentNotes(const TypicalPath&, const TypicalLine&);
+/// The construction of 002 for one piece: wherever the line bends one way, typical curves with common tangents and
+/// curvatures, every one with monotone curvature; at inflections and straight parts, which typical curves cannot draw,
+/// quintic Hermite pieces. Chain: fitted to the points as a whole, as few segments as they ask for. Growing: one after
+/// the other. Where `breakpoints` are given the segments meet there. G2 everywhere; degree 5, knots of multiplicity 4.
+Result<ConstructedPiece> constructTypical(const ConstructPiece&, double pixelMm, const ConstructParams&,
+                                          const RunContext&);
 
 }  // namespace batten

@@ -5,10 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/result.h"
-#include "core/base/run_context.h"
-#include "core/construct/construct_params.h"
-#include "core/construct/pieces.h"
 #include "core/curve/bezier_quintics.h"
 
 namespace batten {
@@ -42,12 +38,5 @@ std::optional<TypicalCurve> typicalFromForm(const Vec2& start, double angleRad, 
 /// kappa0). Absent as above.
 std::optional<TypicalCurve> typicalFromCurvatures(const Vec2& start, double angleRad, double startCurvature,
                                                   double endCurvature, double changeOfAngleRad);
-
-/// The construction of 002 for one piece: wherever the line bends one way, typical curves with common tangents and
-/// curvatures, every one with monotone curvature; at inflections and straight parts, which typical curves cannot draw,
-/// quintic Hermite pieces. Chain: fitted to the points as a whole, as few segments as they ask for. Growing: one after
-/// the other. Where `breakpoints` are given the segments meet there. G2 everywhere; degree 5, knots of multiplicity 4.
-Result<ConstructedPiece> constructTypical(const ConstructPiece&, double pixelMm, const ConstructParams&,
-                                          const RunContext&);
 
 }  // namespace batten

@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/construct/typical/typical_chain.h"
+#include "core/construct/typical/typical_line.h"
 #include "core/construct/typical/typical_path_fit.h"
 
 namespace batten {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/construct/typical/typical_chain.h"
+#include "core/construct/typical/typical_line.h"
 #include "core/construct/typical/typical_path.h"
 
 namespace batten {

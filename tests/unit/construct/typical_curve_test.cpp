@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/construct/typical/typical_curve.h"
+#include "core/construct/typical/typical_chain.h"
 
 #include <gtest/gtest.h>
 
@@ -105,6 +106,36 @@ TEST(ConstructTypical, IsTrueAndHasNoJumpOfCurvature) {
   EXPECT_LT(largestJump(around.curve), 1e-6);
   EXPECT_NEAR(curvature(around.curve, around.curve.start()).value(),
               curvature(around.curve, around.curve.end()).value(), 1e-9);
+}
+
+TEST(ConstructTypical, MakesMostOfASmoothLineOfTypicalCurves) {
+  // A roof: nearly an arc of a circle, with two bends on it [1/px], 800 px long. A chain laid along it alone takes the
+  // stretches of nearly even curvature for transitions.
+  const auto kappaAt = [](double share) {
+    return 0.0015 + 0.004 * std::exp(-std::pow((share - 0.25) / 0.08, 2)) +
+           0.003 * std::exp(-std::pow((share - 0.75) / 0.1, 2));
+  };
+  constexpr double kLengthPx = 800.0;
+  constexpr int kSteps = 1600;
+  std::vector<Vec2> course{Vec2(60.0, 350.0)};
+  double angle = -0.9;
+  for (int i = 0; i < kSteps; ++i) {
+    const double turn = kappaAt((i + 0.5) / kSteps) * kLengthPx / kSteps;
+    course.push_back(course.back() +
+                     kLengthPx / kSteps * Vec2(std::cos(angle + turn / 2.0), std::sin(angle + turn / 2.0)));
+    angle += turn;
+  }
+  const auto at = [&](double t) { return course[static_cast<std::size_t>(std::lround(t * kSteps))]; };
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    auto piece = test::pieceOf(at, 0.0, 1.0, 16, false);
+    const auto truth = piece.points;
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 0.1);
+    for (Vec2& p : piece.points) p += Vec2(noise(random), noise(random));
+    const auto made = constructTypical(piece, 1.0, {}, {}).value();
+    EXPECT_GE(typicalShare(made.report.segments), 0.6) << made.report.note << " seed " << seed;
+    EXPECT_LT(deviation(made.curve, truth, true).rms, 0.1);
+  }
 }
 
 TEST(ConstructTypical, ComesToRestOnAnOrdinaryLine) {
