@@ -31,7 +31,7 @@ constexpr double kGreyCost = 0.02;          // [1/grey] of ends that differ in d
 constexpr int kBridgeRounds = 4;            // an end whose best partner is taken may find another
 constexpr int kEndsPerLook = 256;           // between polls of the cancel token
 
-struct FreeEnd {
+struct OpenEnd {
   int path = 0, side = 0;  ///< side 0: the start.
   Vec2 at = Vec2::Zero();
   Vec2 out = Vec2::Zero();  ///< Unit direction in which the stroke would go on.
@@ -101,9 +101,9 @@ double levelAt(const StrokePath& s, int side, double width, const GreyImage& gre
   return sum / count;
 }
 
-std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
+std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
                               const BitImage& ink, const GreyImage& grey) {
-  std::vector<FreeEnd> ends;
+  std::vector<OpenEnd> ends;
   for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
     const StrokePath& s = paths[i];
     if (s.closed || s.points.size() < 3) continue;
@@ -118,7 +118,7 @@ std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const std::v
           {i, side, at, endDirection(s, side, width), width, inkWidth, levelAt(s, side, width, grey), isPencil});
     }
   }
-  std::sort(ends.begin(), ends.end(), [](const FreeEnd& a, const FreeEnd& b) {
+  std::sort(ends.begin(), ends.end(), [](const OpenEnd& a, const OpenEnd& b) {
     return a.at.x() != b.at.x() ? a.at.x() < b.at.x() : (a.at.y() != b.at.y() ? a.at.y() < b.at.y() : a.side < b.side);
   });
   return ends;
@@ -126,7 +126,7 @@ std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const std::v
 
 // [px] of the straight way from one end to the other that is paper, between the last ink here and the first ink there:
 // the gap as it is seen. Skeletons end inside the ink, by an amount that depends on the shape of the pen tip.
-double paperBetween(const FreeEnd& a, const FreeEnd& b, const BitImage& ink) {
+double paperBetween(const OpenEnd& a, const OpenEnd& b, const BitImage& ink) {
   constexpr double kStepPx = 0.25;
   const double length = (b.at - a.at).norm();
   const int steps = static_cast<int>(length / kStepPx) + 1;
@@ -143,7 +143,7 @@ double paperBetween(const FreeEnd& a, const FreeEnd& b, const BitImage& ink) {
 
 // Cost of joining two ends; nothing where they do not belong together. They must face each other unless the gap is no
 // longer than the pen is wide.
-std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImage& ink, double gapFactor) {
+std::optional<double> joinCost(const OpenEnd& a, const OpenEnd& b, const BitImage& ink, double gapFactor) {
   const double width = 0.5 * (a.width + b.width), thinner = std::min(a.inkWidth, b.inkWidth);
   const double octaves = std::abs(std::log2(a.inkWidth / b.inkWidth));
   const bool isPencil = a.isPencil && b.isPencil;
@@ -162,7 +162,7 @@ std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImag
   return gap + width * (turn + kOctaveCost * octaves + kGreyCost * std::abs(a.level - b.level));
 }
 
-void join(std::vector<StrokePath>& paths, const FreeEnd& a, const FreeEnd& b) {
+void join(std::vector<StrokePath>& paths, const OpenEnd& a, const OpenEnd& b) {
   StrokePath& first = paths[a.path];
   StrokePath& second = paths[b.path];
   const auto radius = static_cast<float>(0.25 * (a.width + b.width));
@@ -194,11 +194,11 @@ void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
                 const GreyImage& grey, const EdgeParams& params, const RunContext& context) {
   if (!(params.gapFactor > 0.0)) return;
   for (int round = 0; round < kBridgeRounds; ++round) {
-    std::vector<FreeEnd> ends = freeEnds(paths, pencil, ink, grey);
+    std::vector<OpenEnd> ends = openEnds(paths, pencil, ink, grey);
     double widest = 1.0;
-    for (const FreeEnd& e : ends) widest = std::max(widest, std::max(e.width, e.inkWidth));
+    for (const OpenEnd& e : ends) widest = std::max(widest, std::max(e.width, e.inkWidth));
     const double farthest = (params.gapFactor + kSkeletonShort) * widest + kSkeletonShortPx;
-    const auto offer = [](FreeEnd& e, int other, double cost) {
+    const auto offer = [](OpenEnd& e, int other, double cost) {
       if (!e.best || cost < e.bestCost) {
         e.best = other;
         e.bestCost = cost;
@@ -207,7 +207,7 @@ void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
     for (int i = 0; i < std::ssize(ends); ++i) {
       if (i % kEndsPerLook == 0 && context.isCancelled()) return;
       for (int j = i + 1; j < std::ssize(ends) && ends[j].at.x() - ends[i].at.x() <= farthest; ++j) {
-        FreeEnd &a = ends[i], &b = ends[j];
+        OpenEnd &a = ends[i], &b = ends[j];
         const bool tooShort =
             a.path == b.path && paths[a.path].length() < kLeastRingWidths * a.width + (a.at - b.at).norm();
         const auto cost = tooShort ? std::nullopt : joinCost(a, b, ink, params.gapFactor);
@@ -219,9 +219,9 @@ void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
     bool joined = false;
     std::vector<bool> moved(paths.size(), false);
     for (int i = 0; i < std::ssize(ends); ++i) {
-      const FreeEnd& a = ends[i];
+      const OpenEnd& a = ends[i];
       if (!a.best || *a.best <= i || ends[*a.best].best != i) continue;
-      const FreeEnd& b = ends[*a.best];
+      const OpenEnd& b = ends[*a.best];
       // A stroke path is turned at most once a round, so that the sides noted above stay true.
       if (moved[a.path] || moved[b.path]) {
         joined = true;

@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 constexpr double kTaperWidths = 6.0, kLeastTaperPx = 16.0;  // looked at inside the end of the skeleton
-constexpr double kFarthestTipPx = 30.0;                     // [px] beyond it, besides two widths
+constexpr double kFarthestTaperPx = 30.0;                   // [px] beyond it, besides two widths
 constexpr double kTaperHookWidths = 0.5;  // [stroke widths] the end of a skeleton turns to a corner of the ink there
 constexpr int kLeastTaperBack = 4;        // points over which the direction is taken
 constexpr double kWide = 0.75, kThin = 0.25;  // shares of the whole width between which a taper is told,
@@ -105,7 +105,7 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
     const InkAcross centred = acrossAt(c, track.stations[i].at, p.tangent, inkLevel, local, grey);
     track.stations[i].dark = std::max(track.stations[i].dark, centred.middle / contrast);
   }
-  const double farthest = hook + kFarthestTipPx + 2.0 * w;
+  const double farthest = hook + kFarthestTaperPx + 2.0 * w;
   double least = track.stations.back().share;
   for (int step = 0; step < static_cast<int>(farthest); ++step) {
     const Vec2 last = track.stations.back().at;
