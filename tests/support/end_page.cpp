@@ -18,7 +18,7 @@ constexpr double kStepPx = 0.2;
 constexpr double kSkew = 0.466;  // tangent of 25 degrees
 
 // A course of length `length` through `middle` in a direction; straight, or an arc.
-struct Course {
+struct EndLine {
   Vec2 middle = Vec2::Zero(), along = Vec2::Zero();
   double bend = 0.0;  // [1/px]
   Vec2 direction(double s) const { return turned(along, bend * s); }
@@ -42,7 +42,7 @@ struct Ending {
 };
 
 // The border of the ink, once round.
-std::vector<Vec2> borderOf(const Course& course, const Ending& end) {
+std::vector<Vec2> borderOf(const EndLine& course, const Ending& end) {
   std::vector<Vec2> border;
   const int steps = static_cast<int>(2.0 * end.half / kStepPx);
   const double skew = end.kind == StrokeEnd::Skewed ? kSkew : 0.0;
@@ -59,7 +59,7 @@ std::vector<Vec2> borderOf(const Course& course, const Ending& end) {
     constexpr int kCapSteps = 64;
     for (int k = 1; k < kCapSteps; ++k) {
       const double angle = std::numbers::pi * (0.5 - static_cast<double>(k) / kCapSteps);
-      border.push_back(centre + end.radius * Course::turned(out, angle));
+      border.push_back(centre + end.radius * EndLine::turned(out, angle));
     }
   }
   return border;
@@ -76,9 +76,9 @@ EndPage endPage(StrokeEnd kind, double widthPx) {
   for (int i = 0; i < kStrokes; ++i) {
     const int column = i % kColumns, row = i / kColumns;
     const double angle = std::numbers::pi * (i == 0 ? 0.0 : i == 6 ? 0.5 : (i + 0.15) / kStrokes);
-    Course course{{kCellPx * (column + 0.5) + 0.13 * i, kCellPx * (row + 0.5) + 0.31 * i},
-                  {std::cos(angle), std::sin(angle)},
-                  i % 3 == 2 ? (i % 2 == 0 ? 1.0 : -1.0) / kBendRadiusPx : 0.0};
+    EndLine course{{kCellPx * (column + 0.5) + 0.13 * i, kCellPx * (row + 0.5) + 0.31 * i},
+                   {std::cos(angle), std::sin(angle)},
+                   i % 3 == 2 ? (i % 2 == 0 ? 1.0 : -1.0) / kBendRadiusPx : 0.0};
     const std::vector<float> one = fillCoverage(borderOf(course, end), page.width, page.height);
     for (std::size_t k = 0; k < one.size(); ++k) page.coverage[k] = std::max(page.coverage[k], one[k]);
     for (const double side : {1.0, -1.0})
