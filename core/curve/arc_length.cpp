@@ -29,8 +29,8 @@ double gauss(const SpanPolynomials& curve, double from, double to) {
 /// Subdivides [from, to] until halving changes nothing; appends the borders and the length up to them.
 struct Subdivision {
   const SpanPolynomials& curve;
-  double negligible;   ///< Change of length that does not matter, whatever the piece.
-  std::size_t budget;  ///< Borders after which no interval is halved any more: rounding noise must not be chased.
+  double negligible;       ///< Change of length that does not matter, whatever the piece.
+  std::size_t mostBreaks;  ///< Borders after which no interval is halved any more: rounding noise must not be chased.
   std::vector<double>& breaks;
   std::vector<double>& cumulative;
 
@@ -39,7 +39,7 @@ struct Subdivision {
     const double left = gauss(curve, from, mid), right = gauss(curve, mid, to);
     const double change = std::abs(whole - left - right);
     const bool fine = change <= kRelativeChange * (left + right) || change <= negligible;
-    if (fine || depth >= kMaxDepth || breaks.size() > budget || !(mid > from && mid < to)) {
+    if (fine || depth >= kMaxDepth || breaks.size() > mostBreaks || !(mid > from && mid < to)) {
       breaks.insert(breaks.end(), {mid, to});
       cumulative.push_back(cumulative.back() + left);
       cumulative.push_back(cumulative.back() + right);

@@ -151,7 +151,7 @@ struct Tally {
     curvature.push_back(a.curvatureError);
     ms.push_back(r.milliseconds);
     coverage.push_back(a.coverage);
-    stray.push_back(a.strayPx);
+    stray.push_back(a.outlierPx);
     each.insert(each.end(), a.corners.begin(), a.corners.end());
     for (const Accuracy::CornerError& c : a.corners)
       if (std::isfinite(c.errorPx)) (c.openingDeg < kAcuteDeg ? acute : corner).push_back(c.errorPx);

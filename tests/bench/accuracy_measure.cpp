@@ -13,7 +13,7 @@ namespace batten::test {
 namespace {
 
 constexpr double kCornerZonePx = 10.0;
-constexpr double kFoundWithinPx = 2.0, kStrayPx = 6.0, kCornerWithinPx = 4.0;
+constexpr double kFoundWithinPx = 2.0, kOutlierPx = 6.0, kCornerWithinPx = 4.0;
 constexpr double kProminence = 5e-3;  // of kappa times the diagonal
 constexpr double kSamplePx = 0.5;
 
@@ -194,8 +194,8 @@ class Comparison {
     for (const Foot& f : feet) distances.push_back(f.distance);
     std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
                      distances.end());
-    if (distances[distances.size() / 2] > kStrayPx + border_) {  // another line of the page, not this shape
-      result.strayPx += kSamplePx * static_cast<double>(curve.points.size());
+    if (distances[distances.size() / 2] > kOutlierPx + border_) {  // another line of the page, not this shape
+      result.outlierPx += kSamplePx * static_cast<double>(curve.points.size());
       return;
     }
     double along = 0.0;
@@ -203,7 +203,7 @@ class Comparison {
       along += (curve.points[i] - curve.points[i - 1]).dot(feet[i].tangent) > 0.0 ? 1.0 : -1.0;
     const double sign = along < 0.0 ? -1.0 : 1.0;
     for (std::size_t i = 0; i < feet.size(); ++i) {
-      if (feet[i].distance > kStrayPx + border_) result.strayPx += kSamplePx;
+      if (feet[i].distance > kOutlierPx + border_) result.outlierPx += kSamplePx;
       reached_.push_back(curve.points[i]);
     }
     addSmooth(curve, feet, sign);

@@ -30,7 +30,7 @@ struct TraceResult {
 struct Accuracy {
   bool found = false;           ///< At least 95 % of the outline has a curve within 2 px.
   double coverage = 0.0;        ///< 0..1 of the outline.
-  double strayPx = 0.0;         ///< [px] length of curves that lie more than 6 px off the truth.
+  double outlierPx = 0.0;       ///< [px] length of curves that lie more than 6 px off the truth.
   double rmsPx = 0.0;           ///< Of the curves from the truth on smooth parts.
   double maxPx = 0.0;           ///< There.
   double curvatureError = 0.0;  ///< rms of (kappa - truth) times the diagonal of the shape, on smooth parts.

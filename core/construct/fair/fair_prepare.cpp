@@ -122,7 +122,7 @@ double medianSpacing(const std::vector<Vec2>& points) {
   return upperMedian(gaps);
 }
 
-void gateStrays(FairData& data, double gatePx, double spacing) {
+void rejectOutliers(FairData& data, double gatePx, double spacing) {
   const int n = static_cast<int>(data.points.size());
   if (n < 2 * kGateReach + 1) return;
   // Half a window of points may lie round a bend that is as sharp as a line can be.
@@ -177,7 +177,7 @@ FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixel
   double length = 0.0;
   const double spacing = medianSpacing(data.points);
   data.density = std::min(1.0, 1.0 / std::max(spacing, 1e-9));
-  gateStrays(data, isStroke ? options.gateStrokePx : options.gateOutlinePx, spacing);
+  rejectOutliers(data, isStroke ? options.gateStrokePx : options.gateOutlinePx, spacing);
   trimFreeEnds(piece);
   const Vec2* last = nullptr;
   for (std::size_t i = 0; i < data.points.size(); ++i) {

@@ -28,8 +28,8 @@ void weighByNoise(FairData&, const LocalNoise&, double measured, double floor);
 /// Median distance of neighbours; 1 for a single point.
 double medianSpacing(const std::vector<Vec2>& points);
 
-/// Marks points as not to be used that lie far from where their neighbours on both sides are (medians, so that strays
+/// Marks points as not to be used that lie far from where their neighbours on both sides are (medians, so that outliers
 /// cannot vote).
-void gateStrays(FairData&, double gatePx, double spacing);
+void rejectOutliers(FairData&, double gatePx, double spacing);
 
 }  // namespace batten

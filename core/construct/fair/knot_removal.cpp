@@ -262,7 +262,7 @@ class KnotRemoval {
   /// Whether the curvature of the full curve rises (1) or falls (-1) at each station; 0 next to where it turns.
   void findCourses() {
     const int count = static_cast<int>(kappas_.size());
-    const std::vector<int> turns = turnsOf(kappas_, least_);
+    const std::vector<int> turns = extremaOfSamples(kappas_, least_);
     courses_.assign(kappas_.size(), 0);
     const auto stretch = [&](int from, int to, bool isFirst, bool isLast) {
       const auto &a = kappas_[from], &b = kappas_[to];
@@ -337,12 +337,14 @@ std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, con
   return KnotRemoval(full, limits, check).run();
 }
 
-std::vector<int> turnsOf(std::span<const double> kappa, double least) {
+std::vector<int> extremaOfSamples(std::span<const double> kappa, double least) {
   std::vector<int> turns;
   for (const TurningPoint& turning : turningPoints(kappa, least, TurningStart::AtEnd)) turns.push_back(turning.index);
   return turns;
 }
 
-int countExtrema(std::span<const double> kappa, double least) { return static_cast<int>(turnsOf(kappa, least).size()); }
+int countExtrema(std::span<const double> kappa, double least) {
+  return static_cast<int>(extremaOfSamples(kappa, least).size());
+}
 
 }  // namespace batten

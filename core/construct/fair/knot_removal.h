@@ -33,7 +33,7 @@ std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, con
                                                  CancelCheck check = {});
 
 /// Where sampled curvature turns back by more than `least`: indices, ascending.
-std::vector<int> turnsOf(std::span<const double> kappa, double least);
+std::vector<int> extremaOfSamples(std::span<const double> kappa, double least);
 /// How often it does.
 int countExtrema(std::span<const double> kappa, double least);
 

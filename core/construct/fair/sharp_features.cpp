@@ -17,12 +17,12 @@ constexpr double kArmPx = 6.0;       // chords whose directions are compared
 constexpr double kSharpRad = 0.6;    // between the two chords: an arc of less than 10 px radius, or a corner
 constexpr double kMarginPx = 3.0;    // of line on either side that blur has rounded
 constexpr double kEndGuardPx = 5.0;  // an end has hooks of its own
-constexpr double kFarPx = 1.5, kVeryFarPx = 4.0, kStrayPx = 1.2, kBackPx = 0.5;
+constexpr double kFarPx = 1.5, kVeryFarPx = 4.0, kOutlierPx = 1.2, kBackPx = 0.5;
 constexpr double kFarShare = 0.02;
 constexpr double kLongestRatio = 1.15;
 constexpr double kLongRunPx = 30.0;
 
-/// The points of a piece in px with lengths along them; strays stand aside.
+/// The points of a piece in px with lengths along them; outliers stand aside.
 struct Course {
   std::vector<int> index;  ///< Of the points that are used.
   std::vector<Vec2> p;     ///< Averages of three.
@@ -48,7 +48,7 @@ Course courseOf(const ConstructPiece& piece, double pixelMm, double gatePx) {
     original.push_back(static_cast<int>(i));
   }
   data.use.assign(data.points.size(), 1);
-  if (gatePx > 0.0) gateStrays(data, gatePx, medianSpacing(data.points));
+  if (gatePx > 0.0) rejectOutliers(data, gatePx, medianSpacing(data.points));
   std::vector<Vec2> raw;
   Course course;
   course.closed = piece.closed;
@@ -286,9 +286,9 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
   std::vector<PointRange> out;
   const int n = static_cast<int>(piece.points.size());
   if (n < 5) return out;
-  const bool strays =
-      std::any_of(close.distancePx.begin(), close.distancePx.end(), [](double d) { return !(d <= kStrayPx); });
-  if (!strays && close.lengthRatio < kLongestRatio) return out;
+  const bool outliers =
+      std::any_of(close.distancePx.begin(), close.distancePx.end(), [](double d) { return !(d <= kOutlierPx); });
+  if (!outliers && close.lengthRatio < kLongestRatio) return out;
   const Course course = courseOf(piece, pixelMm, 0.0);
   const std::vector<double> angle = turning(course, std::max(kArmPx, 3.0 * course.total / n));
   if (course.count() != n) return {{0, n - 1}};
@@ -301,7 +301,7 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
     return upperMedian(d);
   };
   for (int i = 0; i < n; ++i) {
-    if (!(middle(i) > kStrayPx)) continue;
+    if (!(middle(i) > kOutlierPx)) continue;
     int a = i, b = i;
     const auto isOff = [&](int k) {
       // What is cut out of a fit ends where the fit itself is back on the points.

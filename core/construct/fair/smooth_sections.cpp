@@ -79,8 +79,12 @@ int extremaOf(const std::vector<NurbsCurve>& turns, double size, bool closed, co
 }
 
 std::string turnNote(std::size_t count) {
-  if (count == 1) return "Turns sharply at 1 place: mark a corner there for an exact fit.";
-  return "Turns sharply at " + std::to_string(count) + " places: mark corners there for an exact fit.";
+  if (count == 1)
+    return "Turns sharply at 1 place: mark a corner there for an exact fit; where the line only trembles, raise "
+           "Detail.";
+  return "Turns sharply at " + std::to_string(count) +
+         " places: mark corners there for an exact fit; where the line only trembles, raise "
+         "Detail.";
 }
 
 }  // namespace
@@ -143,10 +147,10 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
     const PointDeviation close = pointDeviation(fits_[i].curve, pieces[i], pixelMm_, run);
     if (run.isCancelled()) return false;
     const int offset = smooth_[i].first;
-    const auto strays = outlierRanges(close, pieces[i], pixelMm_, lastRound);
-    for (PointRange r : strays) turns.push_back({r.first + offset, r.last + offset});
-    if (lastRound && !strays.empty()) cuts.push_back({i, close, strays});
-    more = more || !strays.empty();
+    const auto outliers = outlierRanges(close, pieces[i], pixelMm_, lastRound);
+    for (PointRange r : outliers) turns.push_back({r.first + offset, r.last + offset});
+    if (lastRound && !outliers.empty()) cuts.push_back({i, close, outliers});
+    more = more || !outliers.empty();
   }
   if (!more) return false;
   const int n = static_cast<int>(piece_.points.size());
@@ -173,10 +177,10 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
       continue;
     }
     const ConstructPiece& piece = pieces[i];
-    const auto strays = united(cut->strays, piece, pixelMm_, kLeastSmoothPx);
+    const auto outliers = united(cut->outliers, piece, pixelMm_, kLeastSmoothPx);
     const std::vector<double>& at = cut->close.parameter;
     const int n = static_cast<int>(at.size());
-    for (const PointRange& r : between(strays, piece)) {
+    for (const PointRange& r : between(outliers, piece)) {
       const bool atStart = !piece.closed && r.first == 0, atEnd = !piece.closed && r.last == n - 1;
       const double from = atStart ? fits_[i].curve.start() : at[r.first % n];
       const double to = atEnd ? fits_[i].curve.end() : at[r.last % n];

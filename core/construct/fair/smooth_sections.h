@@ -32,7 +32,7 @@ class SmoothSections {
   struct Cut {
     std::size_t fit = 0;
     PointDeviation close;
-    std::vector<PointRange> strays;
+    std::vector<PointRange> outliers;
   };
   /// Of those fits only what is near the points; tight curves come between.
   void keepNear(const std::vector<Cut>&, const std::vector<ConstructPiece>& pieces);

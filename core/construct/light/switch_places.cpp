@@ -30,9 +30,9 @@ const std::vector<signed char>& SwitchPlaces::choose(const std::vector<double>& 
     double* next = next_.data();
     std::uint8_t* came = came_.data() + j * runs;
     for (std::size_t run = 0; run < runs; ++run) {
-      const double begins = best[run], goesOn = best[run + 1];
-      next[run + 1] = (begins < goesOn ? begins : goesOn) + own[run % 2];
-      came[run] = begins < goesOn ? 1 : 0;
+      const double begins = best[run], continues = best[run + 1];
+      next[run + 1] = (begins < continues ? begins : continues) + own[run % 2];
+      came[run] = begins < continues ? 1 : 0;
     }
     best_.swap(next_);
   }

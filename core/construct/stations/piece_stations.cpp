@@ -92,7 +92,7 @@ void settleStart(std::vector<Station>& stations, const Vec2& start, bool corner,
   }
 }
 
-void turnRound(std::vector<Station>& stations) {
+void reverseStations(std::vector<Station>& stations) {
   std::reverse(stations.begin(), stations.end());
   for (Station& s : stations) s.direction = -s.direction;
 }
@@ -115,9 +115,9 @@ std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClose
   }
   if (stations.empty() || piece.points.size() < 2 || ends == ConstructEnds::Stations) return stations;
   settleStart(stations, piece.points.front(), piece.startIsCorner, 0.0);
-  turnRound(stations);
+  reverseStations(stations);
   settleStart(stations, piece.points.back(), piece.endIsCorner, 1.0);
-  turnRound(stations);
+  reverseStations(stations);
   return cleaned(stations, tooNear);
 }
 

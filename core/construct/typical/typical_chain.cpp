@@ -132,7 +132,7 @@ std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> pla
 }
 
 /// True for a curve that leaves its line: a loop between points, or an end that runs away, moves no point's foot.
-bool isAstray(const NurbsCurve& curve, const TypicalLine& line) {
+bool leavesLine(const NurbsCurve& curve, const TypicalLine& line) {
   constexpr double kFarthestPx = 3.0, kLonger = 1.2;
   if (line.fair && !(deviation(curve, *line.fair).max < kFarthestPx * line.unitMm)) return true;
   double length = 0.0;
@@ -177,7 +177,7 @@ Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, co
   const auto fit = fitTypicalStructure(path, data, search, context);
   if (!isOnLine(fit, data) || hasSliver(path) || (path.closed && !isClosed(path))) return {};
   const auto curve = pathCurve(path, line);
-  if (!curve || isAstray(*curve, line)) return {};
+  if (!curve || leavesLine(*curve, line)) return {};
   const int known = line.fair ? countedExtrema(*line.fair, line.closed) : 0;
   const int more = std::max(0, countedExtrema(*curve, line.closed) - known);
   const double share = typicalShare(segmentNotes(path, line));
@@ -233,7 +233,7 @@ std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const
   if (!placesMm.empty() || params.growingAsInPaper) return grown;
   Candidate tidy = fittedCandidate(grown->path, dataOf(line), PathSearch::Tidy, line, context);
   const auto curve = pathCurve(grown->path, line);
-  const bool stays = curve && !isAstray(*curve, line);
+  const bool stays = curve && !leavesLine(*curve, line);
   return !tidy.path || (stays && countedExtrema(*curve, line.closed) < tidy.falseExtrema) ? grown : tidy.path;
 }
 
@@ -288,9 +288,10 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
   curve = clampedWithEnds(*curve, start, end);
   if (!curve) return fail(curve.error());
   // The fit looks at feet that move along with it; a chain that has run away from its line is seen only from the line.
-  constexpr double kAstrayPx = 5.0;
+  constexpr double kLeftLinePx = 5.0;
   const bool asInPaper = params.typical == TypicalMode::Growing && params.growingAsInPaper;
-  if (!asInPaper && (isAstray(*curve, line) || !(deviation(*curve, piece.points, true).rms < kAstrayPx * pixelMm))) {
+  if (!asInPaper &&
+      (leavesLine(*curve, line) || !(deviation(*curve, piece.points, true).rms < kLeftLinePx * pixelMm))) {
     return pathInstead(piece, pixelMm, params, context);
   }
   ConstructedPiece result{std::move(*curve), {}};

@@ -262,7 +262,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     if (context.isCancelled()) return cancelled();
   } else if (params.mergeWidths * width >= 1.0) {
     // Between middles: the paper between two strokes is a width less.
-    set.contours = cutAtTurns(mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context), width);
+    set.contours = cutAtTurns(mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context), width, context);
     if (context.isCancelled()) return cancelled();
   }
   set.report.droppedMargins =

@@ -239,7 +239,7 @@ OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, c
   if (context.isCancelled()) return found;
   // A gap runs on as far as the lines that it was seen between.
   found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(filter.halfPx)}, context);
-  // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both go astray.
+  // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both fail.
   const BitImage beside = both(grown(found.gaps, 2 * filter.halfPx, context), near);
   overTiles([&](int x0, int y0) { search.lines(beside, x0, y0, found.lines); });
   found.gaps = without(std::move(found.gaps), found.lines);

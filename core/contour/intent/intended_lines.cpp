@@ -60,7 +60,8 @@ std::optional<double> scaleOf(const std::vector<Contour>& lines, double widthPx,
 // What merging by one distance would make of the lines says much about which pieces are one.
 void setMerged(StrokePieceSet& set, const std::vector<Contour>& lines, double widthPx, double scale,
                const RunContext& context) {
-  const std::vector<Contour> merged = cutAtTurns(mergeStrokes(lines, (scale + 1.0) * widthPx, context), widthPx);
+  const std::vector<Contour> merged =
+      cutAtTurns(mergeStrokes(lines, (scale + 1.0) * widthPx, context), widthPx, context);
   if (context.isCancelled()) return;
   std::vector<Strip> strips;
   for (const StrokePiece& p : set.pieces) strips.push_back(p.strip);

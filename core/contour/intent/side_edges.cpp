@@ -22,7 +22,7 @@ constexpr double kLeastSeen = 0.34;               // of the crossings
 constexpr int kLeastCrossings = 2;
 constexpr double kBesideEnd = 6.0;     // an end beside another strip is no farther from it
 constexpr int kAtEnd = 2;              // samples: a crossing there is one of the end
-constexpr int kGoesOn = 4;             // samples: by less, ends are level
+constexpr int kLevelEnds = 4;          // samples: by less, ends are level
 constexpr double kCrossingSide = 0.3;  // farther to both sides: they cross
 constexpr int kStripsPerBlock = 8;
 
@@ -171,8 +171,8 @@ SideMeasures measureSide(const StripPair& pair, const PairView& view) {
   m.shareA = static_cast<double>(pair.fromA.size()) / a.count();
   m.shareB = static_cast<double>(pair.fromB.size()) / b.count();
   const std::array<bool, 2> ofA = endsBeside(a, b, pair.fromA, 0), ofB = endsBeside(b, a, pair.fromB, 0);
-  const std::array<bool, 2> insideB = endsBeside(a, b, pair.fromA, kGoesOn),
-                            insideA = endsBeside(b, a, pair.fromB, kGoesOn);
+  const std::array<bool, 2> insideB = endsBeside(a, b, pair.fromA, kLevelEnds),
+                            insideA = endsBeside(b, a, pair.fromB, kLevelEnds);
   for (const int side : {0, 1}) {
     m.freeEndsBeside += (ofA[side] && a.isFree[side] ? 1 : 0) + (ofB[side] && b.isFree[side] ? 1 : 0);
     m.freeEndsInside += (insideB[side] && a.isFree[side] ? 1 : 0) + (insideA[side] && b.isFree[side] ? 1 : 0);

@@ -134,7 +134,7 @@ class PieceCutter {
   std::vector<StrokeCut> cutsOf(int l) const {
     const SampledLine& line = lines_[l];
     std::vector<StrokeCut> cuts;
-    for (const int point : turnsOf(contours_[l], width_)) {
+    for (const int point : sharpPlacesOf(contours_[l], width_)) {
       const auto at = std::min_element(line.point.begin(), line.point.end(),
                                        [&](int a, int b) { return std::abs(a - point) < std::abs(b - point); });
       cuts.push_back({static_cast<int>(at - line.point.begin()), CutKind::Corner});

@@ -8,9 +8,9 @@
 #include <unordered_map>
 
 #include "core/contour/centreline/skeleton.h"
+#include "core/contour/label/ink_graph.h"
 #include "core/contour/label/label_rules.h"
 #include "core/contour/label/label_vote.h"
-#include "core/contour/label/strand_graph.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 
@@ -24,7 +24,7 @@ constexpr double kWidestPen = 0.05;  // of the page's mean side: 12 mm on A4; ba
 class DiscPainter {
  public:
   explicit DiscPainter(BitImage& image) : image_(image) {}
-  void paint(const StrandPixel& p) {
+  void paint(const InkPixel& p) {
     const double radius = static_cast<double>(p.radius);
     if ((p.centre() - last_).norm() + radius <= lastRadius_) return;
     constexpr double kLess = 1e-3;  // [px] the nearest centre of paper lies on the circle
@@ -39,17 +39,17 @@ class DiscPainter {
   double lastRadius_ = -1.0;
 };
 
-void paintLabels(const StrandGraph& graph, InkLabels& labels, const RunContext& context) {
+void paintLabels(const InkGraph& graph, InkLabels& labels, const RunContext& context) {
   DiscPainter shapes(labels.shapes), strokes(labels.strokes);
   std::size_t painted = 0;
-  const auto paint = [&](const std::vector<StrandPixel>& pixels) {
-    for (const StrandPixel& p : pixels) {
+  const auto paint = [&](const std::vector<InkPixel>& pixels) {
+    for (const InkPixel& p : pixels) {
       if (painted++ % kDiscsPerCheck == 0 && context.isCancelled()) return;
       (p.label == InkLabel::Shape ? shapes : strokes).paint(p);
     }
   };
-  for (const StrandChain& chain : graph.chains()) paint(chain.pixels);
-  for (const StrandNode& node : graph.nodes()) {
+  for (const InkChain& chain : graph.chains()) paint(chain.pixels);
+  for (const InkNode& node : graph.nodes()) {
     if (node.isJunction()) paint(node.pixels);
   }
   labels.strokes = without(std::move(labels.strokes), labels.shapes);
@@ -121,21 +121,21 @@ std::optional<int> pieceBeside(const RunPieces& pieces, const SkeletonPixel& p) 
   return std::nullopt;
 }
 
-std::unordered_map<int, ShapeRegion> measureShapes(const StrandGraph& graph, const RunPieces& shapes,
+std::unordered_map<int, ShapeRegion> measureShapes(const InkGraph& graph, const RunPieces& shapes,
                                                    const RunPieces& mouths) {
   std::unordered_map<int, ShapeRegion> regions;
   for (std::size_t i = 0; i < shapes.runs.size(); ++i)
     regions[shapes.piece[i]].areaPx += shapes.runs[i].x1 - shapes.runs[i].x0;
-  const auto addPixels = [&](const std::vector<StrandPixel>& pixels) {
-    for (const StrandPixel& p : pixels) {
+  const auto addPixels = [&](const std::vector<InkPixel>& pixels) {
+    for (const InkPixel& p : pixels) {
       const auto piece = pieceAt(shapes, p.x, p.y);
       if (!piece) continue;
       double& largest = regions[*piece].largestRadiusPx;
       largest = std::max(largest, static_cast<double>(p.radius));
     }
   };
-  for (const StrandChain& chain : graph.chains()) addPixels(chain.pixels);
-  for (const StrandNode& node : graph.nodes()) addPixels(node.pixels);
+  for (const InkChain& chain : graph.chains()) addPixels(chain.pixels);
+  for (const InkNode& node : graph.nodes()) addPixels(node.pixels);
   for (std::size_t i = 0; i < mouths.runs.size(); ++i) {
     if (mouths.piece[i] != static_cast<int>(i)) continue;
     const Run& run = mouths.runs[i];
@@ -162,7 +162,7 @@ void measureMouths(std::unordered_map<int, ShapeRegion>& regions, const RunPiece
 }
 
 // Where strokes lie over one another there is no solid: see labelInk.
-void releaseBundles(const StrandGraph& graph, const PiecesOfPage& page, double mergeWidths, InkLabels& labels,
+void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double mergeWidths, InkLabels& labels,
                     const RunContext& context) {
   constexpr double kBundlePens = 5.0;  // a bundle is no wider
   // Area by the square of the width: of what is long where two strokes come out of an end, or one out of each.
@@ -194,9 +194,9 @@ void releaseBundles(const StrandGraph& graph, const PiecesOfPage& page, double m
 }
 
 // [px] median width of the strokes, weighed by their lengths in widths; 0 = there is none.
-double penOfStrokes(const StrandGraph& graph) {
+double penOfStrokes(const InkGraph& graph) {
   std::vector<std::pair<double, double>> widths;
-  for (const Strand& s : graph.strands()) {
+  for (const InkPath& s : graph.paths()) {
     if (s.label == InkLabel::Stroke && s.elongation() >= kStrokeWidths) widths.emplace_back(*s.widthPx, s.elongation());
   }
   return weightedMedian(std::move(widths));
@@ -205,12 +205,12 @@ double penOfStrokes(const StrandGraph& graph) {
 Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContext& context) {
   InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink, 0.0};
   if (!thinToSkeleton(labels.skeleton, context)) return cancelled();
-  StrandGraph graph(labels.skeleton, ink, context);
+  InkGraph graph(labels.skeleton, ink, context);
   const RunPieces runs = findPieces(ink, Connectivity::Eight, context);
   if (context.isCancelled()) return cancelled();
   PiecesOfPage page = measurePieces(graph, runs);
   page.widestPenPx = kWidestPen * std::sqrt(static_cast<double>(ink.width) * ink.height);
-  labelStrands(graph, page);
+  labelPaths(graph, page);
   labels.penPx = penOfStrokes(graph);
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);

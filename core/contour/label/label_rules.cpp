@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kUneven = 0.15;  // share of its area that one width may leave unexplained
 constexpr double kBarWidths = 2.5;
-constexpr double kShortWidths = 8.0;  // a thick strand shorter than this among thin ones is a bar
-constexpr double kOwnPen = 10.0;      // widths of strands that show the pen of a piece
-constexpr double kLimbWidths = 12.0;  // shorter strands that hang on a shape may be its limbs
+constexpr double kShortWidths = 8.0;  // a thick path shorter than this among thin ones is a bar
+constexpr double kOwnPen = 10.0;      // widths of paths that show the pen of a piece
+constexpr double kLimbWidths = 12.0;  // shorter paths that hang on a shape may be its limbs
 constexpr double kSamePen = 1.5;      // ratio of widths
 
-bool isExplained(const Strand& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
+bool isExplained(const InkPath& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
 
 std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int, int>& number) {
   std::vector<LabelledPiece> pieces;
@@ -40,10 +40,10 @@ std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int
 
 enum class PenWeight { Length, Elongation };
 
-double penOf(const LabelledPiece& piece, const StrandGraph& graph, double pagePen, PenWeight weight) {
+double penOf(const LabelledPiece& piece, const InkGraph& graph, double pagePen, PenWeight weight) {
   std::vector<std::pair<double, double>> own;
-  for (const int number : piece.strands) {
-    const Strand& s = graph.strands()[number];
+  for (const int number : piece.paths) {
+    const InkPath& s = graph.paths()[number];
     if (s.elongation() < kStrokeWidths) continue;
     own.emplace_back(*s.widthPx, weight == PenWeight::Length ? s.lengthPx : s.elongation());
   }
@@ -52,31 +52,31 @@ double penOf(const LabelledPiece& piece, const StrandGraph& graph, double pagePe
   return piece.strokesPx >= kOwnPen * pen || pagePen <= 0.0 ? pen : std::min(pen, pagePen);
 }
 
-// Labels in one pass over the strands of a page; see labelStrands.
+// Labels in one pass over the paths of a page; see labelPaths.
 class Labeller {
  public:
-  Labeller(StrandGraph& graph, const PiecesOfPage& page) : graph_(graph), page_(page), penOf_(graph.strands().size()) {
+  Labeller(InkGraph& graph, const PiecesOfPage& page) : graph_(graph), page_(page), penOf_(graph.paths().size()) {
     for (const LabelledPiece& piece : page.pieces) {
-      for (const int strand : piece.strands) penOf_[strand] = piece.penPx;
+      for (const int path : piece.paths) penOf_[path] = piece.penPx;
     }
   }
 
   void label() {
     for (std::size_t i = 0; i < penOf_.size(); ++i) {
-      const Strand& s = graph_.strands()[i];
+      const InkPath& s = graph_.paths()[i];
       const bool isBar = s.widthPx && *s.widthPx >= kBarWidths * penOf_[i] && s.elongation() < kShortWidths;
       explained_.push_back(isExplained(s) && !isBar);
     }
     for (std::size_t i = 0; i < penOf_.size(); ++i) {
-      Strand& s = graph_.strands()[i];
-      // Where strokes lie over one another an unexplained strand swells; a solid is wide along most of its length.
+      InkPath& s = graph_.paths()[i];
+      // Where strokes lie over one another an unexplained path swells; a solid is wide along most of its length.
       const bool isWide = s.widthPx && *s.widthPx > coreWidth(widestStrokeAt(static_cast<int>(i)));
       s.label = !explained_[i] && isWide ? InkLabel::Shape : InkLabel::Stroke;
     }
     labelJunctions();
     labelPixels();
     for (std::size_t i = 0; i < penOf_.size(); ++i) {
-      if (graph_.strands()[i].widthPx.value_or(0.0) > page_.widestPenPx) labelWhole(static_cast<int>(i));
+      if (graph_.paths()[i].widthPx.value_or(0.0) > page_.widestPenPx) labelWhole(static_cast<int>(i));
     }
     absorbLimbs();
     for (const LabelledPiece& piece : page_.pieces) {
@@ -87,17 +87,17 @@ class Labeller {
 
  private:
   // [px] of the pen of a junction's piece, or of the widest stroke that meets there.
-  double widestStrokeAt(const StrandNode& node) const {
+  double widestStrokeAt(const InkNode& node) const {
     double width = 0.0;
     for (const int end : node.ends) {
-      const int strand = graph_.chains()[end / 2].strand;
-      width = std::max(width, explained_[strand] ? *graph_.strands()[strand].widthPx : penOf_[strand]);
+      const int path = graph_.chains()[end / 2].path;
+      width = std::max(width, explained_[path] ? *graph_.paths()[path].widthPx : penOf_[path]);
     }
     return width;
   }
-  double widestStrokeAt(int strand) const {
-    double width = penOf_[strand];
-    for (const int number : graph_.strands()[strand].chains) {
+  double widestStrokeAt(int path) const {
+    double width = penOf_[path];
+    for (const int number : graph_.paths()[path].chains) {
       for (const int node : graph_.chains()[number].node) {
         if (node >= 0 && graph_.nodes()[node].isJunction())
           width = std::max(width, widestStrokeAt(graph_.nodes()[node]));
@@ -107,18 +107,18 @@ class Labeller {
   }
 
   void labelJunctions() {
-    for (StrandNode& node : graph_.nodes()) {
+    for (InkNode& node : graph_.nodes()) {
       if (!node.isJunction()) continue;
-      const double pen = std::max(penOf_[graph_.chains()[node.ends.front() / 2].strand], widestStrokeAt(node));
+      const double pen = std::max(penOf_[graph_.chains()[node.ends.front() / 2].path], widestStrokeAt(node));
       if (node.widthPx() > coreWidth(pen)) node.label = InkLabel::Shape;
     }
   }
 
   void labelPixels() {
-    for (StrandChain& chain : graph_.chains()) {
+    for (InkChain& chain : graph_.chains()) {
       if (!chain.isAlive) continue;
-      const Strand& s = graph_.strands()[chain.strand];
-      for (StrandPixel& p : chain.pixels) {
+      const InkPath& s = graph_.paths()[chain.path];
+      for (InkPixel& p : chain.pixels) {
         if (!p.inJunction) p.label = s.label;
       }
     }
@@ -129,14 +129,14 @@ class Labeller {
     double widthPx = 0.0, lengthPx = 0.0;
   };
 
-  bool isShape(int strand) const { return graph_.strands()[strand].label == InkLabel::Shape; }
+  bool isShape(int path) const { return graph_.paths()[path].label == InkLabel::Shape; }
 
   // More of the piece is shape than stroke.
   bool isSolid(const LabelledPiece& piece) const {
     double strokes = 0.0;
-    for (const int strand : piece.strands) {
-      const Strand& s = graph_.strands()[strand];
-      if (!isShape(strand) && s.widthPx) strokes += s.lengthPx * *s.widthPx;
+    for (const int path : piece.paths) {
+      const InkPath& s = graph_.paths()[path];
+      if (!isShape(path) && s.widthPx) strokes += s.lengthPx * *s.widthPx;
     }
     return 2.0 * strokes < static_cast<double>(piece.areaPx);
   }
@@ -148,18 +148,18 @@ class Labeller {
     std::vector<Line> lines;
     for (const LabelledPiece& piece : page_.pieces) {
       const bool solid = isSolid(piece);
-      for (const int strand : piece.strands) {
-        const Strand& s = graph_.strands()[strand];
-        if (isShape(strand) || !s.widthPx) continue;
+      for (const int path : piece.paths) {
+        const InkPath& s = graph_.paths()[path];
+        if (isShape(path) || !s.widthPx) continue;
         if (solid && s.elongation() < kLimbWidths) {
-          limbs.push_back(strand);
-        } else if (explained_[strand]) {
+          limbs.push_back(path);
+        } else if (explained_[path]) {
           lines.push_back({*s.widthPx, s.lengthPx});
         }
       }
     }
     for (const int limb : limbs) {
-      const double width = *graph_.strands()[limb].widthPx;
+      const double width = *graph_.paths()[limb].widthPx;
       double length = 0.0;
       for (const Line& line : lines) {
         const double ratio = std::max(line.widthPx, width) / std::min(line.widthPx, width);
@@ -168,53 +168,53 @@ class Labeller {
       if (length < kOwnPen * width) labelWhole(limb);
     }
     for (const LabelledPiece& piece : page_.pieces) {
-      const bool anyLine = std::any_of(piece.strands.begin(), piece.strands.end(),
-                                       [&](int strand) { return explained_[strand] && !isShape(strand); });
+      const bool anyLine = std::any_of(piece.paths.begin(), piece.paths.end(),
+                                       [&](int path) { return explained_[path] && !isShape(path); });
       if (!anyLine && isSolid(piece)) labelWhole(piece);
     }
   }
 
-  void labelWhole(int strand) {
-    graph_.strands()[strand].label = InkLabel::Shape;
-    for (const int number : graph_.strands()[strand].chains) {
-      for (StrandPixel& p : graph_.chains()[number].pixels) p.label = InkLabel::Shape;
+  void labelWhole(int path) {
+    graph_.paths()[path].label = InkLabel::Shape;
+    for (const int number : graph_.paths()[path].chains) {
+      for (InkPixel& p : graph_.chains()[number].pixels) p.label = InkLabel::Shape;
       for (const int node : graph_.chains()[number].node) {
         if (node >= 0) joinShape(graph_.nodes()[node]);
       }
     }
   }
   void labelWhole(const LabelledPiece& piece) {
-    for (const int strand : piece.strands) labelWhole(strand);
+    for (const int path : piece.paths) labelWhole(path);
   }
-  // A junction is a shape where all strands that meet there are.
-  void joinShape(StrandNode& node) {
+  // A junction is a shape where all paths that meet there are.
+  void joinShape(InkNode& node) {
     for (const int end : node.ends) {
-      if (graph_.strands()[graph_.chains()[end / 2].strand].label != InkLabel::Shape) return;
+      if (graph_.paths()[graph_.chains()[end / 2].path].label != InkLabel::Shape) return;
     }
     node.label = InkLabel::Shape;
   }
 
   // What lies within the disc of a junction goes with it.
   void labelWithinJunctions() {
-    for (StrandChain& chain : graph_.chains()) {
+    for (InkChain& chain : graph_.chains()) {
       if (!chain.isAlive) continue;
       for (const int number : chain.node) {
         if (number < 0 || graph_.nodes()[number].label != InkLabel::Shape) continue;
-        const StrandNode& node = graph_.nodes()[number];
-        for (StrandPixel& p : chain.pixels) {
+        const InkNode& node = graph_.nodes()[number];
+        for (InkPixel& p : chain.pixels) {
           if (p.inJunction && (p.centre() - node.centre).norm() < node.radius) p.label = InkLabel::Shape;
         }
       }
     }
-    for (StrandNode& node : graph_.nodes()) {
+    for (InkNode& node : graph_.nodes()) {
       if (node.label != InkLabel::Shape) continue;
-      for (StrandPixel& p : node.pixels) p.label = InkLabel::Shape;
+      for (InkPixel& p : node.pixels) p.label = InkLabel::Shape;
     }
   }
 
-  StrandGraph& graph_;
+  InkGraph& graph_;
   const PiecesOfPage& page_;
-  std::vector<double> penOf_;  ///< Of each strand.
+  std::vector<double> penOf_;  ///< Of each path.
   std::vector<bool> explained_;
 };
 
@@ -231,18 +231,18 @@ double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight) {
   return 0.0;
 }
 
-PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
+PiecesOfPage measurePieces(const InkGraph& graph, const RunPieces& runs) {
   PiecesOfPage page;
   std::unordered_map<int, int> number;
   page.pieces = boxesOf(runs, number);
   std::vector<std::pair<double, double>> byLength, byElongation;
-  for (int i = 0; i < static_cast<int>(graph.strands().size()); ++i) {
-    const Strand& s = graph.strands()[i];
-    const StrandPixel& first = graph.chains()[s.chains.front()].pixels.front();
+  for (int i = 0; i < static_cast<int>(graph.paths().size()); ++i) {
+    const InkPath& s = graph.paths()[i];
+    const InkPixel& first = graph.chains()[s.chains.front()].pixels.front();
     LabelledPiece& piece = page.pieces[number.at(*pieceAt(runs, first.x, first.y))];
-    piece.strands.push_back(i);
+    piece.paths.push_back(i);
     for (const int chain : s.chains) {
-      for (const StrandPixel& p : graph.chains()[chain].pixels) {
+      for (const InkPixel& p : graph.chains()[chain].pixels) {
         piece.largestRadiusPx = std::max(piece.largestRadiusPx, static_cast<double>(p.radius));
       }
     }
@@ -261,6 +261,6 @@ PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
   return page;
 }
 
-void labelStrands(StrandGraph& graph, const PiecesOfPage& page) { Labeller(graph, page).label(); }
+void labelPaths(InkGraph& graph, const PiecesOfPage& page) { Labeller(graph, page).label(); }
 
 }  // namespace batten

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/run_context.h"
-#include "core/contour/label/strand_graph.h"
+#include "core/contour/label/ink_graph.h"
 #include "core/image/bits/run_pieces.h"
 
 namespace batten {
@@ -14,11 +14,11 @@ namespace batten {
 /// Measurements of one connected component of ink.
 struct LabelledPiece {
   int firstRun = -1;  ///< RunPieces::piece of its runs.
-  std::vector<int> strands;
+  std::vector<int> paths;
   std::int64_t areaPx = 0;
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< [px] its box, [x0, x1) x [y0, y1).
   double largestRadiusPx = 0.0;        ///< Along its skeleton.
-  double strokesPx = 0.0;              ///< Length of its strands that are at least kStrokeWidths long.
+  double strokesPx = 0.0;              ///< Length of its paths that are at least kStrokeWidths long.
   double penPx = 1.0;                  ///< Width of the pen that is taken for its strokes.
   double mainPenPx = 1.0;              ///< The same, but by length: the width that most of the ink has.
   bool isBlot = false;                 ///< No stroke path is long enough to have a direction.
@@ -27,7 +27,7 @@ struct LabelledPiece {
 /// Ink shorter than this many of its widths has no direction.
 inline constexpr double kStrokeWidths = 3.0;
 
-/// The pieces of ink with their strands and pens. `pagePenPx`: median width of all strands long enough, weighed by
+/// The pieces of ink with their paths and pens. `pagePenPx`: median width of all paths long enough, weighed by
 /// their lengths in widths; 0 = there is none.
 struct PiecesOfPage {
   std::vector<LabelledPiece> pieces;
@@ -37,11 +37,11 @@ struct PiecesOfPage {
 /// The least value that half of the weight lies at or below; 0 for none.
 double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight);
 
-PiecesOfPage measurePieces(const StrandGraph&, const RunPieces&);
+PiecesOfPage measurePieces(const InkGraph&, const RunPieces&);
 
-/// Labels strands, junctions and skeleton pixels. A strand is a stroke when one pen width explains it along at least
+/// Labels paths, junctions and skeleton pixels. A path is a stroke when one pen width explains it along at least
 /// kStrokeWidths widths; what no stroke explains and is wider than coreWidth of the strokes joined to it is a shape.
 /// Short limbs of a shape are strokes only where the page shows that a pen of their width was used.
-void labelStrands(StrandGraph&, const PiecesOfPage&);
+void labelPaths(InkGraph&, const PiecesOfPage&);
 
 }  // namespace batten

@@ -27,11 +27,11 @@ struct Voter {
 };
 
 // Area that one width, the pen's, leaves unexplained in the whole piece, of all.
-double unevennessOf(const LabelledPiece& piece, const StrandGraph& graph) {
+double unevennessOf(const LabelledPiece& piece, const InkGraph& graph) {
   double off = 0.0, all = 0.0;
-  for (const int strand : piece.strands) {
-    for (const int chain : graph.strands()[strand].chains) {
-      for (const StrandPixel& p : graph.chains()[chain].pixels) {
+  for (const int path : piece.paths) {
+    for (const int chain : graph.paths()[path].chains) {
+      for (const InkPixel& p : graph.chains()[chain].pixels) {
         if (p.inJunction) continue;
         off += std::max(0.0, std::abs(p.widthPx() - piece.mainPenPx) - 1.0);
         all += std::max(p.widthPx(), piece.mainPenPx);
@@ -41,24 +41,24 @@ double unevennessOf(const LabelledPiece& piece, const StrandGraph& graph) {
   return all > 0.0 ? off / all : 0.0;
 }
 
-std::optional<Voter> voterOf(const LabelledPiece& piece, const StrandGraph& graph, double pageDiagonalPx) {
+std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, double pageDiagonalPx) {
   const double w = piece.x1 - piece.x0, h = piece.y1 - piece.y0, diagonal = std::hypot(w, h);
   const double size = std::min(w, h) >= 5.0 * piece.mainPenPx ? std::sqrt(2.0) * std::min(w, h) : diagonal;
-  if (size >= kLetterOfPage * pageDiagonalPx || size <= kLetterRadii * piece.largestRadiusPx || piece.strands.empty())
+  if (size >= kLetterOfPage * pageDiagonalPx || size <= kLetterRadii * piece.largestRadiusPx || piece.paths.empty())
     return {};
   Voter v;
   v.widthBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, piece.largestRadiusPx))));
   v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
   v.area = static_cast<double>(piece.areaPx);
   v.penPx = piece.mainPenPx;
-  double strandsPx = 0.0;
-  for (const int number : piece.strands) {
-    strandsPx += graph.strands()[number].lengthPx;
+  double pathsPx = 0.0;
+  for (const int number : piece.paths) {
+    pathsPx += graph.paths()[number].lengthPx;
     // Hairs of a brush and of rough borders are no lines of a letter.
-    const Strand& s = graph.strands()[number];
+    const InkPath& s = graph.paths()[number];
     if (s.widthPx && *s.widthPx >= kHairWidths * piece.mainPenPx) v.widthsLong += s.lengthPx / piece.mainPenPx;
   }
-  v.meanBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, v.area / std::max(1.0, strandsPx)))));
+  v.meanBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, v.area / std::max(1.0, pathsPx)))));
   // Of joined letters, what one letter has.
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
   return v;
@@ -96,7 +96,7 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
 
 }  // namespace
 
-void voteAmongAlike(std::vector<PieceVote>& votes, const StrandGraph& graph, const PiecesOfPage& page,
+void voteAmongAlike(std::vector<PieceVote>& votes, const InkGraph& graph, const PiecesOfPage& page,
                     double pageDiagonalPx) {
   std::vector<Voter> voters;
   std::map<std::array<int, 3>, Tally> bins;

@@ -128,7 +128,7 @@ class TurnSearch {
 
 }  // namespace
 
-std::vector<int> turnsOf(const Contour& line, double widthPx) { return TurnSearch(line, widthPx).cuts(); }
+std::vector<int> sharpPlacesOf(const Contour& line, double widthPx) { return TurnSearch(line, widthPx).cuts(); }
 
 Contour cutPart(const Contour& line, int from, int to) {
   const int n = static_cast<int>(line.points.size());
@@ -147,10 +147,11 @@ Contour cutPart(const Contour& line, int from, int to) {
   return part;
 }
 
-std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx) {
+std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx, const CancelCheck& check) {
   std::vector<Contour> parts;
   for (const Contour& line : lines) {
-    const std::vector<int> cuts = turnsOf(line, widthPx);
+    if (check.isCancelled()) return {};
+    const std::vector<int> cuts = sharpPlacesOf(line, widthPx);
     const int n = static_cast<int>(line.points.size());
     if (cuts.empty()) {
       parts.push_back(line);

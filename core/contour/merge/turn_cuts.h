@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/contour/contour_set.h"
 
 namespace batten {
@@ -13,9 +14,9 @@ namespace batten {
 /// beyond them, and most of it lies between chords of 2 widths; tight arcs stay whole. No part is shorter than 3
 /// widths. The parts share the point of the cut; a closed line with one corner opens there. In the order of the lines.
 /// @pre widthPx > 0.
-std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx);
+std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx, const CancelCheck& check = {});
 /// The points of a line at which cutAtTurns() cuts it, ascending.
-std::vector<int> turnsOf(const Contour& line, double widthPx);
+std::vector<int> sharpPlacesOf(const Contour& line, double widthPx);
 /// The points from..to of a line, both included; of a closed one `to` may pass its end. Always open.
 Contour cutPart(const Contour& line, int from, int to);
 

@@ -35,7 +35,7 @@ constexpr double kSearched = 16.0;
 /// Iterations times control points that the search for a simpler structure may take: some seconds. Curves of a hundred
 /// spans take less than half of it; those of many hundreds would take minutes, mostly in vain.
 constexpr double kMostSearchWork = 1e5;
-/// A smoothed curve that leaves the sketch by more, in the same unit, has gone astray.
+/// A smoothed curve that leaves the sketch by more, in the same unit, has lost it.
 constexpr double kFarthest = 30.0;
 /// [px^3] Density of the systematic error of edge points: less noise than this is not believed.
 constexpr double kLeastDensity = 0.0064;

@@ -24,8 +24,8 @@ void StageCache::store(const ContentHash& key, std::shared_ptr<const void> value
     ages_.erase(old->second.age);
     entries_.erase(old);
   }
-  if (bytes > budget_) return;
-  while (used_ + bytes > budget_) {
+  if (bytes > limit_) return;
+  while (used_ + bytes > limit_) {
     const auto oldest = entries_.find(ages_.back());
     used_ -= oldest->second.bytes;
     dropped.push_back(std::move(oldest->second.value));

@@ -16,7 +16,7 @@ namespace batten {
 /// runs share. Errors and cancelled runs are never stored.
 class StageCache {
  public:
-  explicit StageCache(std::size_t budgetBytes = std::size_t{512} << 20) : budget_(budgetBytes) {}
+  explicit StageCache(std::size_t limitBytes = std::size_t{512} << 20) : limit_(limitBytes) {}
 
   /// The stored output or null. The caller knows the type from the key (the key contains the stage).
   template <class T>
@@ -41,7 +41,7 @@ class StageCache {
   mutable std::mutex mutex_;
   std::map<ContentHash, Entry> entries_;
   std::list<ContentHash> ages_;  ///< Most recently used first.
-  std::size_t budget_;
+  std::size_t limit_;
   std::size_t used_ = 0;
 };
 

@@ -181,7 +181,7 @@ TEST(Skeleton, InkRadiusIsTheDistanceToPaper) {
   }
 }
 
-TEST(Centreline, StrokesOfAllShapesAreOneStrandOnTheirMiddle) {
+TEST(Centreline, StrokesOfAllShapesAreOneLineOnTheirMiddle) {
   for (const test::TruthShape& shape : test::truthShapes(900, 600)) {
     const Polyline truth = shape.outline();
     const bool closed = shape.closed;
@@ -230,7 +230,7 @@ TEST(Centreline, CrossingStrokesGoStraightThrough) {
   }
 }
 
-TEST(Centreline, ATeeIsTwoStrandsThatTouch) {
+TEST(Centreline, ATeeIsTwoLinesThatTouch) {
   const std::vector<Polyline> strokes{strokeLine({40, 100.4}, {360, 100.4}), strokeLine({200.6, 100.4}, {200.6, 280})};
   const auto found = centrelinesOf(page(strokes, false, 5.0, 400, 320));
   ASSERT_EQ(found.size(), 2u);

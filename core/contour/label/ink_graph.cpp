@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/label/strand_graph.h"
+#include "core/contour/label/ink_graph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,21 +14,21 @@ namespace {
 
 // A square end of a stroke makes a spur that sticks out .41 radii; nothing that is drawn is dropped.
 constexpr double kSpurRadii = 1.6;
-constexpr int kStrandSpurRounds = 3;
+constexpr int kInkSpurRounds = 3;
 constexpr double kStraightDeg = 45.0;  // legs that bend more are no single stroke
 constexpr double kWidthRatio = 1.6;    // nor those whose widths differ more, and a pixel
 constexpr double kDegPerOctave = 40.0;
 constexpr double kLevelPx = 1.0;  // of a width, that the grid of pixels explains
-constexpr double kStrandCoreWidths = 2.5;
+constexpr double kPathCoreWidths = 2.5;
 
-StrandPixel measured(const SkeletonPixel& p, const BitImage& ink) {
+InkPixel measured(const SkeletonPixel& p, const BitImage& ink) {
   return {p.x, p.y, static_cast<float>(inkRadius(ink, p.x, p.y))};
 }
 
 // Numbers for the pixels at the ends of chains; those joined by a chain of two pixels, both no free ends, are one node.
-class StrandNodes {
+class InkNodes {
  public:
-  explicit StrandNodes(const std::vector<SkeletonChain>& chains) {
+  explicit InkNodes(const std::vector<SkeletonChain>& chains) {
     for (const SkeletonChain& c : chains) {
       if (c.closed) continue;
       add(c.pixels.front());
@@ -69,9 +69,9 @@ class StrandNodes {
   int count_ = 0;
 };
 
-double stepLength(const StrandPixel& a, const StrandPixel& b) { return (a.centre() - b.centre()).norm(); }
+double stepLength(const InkPixel& a, const InkPixel& b) { return (a.centre() - b.centre()).norm(); }
 
-double lengthOf(const StrandChain& chain) {
+double lengthOf(const InkChain& chain) {
   double sum = 0.0;
   for (std::size_t i = 1; i < chain.pixels.size(); ++i) sum += stepLength(chain.pixels[i - 1], chain.pixels[i]);
   return sum;
@@ -79,7 +79,7 @@ double lengthOf(const StrandChain& chain) {
 
 // Where lines run into solids along a chain: for each, the first pixel that is too wide for the line. What widens on
 // the way there is marked, so that it does not count for the line's width. In order, none at the ends.
-std::vector<int> rimsOf(std::vector<StrandPixel>& p) {
+std::vector<int> rimsOf(std::vector<InkPixel>& p) {
   std::vector<int> rims;
   const int n = static_cast<int>(p.size());
   for (const int step : {1, -1}) {
@@ -111,9 +111,9 @@ struct Leg {
   double widthPx = 1.0;
 };
 
-Leg legAt(const StrandChain& chain, int end, const StrandNode& node) {
+Leg legAt(const InkChain& chain, int end, const InkNode& node) {
   const int n = static_cast<int>(chain.pixels.size());
-  const auto at = [&](int k) -> const StrandPixel& { return chain.pixels[end % 2 == 0 ? k : n - 1 - k]; };
+  const auto at = [&](int k) -> const InkPixel& { return chain.pixels[end % 2 == 0 ? k : n - 1 - k]; };
   int first = 0;
   while (first < n - 1 && (at(first).centre() - node.centre).norm() < node.radius) ++first;
   const double from = (at(first).centre() - node.centre).norm();
@@ -141,9 +141,9 @@ std::optional<double> costOfPassing(const Leg& a, const Leg& b) {
 
 }  // namespace
 
-double coreWidth(double strokeWidthPx) { return kStrandCoreWidths * strokeWidthPx + 1.0; }
+double coreWidth(double strokeWidthPx) { return kPathCoreWidths * strokeWidthPx + 1.0; }
 
-StrandGraph::StrandGraph(const BitImage& skeleton, const BitImage& ink, const RunContext& context) {
+InkGraph::InkGraph(const BitImage& skeleton, const BitImage& ink, const RunContext& context) {
   const std::vector<SkeletonChain> found = skeletonChains(skeleton);
   if (context.isCancelled()) return;
   makeNodes(found, ink);
@@ -153,22 +153,22 @@ StrandGraph::StrandGraph(const BitImage& skeleton, const BitImage& ink, const Ru
   markJunctions();
   cutAtRims();
   pairLegs();
-  makeStrands();
+  makePaths();
 }
 
-void StrandGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage& ink) {
-  const StrandNodes numbers(found);
+void InkGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage& ink) {
+  const InkNodes numbers(found);
   nodes_.resize(numbers.count());
   for (const SkeletonPixel& p : numbers.pixels()) {
-    StrandNode& node = nodes_[numbers.nodeOf(p)];
+    InkNode& node = nodes_[numbers.nodeOf(p)];
     node.pixels.push_back(measured(p, ink));
     node.centre += node.pixels.back().centre();
     node.radius = std::max(node.radius, static_cast<double>(node.pixels.back().radius));
   }
-  for (StrandNode& node : nodes_) node.centre /= static_cast<double>(node.pixels.size());
+  for (InkNode& node : nodes_) node.centre /= static_cast<double>(node.pixels.size());
   for (const SkeletonChain& c : found) {
-    if (StrandNodes::isLink(c)) continue;
-    StrandChain chain;
+    if (InkNodes::isLink(c)) continue;
+    InkChain chain;
     chain.isRing = c.closed;
     if (!c.closed) chain.node = {numbers.nodeOf(c.pixels.front()), numbers.nodeOf(c.pixels.back())};
     const int number = static_cast<int>(chains_.size());
@@ -181,33 +181,33 @@ void StrandGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitIm
   }
 }
 
-void StrandGraph::makeChains(const std::vector<SkeletonChain>& found, const BitImage& ink, const RunContext& context) {
+void InkGraph::makeChains(const std::vector<SkeletonChain>& found, const BitImage& ink, const RunContext& context) {
   std::size_t number = 0;
   for (const SkeletonChain& c : found) {
-    if (StrandNodes::isLink(c)) continue;
+    if (InkNodes::isLink(c)) continue;
     if (context.isCancelled()) return;
-    StrandChain& chain = chains_[number++];
+    InkChain& chain = chains_[number++];
     for (const SkeletonPixel& p : c.pixels) chain.pixels.push_back(measured(p, ink));
   }
   for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) splice(i);
 }
 
-bool StrandGraph::isFreeEnd(int end) const {
+bool InkGraph::isFreeEnd(int end) const {
   const int node = chains_[end / 2].node[end % 2];
   return node >= 0 && !nodes_[node].isJunction() && !nodes_[node].isRim;
 }
 
-void StrandGraph::removeChain(int chain) {
+void InkGraph::removeChain(int chain) {
   for (int side = 0; side < 2; ++side) {
     const int node = chains_[chain].node[side];
     if (node >= 0) std::erase(nodes_[node].ends, 2 * chain + side);
   }
-  chains_[chain] = StrandChain{};
+  chains_[chain] = InkChain{};
   chains_[chain].isAlive = false;
 }
 
-void StrandGraph::reverse(int chain) {
-  StrandChain& c = chains_[chain];
+void InkGraph::reverse(int chain) {
+  InkChain& c = chains_[chain];
   std::reverse(c.pixels.begin(), c.pixels.end());
   std::swap(c.node[0], c.node[1]);
   // Both ends may lie at one node: all are renamed at once.
@@ -221,8 +221,8 @@ void StrandGraph::reverse(int chain) {
 }
 
 // A node with two chains is none: they are one.
-void StrandGraph::splice(int node) {
-  StrandNode& n = nodes_[node];
+void InkGraph::splice(int node) {
+  InkNode& n = nodes_[node];
   if (n.ends.size() != 2) return;
   const int a = n.ends[0] / 2, b = n.ends[1] / 2;
   if (a == b) {
@@ -233,22 +233,22 @@ void StrandGraph::splice(int node) {
   }
   if (n.ends[0] % 2 == 0) reverse(a);
   if (n.ends[1] % 2 == 1) reverse(b);
-  StrandChain& from = chains_[b];
+  InkChain& from = chains_[b];
   chains_[a].pixels.insert(chains_[a].pixels.end(), from.pixels.begin(), from.pixels.end());
   chains_[a].node[1] = from.node[1];
   n.ends.clear();
   for (int& end : nodes_[from.node[1]].ends) {
     if (end == 2 * b + 1) end = 2 * a + 1;
   }
-  from = StrandChain{};
+  from = InkChain{};
   from.isAlive = false;
 }
 
-void StrandGraph::dropSpurs() {
-  for (int round = 0; round < kStrandSpurRounds; ++round) {
+void InkGraph::dropSpurs() {
+  for (int round = 0; round < kInkSpurRounds; ++round) {
     std::vector<int> spurs;
     for (int i = 0; i < static_cast<int>(chains_.size()); ++i) {
-      const StrandChain& c = chains_[i];
+      const InkChain& c = chains_[i];
       if (!c.isAlive || c.isRing) continue;
       const bool free[2] = {isFreeEnd(2 * i), isFreeEnd(2 * i + 1)};
       if (free[0] == free[1]) continue;
@@ -262,12 +262,12 @@ void StrandGraph::dropSpurs() {
   }
 }
 
-void StrandGraph::markJunctions() {
-  for (StrandChain& chain : chains_) {
+void InkGraph::markJunctions() {
+  for (InkChain& chain : chains_) {
     for (const int number : chain.node) {
       if (!chain.isAlive || number < 0 || !nodes_[number].isJunction()) continue;
-      const StrandNode& node = nodes_[number];
-      for (StrandPixel& p : chain.pixels) {
+      const InkNode& node = nodes_[number];
+      for (InkPixel& p : chain.pixels) {
         p.inJunction = p.inJunction || (p.centre() - node.centre).norm() < node.radius;
       }
     }
@@ -276,7 +276,7 @@ void StrandGraph::markJunctions() {
 
 // The width of a line that runs into a solid grows to that of the solid within two of its own; a limb swells slowly.
 // The chain is cut where it has grown.
-void StrandGraph::cutAtRims() {
+void InkGraph::cutAtRims() {
   const int count = static_cast<int>(chains_.size());
   for (int number = 0; number < count; ++number) {
     if (!chains_[number].isAlive || chains_[number].isRing) continue;
@@ -290,18 +290,18 @@ void StrandGraph::cutAtRims() {
 }
 
 // The pixels from `index` on become a chain of their own, which is returned.
-int StrandGraph::cutChain(int chain, int index) {
+int InkGraph::cutChain(int chain, int index) {
   const int number = static_cast<int>(chains_.size());
-  StrandChain rest;
-  StrandChain& first = chains_[chain];
+  InkChain rest;
+  InkChain& first = chains_[chain];
   rest.pixels.assign(first.pixels.begin() + index, first.pixels.end());
   first.pixels.erase(first.pixels.begin() + index, first.pixels.end());
   rest.node[1] = first.node[1];
   for (int& end : nodes_[rest.node[1]].ends) {
     if (end == 2 * chain + 1) end = 2 * number + 1;
   }
-  const auto addRim = [&](const StrandPixel& p, int end) {
-    StrandNode rim;
+  const auto addRim = [&](const InkPixel& p, int end) {
+    InkNode rim;
     rim.pixels = {p};
     rim.centre = p.centre();
     rim.radius = static_cast<double>(p.radius);
@@ -316,13 +316,13 @@ int StrandGraph::cutChain(int chain, int index) {
   return number;
 }
 
-void StrandGraph::pairLegs() {
+void InkGraph::pairLegs() {
   struct Option {
     double cost;
     int a, b;
   };
   partner_.assign(2 * chains_.size(), -1);
-  for (const StrandNode& node : nodes_) {
+  for (const InkNode& node : nodes_) {
     if (!node.isJunction()) continue;
     std::vector<Leg> legs;
     for (const int end : node.ends) legs.push_back(legAt(chains_[end / 2], end, node));
@@ -341,41 +341,41 @@ void StrandGraph::pairLegs() {
   }
 }
 
-void StrandGraph::makeStrands() {
+void InkGraph::makePaths() {
   for (int first = 0; first < static_cast<int>(chains_.size()); ++first) {
-    if (!chains_[first].isAlive || chains_[first].strand >= 0) continue;
-    Strand strand;
+    if (!chains_[first].isAlive || chains_[first].path >= 0) continue;
+    InkPath path;
     std::vector<int> open = {first};
-    chains_[first].strand = static_cast<int>(strands_.size());
+    chains_[first].path = static_cast<int>(paths_.size());
     while (!open.empty()) {
       const int chain = open.back();
       open.pop_back();
-      strand.chains.push_back(chain);
+      path.chains.push_back(chain);
       for (int side = 0; side < 2; ++side) {
         const int next = partner_[2 * chain + side] / 2;
-        if (partner_[2 * chain + side] < 0 || chains_[next].strand >= 0) continue;
-        chains_[next].strand = chains_[first].strand;
+        if (partner_[2 * chain + side] < 0 || chains_[next].path >= 0) continue;
+        chains_[next].path = chains_[first].path;
         open.push_back(next);
       }
     }
-    measureStrand(strand);
-    strands_.push_back(std::move(strand));
+    measurePath(path);
+    paths_.push_back(std::move(path));
   }
 }
 
-void StrandGraph::measureStrand(Strand& strand) const {
+void InkGraph::measurePath(InkPath& path) const {
   std::vector<double> widths;
   double ends = 0.0;
   std::vector<double> passages;  // radii of the junctions led through, each from both sides
-  for (const int number : strand.chains) {
-    const StrandChain& chain = chains_[number];
+  for (const int number : path.chains) {
+    const InkChain& chain = chains_[number];
     const auto& p = chain.pixels;
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (!p[i].inJunction) widths.push_back(p[i].widthPx());
-      if (i > 0 && !p[i].inJunction && !p[i - 1].inJunction) strand.lengthPx += stepLength(p[i - 1], p[i]);
+      if (i > 0 && !p[i].inJunction && !p[i - 1].inJunction) path.lengthPx += stepLength(p[i - 1], p[i]);
     }
     if (chain.isRing) {
-      strand.lengthPx += stepLength(p.back(), p.front());
+      path.lengthPx += stepLength(p.back(), p.front());
       continue;
     }
     for (int side = 0; side < 2; ++side) {
@@ -391,11 +391,11 @@ void StrandGraph::measureStrand(Strand& strand) const {
     off += std::max(0.0, std::abs(w - width) - kLevelPx);
     all += std::max(w, width);
   }
-  strand.widthPx = width;
-  strand.unevenness = off / all;
-  strand.lengthPx += ends;
+  path.widthPx = width;
+  path.unevenness = off / all;
+  path.lengthPx += ends;
   // Way through a blob is no length. Each passage was met twice.
-  for (const double radius : passages) strand.lengthPx += std::min(radius, width);
+  for (const double radius : passages) path.lengthPx += std::min(radius, width);
 }
 
 }  // namespace batten

@@ -19,7 +19,7 @@ enum class InkLabel {
 };
 
 /// A skeleton pixel with its room in the ink.
-struct StrandPixel {
+struct InkPixel {
   int x = 0, y = 0;
   float radius = 0.0f;      ///< [px] from its centre to the nearest centre of a paper pixel.
   bool inJunction = false;  ///< Within the disc of a junction, where width and length are undefined.
@@ -30,18 +30,18 @@ struct StrandPixel {
 };
 
 /// A stretch of skeleton between two nodes. Its ends are numbered 2 * chain + side.
-struct StrandChain {
-  std::vector<StrandPixel> pixels;
+struct InkChain {
+  std::vector<InkPixel> pixels;
   std::array<int, 2> node = {-1, -1};  ///< -1: the chain is a ring.
   bool isAlive = true;
   bool isRing = false;
-  int strand = -1;
+  int path = -1;
 };
 
 /// A free end (one chain) or a junction of the skeleton (more); touching junction pixels are one node. The rim, where a
 /// line runs into a solid, is a node of each of its two chains.
-struct StrandNode {
-  std::vector<StrandPixel> pixels;
+struct InkNode {
+  std::vector<InkPixel> pixels;
   Vec2 centre = Vec2::Zero();  ///< [px]
   double radius = 0.0;         ///< [px] of the largest disc of ink at one of its pixels.
   InkLabel label = InkLabel::Stroke;
@@ -53,11 +53,11 @@ struct StrandNode {
 };
 
 /// Chains joined straight through junctions: what one movement of a pen may have drawn.
-struct Strand {
+struct InkPath {
   std::vector<int> chains;
   double lengthPx = 0.0;          ///< Of the pen path; a junction counts as one or two widths at most.
   std::optional<double> widthPx;  ///< Median outside junctions; absent: it has no pixel there.
-  double unevenness = 0.0;        ///< 1 - (area shared with the same strand at one width / area of both); 0..1.
+  double unevenness = 0.0;        ///< 1 - (area shared with the same path at one width / area of both); 0..1.
   InkLabel label = InkLabel::Stroke;
   /// Length in widths; 0 where there is no width.
   double elongation() const { return widthPx ? lengthPx / *widthPx : 0.0; }
@@ -66,20 +66,20 @@ struct Strand {
 /// [px] Ink wider than this is no stroke of this width, nor a crossing of two: at any angle they hold no larger disc.
 double coreWidth(double strokeWidthPx);
 
-/// The skeleton of a page as strands: spurs dropped, junction discs cut out, chains cut where a line runs into a solid,
+/// The skeleton of a page as paths: spurs dropped, junction discs cut out, chains cut where a line runs into a solid,
 /// legs of junctions paired by direction and width. Deterministic.
-class StrandGraph {
+class InkGraph {
  public:
   /// @param skeleton of `ink` (thinToSkeleton). Unfinished when the context is cancelled.
-  StrandGraph(const BitImage& skeleton, const BitImage& ink, const RunContext&);
+  InkGraph(const BitImage& skeleton, const BitImage& ink, const RunContext&);
 
   // Labels are set from outside (label_rules.h); nothing else is to be changed.
-  std::vector<StrandChain>& chains() { return chains_; }
-  std::vector<StrandNode>& nodes() { return nodes_; }
-  std::vector<Strand>& strands() { return strands_; }
-  const std::vector<StrandChain>& chains() const { return chains_; }
-  const std::vector<StrandNode>& nodes() const { return nodes_; }
-  const std::vector<Strand>& strands() const { return strands_; }
+  std::vector<InkChain>& chains() { return chains_; }
+  std::vector<InkNode>& nodes() { return nodes_; }
+  std::vector<InkPath>& paths() { return paths_; }
+  const std::vector<InkChain>& chains() const { return chains_; }
+  const std::vector<InkNode>& nodes() const { return nodes_; }
+  const std::vector<InkPath>& paths() const { return paths_; }
   /// The end that a chain's end goes on with through its junction; -1 = none.
   int partner(int end) const { return partner_[end]; }
 
@@ -94,13 +94,13 @@ class StrandGraph {
   void cutAtRims();
   int cutChain(int chain, int index);
   void pairLegs();
-  void makeStrands();
-  void measureStrand(Strand&) const;
+  void makePaths();
+  void measurePath(InkPath&) const;
   bool isFreeEnd(int end) const;
 
-  std::vector<StrandChain> chains_;
-  std::vector<StrandNode> nodes_;
-  std::vector<Strand> strands_;
+  std::vector<InkChain> chains_;
+  std::vector<InkNode> nodes_;
+  std::vector<InkPath> paths_;
   std::vector<int> partner_;
 };
 
