@@ -7,6 +7,8 @@
 
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
+#include "core/fairing/profile/curvature_samples.h"
+#include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
 #include "core/fairing/target/span_fairing.h"
@@ -16,6 +18,10 @@ namespace {
 
 bool hasNaturalSpans(const TargetParams& params) {
   return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
+}
+
+std::vector<double> naturalSplitsOf(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+  return naturalSplits(withoutTremor(curve, closed, params), closed);
 }
 
 /// The levels that are followed for one degree, and what comes of them.
@@ -88,12 +94,12 @@ class LevelSearch {
 std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const FairingParams& params) {
   const bool isNatural = hasNaturalSpans(params.targets);
   const auto sections = cornerSections(curve, closed);
-  if (sections.empty()) return isNatural ? naturalSplits(curve, closed) : params.targets.splits;
+  if (sections.empty()) return isNatural ? naturalSplitsOf(curve, closed, params) : params.targets.splits;
   std::vector<double> splits = isNatural ? std::vector<double>{} : params.targets.splits;
   for (const CornerSection& section : sections) {
     if (section.span.from > 0.0 || closed) splits.push_back(section.span.from);
     if (!isNatural || section.isStraight) continue;
-    for (const double f : naturalSplits(section.curve, false))
+    for (const double f : naturalSplitsOf(section.curve, false, params))
       splits.push_back(section.span.from + f * (section.span.to - section.span.from));
   }
   std::sort(splits.begin(), splits.end());
@@ -101,13 +107,19 @@ std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const Fai
 }
 
 std::vector<TargetLevel> targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+  const bool isNatural = hasNaturalSpans(params.targets);
+  const NurbsCurve calm = withoutTremor(curve, closed, params);
   std::vector<SplitLevel> splits = {{params.targets.splits, false}};
-  if (hasNaturalSpans(params.targets)) splits = naturalSplitLevels(curve, closed);
+  if (isNatural) splits = naturalSplitLevels(calm, closed);
   std::vector<TargetLevel> levels;
   for (SplitLevel& one : splits) {
     TargetParams targets = params.targets;
     targets.splits = one.splits;
-    levels.push_back({std::move(one.splits), fitTargets(curve, targets, closed), one.isFiner});
+    levels.push_back({std::move(one.splits), fitTargets(calm, targets, closed), one.isFiner});
+    if (calm == curve) continue;
+    const CurvatureSamples samples = sampledCurvature(curve, targets.samples);
+    levels.back().targets.perimeter = samples.perimeter;
+    levels.back().targets.kappa = samples.kappa;
   }
   return levels;
 }

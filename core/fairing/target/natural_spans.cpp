@@ -19,8 +19,6 @@ constexpr std::array kSplitSeries = {0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005
                                      0.02,   0.05,   0.1,    0.2,   0.5,   1.0,   2.0};
 /// An extremum is natural whose removal moves the curve by this [mm], and by this share of its size.
 constexpr double kNaturalMoveMm = 0.02, kNaturalShare = 1e-4;
-/// A profile of more polynomials says nothing that the curve does not say itself.
-constexpr std::size_t kMostSplits = 24;
 constexpr int kLeastSamples = 241;
 /// Share of the length below which a part is none.
 constexpr double kLeastSpan = 5e-3;
@@ -94,7 +92,7 @@ std::vector<SplitLevel> naturalSplitLevels(const NurbsCurve& curve, bool closed)
   const double natural = naturalMoveMm(curve);
   std::vector<SplitLevel> levels;
   const auto add = [&levels](std::vector<double> splits) {
-    if (splits.size() <= kMostSplits && (levels.empty() || splits.size() < levels.back().splits.size()))
+    if (std::ssize(splits) <= kMostSplits && (levels.empty() || splits.size() < levels.back().splits.size()))
       levels.push_back({std::move(splits), false});
   };
   add(spans.splits(natural));
@@ -105,7 +103,7 @@ std::vector<SplitLevel> naturalSplitLevels(const NurbsCurve& curve, bool closed)
   for (auto move = kSplitSeries.rbegin(); move != kSplitSeries.rend(); ++move) {
     if (!(*move < natural)) continue;
     auto splits = spans.splits(*move);
-    if (splits.size() > kMostSplits) break;
+    if (std::ssize(splits) > kMostSplits) break;
     if (splits.size() <= most) continue;
     most = splits.size();
     levels.push_back({std::move(splits), true});

@@ -165,6 +165,48 @@ TEST(NaturalTargets, NeedTheSameAtEveryToleranceAndKeepWhatMeetsThem) {
   }
 }
 
+/// The misfit of a target that was not followed in full is larger than that of the one that was.
+TEST(NaturalTargets, ThatAreNotFollowedInFullForTheExtremaThatTheyAddAreNotMet) {
+  // A roof with two bends, over few control points.
+  const NurbsCurve roof =
+      fromCurvature([](double f) { return 0.015 + 0.04 * bump(f, 0.25, 0.08) + 0.03 * bump(f, 0.75, 0.1); }, 80.0, 26);
+  int stopped = 0;
+  for (int degree = 1; degree <= 6; ++degree) {
+    SCOPED_TRACE(degree);
+    const auto faired = fair(roof, false, toTarget(degree, 2.0), {});
+    ASSERT_TRUE(faired);
+    const FairingReport& report = faired->report;
+    ASSERT_LE(report.neededMm, 1.9) << "the tolerance would do";
+    if (report.withinTolerance) {
+      EXPECT_NEAR(report.maxDeviationMm, report.neededMm, 0.01 * report.neededMm);
+      continue;
+    }
+    ++stopped;
+    EXPECT_LT(report.maxDeviationMm, 0.9 * report.neededMm);
+    EXPECT_NE(report.note.find("extrem"), std::string::npos) << report.note;
+  }
+  EXPECT_GE(stopped, 1);
+}
+
+TEST(NaturalTargets, OfALineThatTremblesAreThoseOfTheLineWithoutTremor) {
+  const auto arch = [](double t) { return Vec2(230.0 * t, 100.0 * std::sin(std::numbers::pi * t)); };
+  const NurbsCurve line = test::noisy(test::fitted(arch, 90), 0.1, 7);
+  ASSERT_GT(countedExtrema(line, false), 24);
+  for (const int degree : {0, 1, 3, 6}) {
+    SCOPED_TRACE(degree);
+    FairingParams params = toTarget(0, 1.0);
+    params.target = *targetOfNumber(degree);
+    const auto faired = fair(line, false, params, {});
+    ASSERT_TRUE(faired) << faired.error().message;
+    EXPECT_LE(faired->report.extremaAfter, 6) << faired->report.note;
+    EXPECT_LE(faired->report.maxDeviationMm, 1.0);
+    EXPECT_LT(faired->report.neededMm, 6.0);
+    if (degree == 0 || degree > 1) {
+      EXPECT_TRUE(faired->report.withinTolerance) << faired->report.note;
+    }
+  }
+}
+
 TEST(NaturalTargets, SimilarityIsThatOfTheCurvatureWhereTheLineBendsBothWays) {
   const NurbsCurve line = fromCurvature([](double f) { return 0.02 * std::cos(std::numbers::pi * f); }, 100.0, 60);
   const TargetSet set = fitTargets(line, {}, false);
