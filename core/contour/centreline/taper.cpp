@@ -24,6 +24,7 @@ constexpr double kLeastEven = 0.2, kLeastFinePx = 3.0;  // of two runs of the pe
 constexpr double kFitFrom = 0.6, kFitTo = 0.08;         // shares over which the tip is extrapolated
 constexpr double kUnseenTipPx = 1.5;  // [px] of the last that is seen, blur and noise hide so much more
 constexpr double kUnseenWidthPx = 0.45, kFarthestUnseenPx = 3.5;  // the line itself: ink so thin is as pale as paper
+constexpr double kUncertainTipPx = 2.0;                           // standard deviation of a tip that is not known
 constexpr double kGone = 0.05;                                    // share below which nothing is seen
 constexpr double kSteersFrom = 0.2;                               // share from which on the middle of the ink is known
 constexpr double kWider = 1.5;                // times the width so far: no ink is looked for beside it
@@ -140,6 +141,16 @@ std::optional<int> lastDark(const std::vector<TaperStation>& stations) {
   return std::nullopt;
 }
 
+// Whether the shares rise again from `first` on: the ink goes on, or is another stroke's.
+bool growsAgain(const std::vector<TaperStation>& stations, int first) {
+  double least = stations[first].share;
+  for (int i = first; i < std::ssize(stations); ++i) {
+    if (stations[i].share > least + kGrowsAgain) return true;
+    least = std::min(least, stations[i].share);
+  }
+  return false;
+}
+
 // The station, in fractions, at which the stroke has thinned to nothing.
 std::optional<double> tipOf(const TaperTrack& track, double widthPx) {
   const std::vector<TaperStation>& stations = track.stations;
@@ -148,7 +159,8 @@ std::optional<double> tipOf(const TaperTrack& track, double widthPx) {
                            from = lastAbove(stations, kFitFrom), to = lastAbove(stations, kFitTo);
   if (!wide || !thin || !from || !to) return std::nullopt;
   const int span = *thin - *wide;
-  if (span <= kTaperSpanWidths * widthPx + kTaperSpanPx || *to - *from < 3) return std::nullopt;
+  if (span <= kTaperSpanWidths * widthPx + kTaperSpanPx || *to - *from < 3 || growsAgain(stations, *wide))
+    return std::nullopt;
   const std::optional<int> narrow = lastAbove(stations, kNarrow), fine = lastAbove(stations, kFine);
   if (!narrow || !fine || *fine - *narrow < std::max(kLeastFinePx, kLeastEven * span)) return std::nullopt;
   const std::optional<int> dark = lastDark(stations);
@@ -171,6 +183,7 @@ std::optional<double> tipOf(const TaperTrack& track, double widthPx) {
   const double variance = std::max(0.0, sumSS - sumS * meanS - slope * slope * spread) / std::max(1.0, sum - 2.0);
   if (tip < track.known - 1.0 - widthPx) return std::nullopt;  // the mask has more of it than a taper would leave
   const double deviation = std::sqrt(variance * (1.0 / sum + (tip - meanI) * (tip - meanI) / spread)) / -slope;
+  if (deviation > kUncertainTipPx) return std::nullopt;
   // No farther beyond what was seen than an even taper would go.
   const double even = (*to - *from) * kFitTo / (kFitFrom - kFitTo);
   const double unseen = std::min(kFarthestUnseenPx, kUnseenWidthPx / (-slope * widthPx));
