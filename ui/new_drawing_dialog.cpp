@@ -43,34 +43,39 @@ NewDrawingDialog::NewDrawingDialog(QWidget* parent)
   format_->setNames(QStringLiteral("newDrawing.format"),
                     {QStringLiteral("a4-wide"), QStringLiteral("a4-high"), QStringLiteral("a3-wide")});
   grid->addWidget(format_, 1, 0, 1, 2);
-  struct Row {
-    NumberField* field;
-    QString label, name;
-    double low, high, value;
-    QString unit;
-  };
-  int at = 2;
-  for (const Row& its :
-       {Row{width_, tr("Width"), QStringLiteral("newDrawing.width"), kSmallestMm, kLargestMm, kFormats[0].width(),
-            tr("mm")},
-        Row{height_, tr("Height"), QStringLiteral("newDrawing.height"), kSmallestMm, kLargestMm, kFormats[0].height(),
-            tr("mm")},
-        Row{dpi_, tr("Resolution"), QStringLiteral("newDrawing.dpi"), kLowestDpi, kHighestDpi, kUsualDpi, tr("dpi")}}) {
-    NumberField* field = its.field;
-    field->setRange(its.low, its.high);
-    field->setStep(1);
-    field->setUnit(its.unit);
-    field->setFixedWidth(100);
-    field->edit()->setObjectName(its.name);
-    field->edit()->setAccessibleName(its.label);
-    field->setValue(its.value);
-    grid->addWidget(new QLabel(its.label, this), at, 0);
-    grid->addWidget(field, at++, 1, Qt::AlignRight);
-    connect(field, &NumberField::committed, this, [this, field](double now) {
-      field->setValue(now);
-      follow();
-    });
-  }
+  addField(width_,
+           {tr("Width"), QStringLiteral("newDrawing.width"), kSmallestMm, kLargestMm, kFormats[0].width(), tr("mm")});
+  addField(height_, {tr("Height"), QStringLiteral("newDrawing.height"), kSmallestMm, kLargestMm, kFormats[0].height(),
+                     tr("mm")});
+  addField(dpi_, {tr("Resolution"), QStringLiteral("newDrawing.dpi"), kLowestDpi, kHighestDpi, kUsualDpi, tr("dpi")});
+  addButtons();
+  connect(format_, &SegmentedControl::chosen, this, [this](int index) {
+    width_->setValue(kFormats[index].width());
+    height_->setValue(kFormats[index].height());
+    follow();
+  });
+  follow();
+}
+
+void NewDrawingDialog::addField(NumberField* field, const FieldRow& its) {
+  field->setRange(its.low, its.high);
+  field->setStep(1);
+  field->setUnit(its.unit);
+  field->setFixedWidth(100);
+  field->edit()->setObjectName(its.name);
+  field->edit()->setAccessibleName(its.label);
+  field->setValue(its.value);
+  auto* grid = static_cast<QGridLayout*>(layout());
+  const int row = grid->rowCount();
+  grid->addWidget(new QLabel(its.label, this), row, 0);
+  grid->addWidget(field, row, 1, Qt::AlignRight);
+  connect(field, &NumberField::committed, this, [this, field](double now) {
+    field->setValue(now);
+    follow();
+  });
+}
+
+void NewDrawingDialog::addButtons() {
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
   auto* cancel = plainButton(tr("Cancel"), QStringLiteral("newDrawing.cancel"), this);
@@ -80,15 +85,10 @@ NewDrawingDialog::NewDrawingDialog(QWidget* parent)
   buttons->addStretch();
   buttons->addWidget(cancel);
   buttons->addWidget(begin_);
-  grid->addLayout(buttons, 5, 0, 1, 2);
-  connect(format_, &SegmentedControl::chosen, this, [this](int index) {
-    width_->setValue(kFormats[index].width());
-    height_->setValue(kFormats[index].height());
-    follow();
-  });
+  auto* grid = static_cast<QGridLayout*>(layout());
+  grid->addLayout(buttons, grid->rowCount(), 0, 1, 2);
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
   connect(begin_, &QPushButton::clicked, this, &QDialog::accept);
-  follow();
 }
 
 void NewDrawingDialog::follow() {

@@ -23,6 +23,13 @@ class NewDrawingDialog : public QDialog {
   static Recipe recipeFor(QSizeF millimetres, double dpi);
 
  private:
+  struct FieldRow {
+    QString label, name;
+    double low, high, value;
+    QString unit;
+  };
+  void addField(NumberField* field, const FieldRow& its);
+  void addButtons();
   void follow();
   SegmentedControl* format_;
   NumberField *width_, *height_, *dpi_;

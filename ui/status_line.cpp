@@ -42,50 +42,48 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   setObjectName(QStringLiteral("statusLine"));
   setFixedHeight(30);
   act_->setAccessibleName(tr("Show what has changed"));
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(14, 1, 14, 0);
-  layout->setSpacing(20);
-  const auto add = [&](const char* name, const QString& widest, int stretch = 0) {
-    auto* label = new QLabel(this);
-    label->setObjectName(QString::fromLatin1(name));
-    label->setFont(uiFont(12));
-    label->setForegroundRole(QPalette::PlaceholderText);
-    // A fixed width for what changes with every move, so that the line stands still.
-    if (!widest.isEmpty()) label->setMinimumWidth(QFontMetrics(uiFont(12)).horizontalAdvance(widest));
-    layout->addWidget(label, stretch);
-    return label;
-  };
-  millimetres_ = add("status.mm", QStringLiteral("x 2888.88 mm  y 2888.88 mm"));
-  pixels_ = add("status.px", QStringLiteral("px 28 888.8, 28 888.8"));
-  scale_ = add("status.scale", {});
-  layout->addWidget(setScale_);
-  zoom_ = add("status.zoom", QStringLiteral("888 %"));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(14, 1, 14, 0);
+  row->setSpacing(20);
+  millimetres_ = addLabel("status.mm", QStringLiteral("x 2888.88 mm  y 2888.88 mm"));
+  pixels_ = addLabel("status.px", QStringLiteral("px 28 888.8, 28 888.8"));
+  scale_ = addLabel("status.scale", {});
+  row->addWidget(setScale_);
+  zoom_ = addLabel("status.zoom", QStringLiteral("888 %"));
+  buildHint();
+  buildWork();
+  for (QPushButton* button : {setScale_, cancel_, again_, act_}) button->setFont(uiFont(12));
+  connect(setScale_, &QPushButton::clicked, this, &StatusLine::scaleAsked);
+  followSession();
+  refreshScale();
+  refreshWork();
+  setPlace(std::nullopt);
+}
+
+QLabel* StatusLine::addLabel(const char* name, const QString& widest) {
+  auto* label = new QLabel(this);
+  label->setObjectName(QString::fromLatin1(name));
+  label->setFont(uiFont(12));
+  label->setForegroundRole(QPalette::PlaceholderText);
+  // A fixed width for what changes with every move, so that the line stands still.
+  if (!widest.isEmpty()) label->setMinimumWidth(QFontMetrics(uiFont(12)).horizontalAdvance(widest));
+  layout()->addWidget(label);
+  return label;
+}
+
+void StatusLine::buildHint() {
   hint_ = new ElidedLabel(this);
   hint_->setObjectName(QStringLiteral("status.hint"));
   hint_->setFont(uiFont(12));
   hint_->setForegroundRole(QPalette::PlaceholderText);
   hint_->setAlignment(Qt::AlignCenter);
-  layout->addWidget(hint_, 1);
-  layout->addWidget(act_);
-  act_->setFont(uiFont(12));
+  static_cast<QHBoxLayout*>(layout())->addWidget(hint_, 1);
+  layout()->addWidget(act_);
   act_->hide();
   connect(act_, &QPushButton::clicked, this, [this] {
     if (const auto action = std::exchange(action_, {})) action();
     act_->hide();
   });
-  progress_->setFixedWidth(96);
-  progress_->setRange(0, 100);
-  progress_->setTextVisible(false);
-  progress_->setAccessibleName(tr("Progress"));
-  layout->addWidget(progress_);
-  layout->addWidget(cancel_);
-  layout->addWidget(again_);
-  work_ = add("status.work", QStringLiteral("exact · 888 ms"));
-  work_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  setScale_->setFont(uiFont(12));
-  cancel_->setFont(uiFont(12));
-  again_->setFont(uiFont(12));
-  again_->setToolTip(tr("Resume the stopped computation.  (Ctrl+R)"));
   messageTimer_.setSingleShot(true);
   messageTimer_.setInterval(kMessageMs);
   connect(&messageTimer_, &QTimer::timeout, this, [this] {
@@ -93,9 +91,24 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
     action_ = {};
     refreshHint();
   });
-  connect(setScale_, &QPushButton::clicked, this, &StatusLine::scaleAsked);
+}
+
+void StatusLine::buildWork() {
+  progress_->setFixedWidth(96);
+  progress_->setRange(0, 100);
+  progress_->setTextVisible(false);
+  progress_->setAccessibleName(tr("Progress"));
+  for (QWidget* widget :
+       {static_cast<QWidget*>(progress_), static_cast<QWidget*>(cancel_), static_cast<QWidget*>(again_)})
+    layout()->addWidget(widget);
+  work_ = addLabel("status.work", QStringLiteral("exact · 888 ms"));
+  work_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  again_->setToolTip(tr("Resume the stopped computation.  (Ctrl+R)"));
   connect(cancel_, &QPushButton::clicked, &session_, &EditorSession::cancel);
   connect(again_, &QPushButton::clicked, &session_, &EditorSession::computeAgain);
+}
+
+void StatusLine::followSession() {
   connect(&session_, &EditorSession::scanOpened, this, &StatusLine::refreshScale);
   connect(&session_, &EditorSession::recipeChanged, this, &StatusLine::refreshScale);
   connect(&session_, &EditorSession::workingChanged, this, &StatusLine::refreshWork);
@@ -103,9 +116,6 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   connect(&session_, &EditorSession::runFinished, this, &StatusLine::refreshWork);
   connect(&session_, &EditorSession::progress, this,
           [this](double fraction) { progress_->setValue(static_cast<int>(fraction * 100)); });
-  refreshScale();
-  refreshWork();
-  setPlace(std::nullopt);
 }
 
 void StatusLine::setPlace(std::optional<Vec2> imagePx) {

@@ -35,6 +35,11 @@ class StatusLine : public QWidget {
   void paintEvent(QPaintEvent*) override;
 
  private:
+  /// @param widest a text that the label has room for, whatever it says; empty: as wide as its text.
+  QLabel* addLabel(const char* name, const QString& widest);
+  void buildHint();
+  void buildWork();
+  void followSession();
   void refreshScale();
   void refreshWork();
   void refreshHint();

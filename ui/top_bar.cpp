@@ -22,6 +22,27 @@ TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMen
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(10, 0, 12, 1);
   layout->setSpacing(4);
+  buildTitle(mainMenu);
+  layout->addSpacing(4);
+  undo_ = addButton(actions.undo, {});
+  redo_ = addButton(actions.redo, {});
+  for (auto* button : {undo_, redo_}) button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+  layout->addStretch(1);
+  addButton(actions.scan, tr("Scan"))->setProperty("toggle", true);
+  addButton(actions.comb, tr("Comb"))->setProperty("toggle", true);
+  buildViewButtons(view, layersMenu);
+  addButton(actions.fit, tr("Fit"));
+  zoom_ = addButton(actions.actual, QStringLiteral("100 %"));
+  zoom_->setMinimumWidth(64);
+  layout->addStretch(1);
+  find_ = addButton(actions.find, tr("Find an action"));
+  find_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  layout->addSpacing(4);
+  buildExport(actions.exportCurves);
+  setIcons();
+}
+
+void TopBar::buildTitle(QMenu* mainMenu) {
   menu_ = new QToolButton(this);
   menu_->setObjectName(QStringLiteral("menuButton"));
   menu_->setAccessibleName(tr("Menu"));
@@ -33,15 +54,11 @@ TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMen
   title_->setObjectName(QStringLiteral("documentTitle"));
   title_->setFont(uiFont(13, QFont::DemiBold));
   title_->setMaximumWidth(320);
-  layout->addWidget(menu_);
-  layout->addWidget(title_);
-  layout->addSpacing(4);
-  undo_ = addButton(actions.undo, {});
-  redo_ = addButton(actions.redo, {});
-  for (auto* button : {undo_, redo_}) button->setToolButtonStyle(Qt::ToolButtonIconOnly);
-  layout->addStretch(1);
-  addButton(actions.scan, tr("Scan"))->setProperty("toggle", true);
-  addButton(actions.comb, tr("Comb"))->setProperty("toggle", true);
+  layout()->addWidget(menu_);
+  layout()->addWidget(title_);
+}
+
+void TopBar::buildViewButtons(ViewSettings& view, QMenu* layersMenu) {
   auto* layers = new QToolButton(this);
   layers->setObjectName(QStringLiteral("layersButton"));
   layers->setText(tr("Layers"));
@@ -49,7 +66,7 @@ TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMen
   layers->setMenu(layersMenu);
   layers->setPopupMode(QToolButton::InstantPopup);
   layers->setFocusPolicy(Qt::TabFocus);
-  layout->addWidget(layers);
+  layout()->addWidget(layers);
   auto* compare = new QToolButton(this);
   compare->setObjectName(QStringLiteral("compareButton"));
   compare->setText(tr("Compare \\"));
@@ -58,25 +75,19 @@ TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMen
   compare->setFocusPolicy(Qt::TabFocus);
   connect(compare, &QToolButton::pressed, &view, [&view] { view.setScanOnly(true); });
   connect(compare, &QToolButton::released, &view, [&view] { view.setScanOnly(false); });
-  layout->addWidget(compare);
-  addButton(actions.fit, tr("Fit"));
-  zoom_ = addButton(actions.actual, QStringLiteral("100 %"));
-  zoom_->setMinimumWidth(64);
-  layout->addStretch(1);
-  find_ = addButton(actions.find, tr("Find an action"));
-  find_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  layout->addSpacing(4);
+  layout()->addWidget(compare);
+}
+
+void TopBar::buildExport(QAction* action) {
   auto* send = new QPushButton(tr("Export…"), this);
   send->setObjectName(QStringLiteral("exportButton"));
   send->setAccessibleName(tr("Export"));
   send->setProperty("primary", true);
-  send->setToolTip(actions.exportCurves->toolTip());
-  send->setEnabled(actions.exportCurves->isEnabled());
-  connect(actions.exportCurves, &QAction::changed, send,
-          [send, action = actions.exportCurves] { send->setEnabled(action->isEnabled()); });
-  connect(send, &QPushButton::clicked, actions.exportCurves, &QAction::trigger);
-  layout->addWidget(send);
-  setIcons();
+  send->setToolTip(action->toolTip());
+  send->setEnabled(action->isEnabled());
+  connect(action, &QAction::changed, send, [send, action] { send->setEnabled(action->isEnabled()); });
+  connect(send, &QPushButton::clicked, action, &QAction::trigger);
+  layout()->addWidget(send);
 }
 
 QToolButton* TopBar::addButton(QAction* action, const QString& text) {

@@ -31,6 +31,9 @@ class TopBar : public QWidget {
   void changeEvent(QEvent*) override;
 
  private:
+  void buildTitle(QMenu* mainMenu);
+  void buildViewButtons(ViewSettings& view, QMenu* layersMenu);
+  void buildExport(QAction* action);
   QToolButton* addButton(QAction* action, const QString& text);
   void setIcons();
   QToolButton* menu_;

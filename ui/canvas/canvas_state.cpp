@@ -3,29 +3,20 @@
 
 #include <cmath>
 
-#include "core/image/log_transform.h"
 #include "ui/canvas/layers/chip_layer.h"
-#include "ui/canvas/layers/comb_layer.h"
-#include "ui/canvas/layers/compare_layer.h"
 #include "ui/canvas/layers/corner_layer.h"
 #include "ui/canvas/layers/cursor_layer.h"
-#include "ui/canvas/layers/deviation_layer.h"
 #include "ui/canvas/layers/direction_layer.h"
 #include "ui/canvas/layers/drop_hint_layer.h"
 #include "ui/canvas/layers/extremum_layer.h"
-#include "ui/canvas/layers/faired_layer.h"
-#include "ui/canvas/layers/fallback_layer.h"
 #include "ui/canvas/layers/ghost_layer.h"
 #include "ui/canvas/layers/growing_layer.h"
 #include "ui/canvas/layers/region_grid_layer.h"
 #include "ui/canvas/layers/region_of_interest_layer.h"
 #include "ui/canvas/layers/ruling_layer.h"
-#include "ui/canvas/layers/segment_layer.h"
 #include "ui/canvas/layers/segment_point_layer.h"
 #include "ui/canvas/layers/sheet_layer.h"
-#include "ui/canvas/layers/sketched_layer.h"
 #include "ui/canvas/layers/span_layer.h"
-#include "ui/canvas/layers/stroke_layer.h"
 #include "ui/session/coarse_runner.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/judged_view.h"
@@ -260,92 +251,6 @@ void CurveCanvas::State::requestSuggestions() {
   if (view.tool() == Tool::Corners) session.suggestions().look(view.suggestionAngleDeg(), view.suggestionScalePx());
 }
 
-RasterContent CurveCanvas::State::rasterContent() const {
-  RasterContent content;
-  const auto scan = session.scan();
-  if (!scan) return content;
-  content.pyramid = pyramid;
-  content.pageWidth = scan->grey.width;
-  content.pageHeight = scan->grey.height;
-  const bool isLog = view.isVisible(Layer::LogImage) && !view.isScanOnly();
-  content.showsPicture = view.isVisible(Layer::Scan) || isLog || view.isScanOnly();
-  if (isLog) content.tones = toneTable(session.recipe().log);
-  if (view.isScanOnly()) return content;
-  const PipelineOutput& output = session.output();
-  if (view.isVisible(Layer::Paper) && output.thresholds && !output.thresholds->paper.isEmpty())
-    content.paper = std::shared_ptr<const PaperBackground>(output.thresholds, &output.thresholds->paper);
-  if (view.isVisible(Layer::Mask)) {
-    const auto coarse = session.coarseInk();
-    if (coarse) content.maskFactor = coarse->factor;
-    const auto& filtered = coarse ? coarse->filtered : output.filtered;
-    if (filtered && !view.showsMaskUncleaned())
-      content.mask = std::shared_ptr<const BitImage>(filtered, &filtered->ink);
-    else
-      content.mask = coarse ? coarse->binary : output.binary;
-  }
-  if (view.isVisible(Layer::Edges)) content.edges = output.edges;
-  return content;
-}
-
-CurveCanvas::State::LinesKey CurveCanvas::State::linesKeyNow() const {
-  LinesKey key;
-  key.origin = transform.origin();
-  key.size = transform.viewSize();
-  key.zoom = transform.zoom();
-  key.ratio = transform.ratio();
-  if (view.isScanOnly()) return key;
-  for (std::size_t i = 0; i < kLayers.size(); ++i) key.layers |= view.isVisible(kLayers[i]) ? 1 << i : 0;
-  key.combScale = view.combScale();
-  key.isRadius = view.combShowsRadius();
-  key.combDensity = view.combDensity();
-  key.selected = session.selectedCurve();
-  key.isGrowing = session.growing().isOpen();
-  key.shapes = shapes.get();
-  key.combs = combs.get();
-  key.overlay = overlay.get();
-  if (view.isVisible(Layer::Segments)) key.segments = session.output().segments.get();
-  if (view.isVisible(Layer::Strokes) || view.isVisible(Layer::Fallback)) key.contours = session.output().contours.get();
-  return key;
-}
-
-void CurveCanvas::State::paintLines(const LinesKey& key) {
-  if (!lines.isNull() && key == linesKey) return;
-  linesKey = key;
-  if (lines.size() != key.size) lines = QImage(key.size, QImage::Format_ARGB32_Premultiplied);
-  if (lines.isNull()) return;
-  lines.setDevicePixelRatio(key.ratio);
-  lines.fill(Qt::transparent);
-  if (view.isScanOnly()) return;
-  QPainter painter(&lines);
-  paintOverlay(painter, *this);
-  if (view.isVisible(Layer::Strokes)) paintStrokes(painter, *this);
-  if (view.isVisible(Layer::Fallback)) paintFallback(painter, *this);
-  if (view.isVisible(Layer::Segments)) paintSegments(painter, *this);
-  if (view.isVisible(Layer::Curve)) paintSketched(painter, *this);
-  if (view.isVisible(Layer::Faired)) paintFaired(painter, *this);
-  if (areCombsShown()) paintCombs(painter, *this);
-  if (view.isVisible(Layer::Deviation)) paintDeviation(painter, *this);
-}
-
-void CurveCanvas::State::paintStill() {
-  const StillKey key{rasterContent(), linesKeyNow()};
-  if (!still.isNull() && key == stillKey) return;
-  paintLines(key.lines);
-  if (still.size() != key.lines.size) still = QImage(key.lines.size, QImage::Format_RGB32);
-  if (still.isNull()) return;
-  still.setDevicePixelRatio(1.0);
-  {
-    QPainter painter(&still);
-    tiles.paint(painter, transform, key.raster);
-    if (!lines.isNull()) {
-      lines.setDevicePixelRatio(1.0);
-      painter.drawImage(QPoint(0, 0), lines);
-    }
-  }
-  still.setDevicePixelRatio(key.lines.ratio);
-  stillKey = key;
-}
-
 void CurveCanvas::State::paintFlash(QPainter& painter) {
   if (!flashPx) return;
   const double t = std::min(1.0, static_cast<double>(flashAge.elapsed()) / kFlashMs);
@@ -361,8 +266,7 @@ void CurveCanvas::State::paint(QPainter& painter) {
   palette = canvas.palette();
   font = canvas.font();
   if (font.pixelSize() <= 0 || font.pixelSize() > 12) font.setPixelSize(12);
-  paintStill();
-  if (!still.isNull()) painter.drawImage(QPointF(0, 0), still);
+  still.paint(painter, *this);
   if (!session.hasScan()) {
     paintDropHint(painter, *this);
     return;

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <QElapsedTimer>
-#include <QImage>
 #include <QTimer>
 #include <array>
 #include <tuple>
 
 #include "ui/canvas/curve_canvas.h"
 #include "ui/canvas/scene/canvas_scene.h"
-#include "ui/canvas/screen_tiles.h"
+#include "ui/canvas/still_image.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/background_worker.h"
 
@@ -31,14 +30,12 @@ struct CurveCanvas::State : CanvasScene {
   CanvasTool& tool() { return *tools[indexOf(view.tool())]; }
 
   void paint(QPainter&);
-  RasterContent rasterContent() const;
   /// Sets the common cursor when the mouse is near the selected curve, clears it when it has left.
   void linkCursor(const std::optional<Vec2>& px);
   void updateMouseCursor();
   ToolEvent toolEvent(QPointF widget, Qt::KeyboardModifiers) const;
 
   CurveCanvas& canvas;
-  ScreenTiles tiles;
   std::array<std::unique_ptr<CanvasTool>, kTools.size()> tools;
   QPainterPath ghost;
   int ghostDegree = 0;
@@ -50,25 +47,7 @@ struct CurveCanvas::State : CanvasScene {
   QElapsedTimer flashAge;
   QTimer flashTimer, lateTimer;
 
-  /// The lines, and all that is under the overlay, each kept as long as nothing of it changes: moving the mouse costs
-  /// one blit, and a new mask does not stroke the curves again.
-  QImage lines, still;
-  struct LinesKey {
-    QPoint origin;
-    QSize size;
-    double zoom = 0.0, ratio = 0.0, combScale = 0.0;
-    int combDensity = 0, selected = -1, layers = 0;
-    bool isGrowing = false, isRadius = false;
-    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr, *contours = nullptr;
-    bool operator==(const LinesKey&) const = default;
-  };
-  LinesKey linesKey;
-  struct StillKey {
-    RasterContent raster;
-    LinesKey lines;
-    bool operator==(const StillKey&) const = default;
-  };
-  StillKey stillKey;
+  StillImage still;
 
   QObject inbox;
   BackgroundWorker imaging, shaping, combing, comparing;
@@ -77,14 +56,11 @@ struct CurveCanvas::State : CanvasScene {
   void requestOverlay();
 
  private:
-  void paintStill();
-  void paintLines(const LinesKey&);
   void requestShapes();
   void requestCombs();
   void requestSuggestions();
   void refreshExtrema();
   CurveSource source() const;
-  LinesKey linesKeyNow() const;
   void paintFlash(QPainter&);
 
   CurveSource shapesFor, combsFor;

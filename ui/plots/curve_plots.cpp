@@ -11,9 +11,11 @@
 #include <cmath>
 
 #include "ui/plots/plot_editing.h"
+#include "ui/plots/plot_graphs.h"
 #include "ui/plots/plot_head.h"
 #include "ui/plots/plot_style.h"
 #include "ui/plots/target_labels.h"
+#include "ui/plots/value_text.h"
 #include "ui/session/judged_view.h"
 #include "ui/theme/theme.h"
 
@@ -192,7 +194,18 @@ void CurvePlots::refreshSoon() {
 
 void CurvePlots::refresh() {
   State& d = *state_;
-  const Theme& theme = themeOf(palette());
+  refreshData();
+  showAxes();
+  d.plot->clearGraphs();
+  drawGraphs(*d.plot, d.data, d.tab, themeOf(palette()));
+  d.editing->show(d.data, d.tab);
+  refreshView();
+  d.labels->show(d.data);
+  showCursor();
+}
+
+void CurvePlots::refreshData() {
+  State& d = *state_;
   // Measuring deviations takes hundreds of nearest points; they only change with the curve.
   const DataKey key{d.session.output().faired, d.session.output().pieces, d.session.selectedCurve(), d.tab,
                     judgedIn(d.view)};
@@ -201,11 +214,14 @@ void CurvePlots::refresh() {
   d.shownLinear = d.view.radiusIsLinear();
   d.dataKey = key;
   d.shownJudged = key.judged;
-  const bool runsLeft = d.data.runsLeft != d.isTurned;
-  d.plot->xAxis->setRangeReversed(runsLeft);
-  d.lengthTicker->setReversed(runsLeft);
+}
+
+void CurvePlots::showAxes() {
+  State& d = *state_;
+  const bool isReversed = d.data.runsLeft != d.isTurned;
+  d.plot->xAxis->setRangeReversed(isReversed);
+  d.lengthTicker->setReversed(isReversed);
   d.head->setReversed(d.isTurned);
-  d.plot->clearGraphs();
   d.empty->setVisible(d.data.isEmpty());
   d.empty->setText(d.session.curves().empty() ? tr("No curve yet.") : tr("Select a curve to see its curvature."));
   d.empty->adjustSize();
@@ -216,24 +232,10 @@ void CurvePlots::refresh() {
   d.quantity->setVisible(!d.data.isEmpty());
   d.quantity->setText(quantityText(d.tab));
   d.quantity->adjustSize();
-  addBand();
-  // A curve that is judged alone is drawn as the one that counts.
-  const bool isAlone =
-      d.tab != PlotTab::Deviation && std::none_of(d.data.series.begin(), d.data.series.end(),
-                                                  [](const auto& one) { return one.role == PlotRole::Faired; });
-  for (const PlotSeries& series : d.data.series) {
-    QCPGraph* graph = d.plot->addGraph();
-    graph->setData(QVector<double>(series.s.begin(), series.s.end()),
-                   QVector<double>(series.value.begin(), series.value.end()), true);
-    graph->setPen(penOf(isAlone && series.role == PlotRole::Sketched ? PlotRole::Faired : series.role, theme));
-    if (series.role == PlotRole::Joint) {
-      graph->setLineStyle(QCPGraph::lsNone);
-      graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, theme.text, theme.panel, 5.0));
-    }
-    graph->setAntialiased(true);
-  }
-  addMarks();
-  d.editing->show(d.data, d.tab);
+}
+
+void CurvePlots::refreshView() {
+  State& d = *state_;
   const bool sameView = d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&
                         std::abs(d.shownLength - d.data.lengthMm) < 0.2 * std::abs(d.shownLength);
   const QCPRange shown = d.plot->xAxis->range();
@@ -248,42 +250,6 @@ void CurvePlots::refresh() {
     d.plot->yAxis->setRange(d.data.low, d.data.high);
   else
     resetView();
-  d.labels->show(d.data);
-  showCursor();
-}
-
-void CurvePlots::addBand() {
-  State& d = *state_;
-  const Theme& theme = themeOf(palette());
-  if (d.data.bandS.size() < 2) return;
-  QCPGraph* low = d.plot->addGraph();
-  QCPGraph* high = d.plot->addGraph();
-  const auto vector = [](const std::vector<double>& v) { return QVector<double>(v.begin(), v.end()); };
-  low->setData(vector(d.data.bandS), vector(d.data.bandLow), true);
-  high->setData(vector(d.data.bandS), vector(d.data.bandHigh), true);
-  low->setPen(Qt::NoPen);
-  high->setPen(Qt::NoPen);
-  QColor fill = theme.mute;
-  fill.setAlphaF(0.18F);
-  high->setBrush(fill);
-  high->setChannelFillGraph(low);
-}
-
-void CurvePlots::addMarks() {
-  State& d = *state_;
-  const Theme& theme = themeOf(palette());
-  for (const ExtremumMark& mark : d.data.marks) {
-    QColor faint = theme.accent;
-    faint.setAlphaF(0.4F);
-    const QColor line = mark.wantedToKeep ? theme.amber : mark.isKept ? theme.accent : theme.mute;
-    const QColor fill = !mark.isKept ? theme.panel : mark.isCertain ? theme.accent : faint;
-    QCPGraph* graph = d.plot->addGraph();
-    graph->setData({mark.s}, {mark.kappa}, true);
-    graph->setLineStyle(QCPGraph::lsNone);
-    graph->setScatterStyle(
-        QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(line, mark.wantedToKeep ? 2.2 : 1.5), fill, 9));
-    graph->setAntialiasedScatters(true);
-  }
 }
 
 const ExtremumMark* CurvePlots::markAt(const QPointF& place) const {
@@ -323,40 +289,13 @@ void CurvePlots::resetView() {
 void CurvePlots::showCursor() {
   State& d = *state_;
   const auto s = d.session.cursor();
-  d.cursor->setVisible(s.has_value() && !d.data.isEmpty());
-  QString text;
-  if (s && !d.data.isEmpty()) {
+  const bool isShown = s.has_value() && !d.data.isEmpty();
+  d.cursor->setVisible(isShown);
+  if (isShown) {
     d.cursor->point1->setCoords(*s, d.data.low);
     d.cursor->point2->setCoords(*s, d.data.high);
-    text = tr("s %1 mm").arg(*s, 0, 'f', 1);
-    for (const PlotRole role : {PlotRole::Faired, PlotRole::Sketched}) {
-      const auto series = std::find_if(d.data.series.begin(), d.data.series.end(),
-                                       [role](const PlotSeries& one) { return one.role == role; });
-      if (series == d.data.series.end()) continue;
-      const auto at = std::lower_bound(series->s.begin(), series->s.end(), *s);
-      const auto i = std::min<std::size_t>(static_cast<std::size_t>(at - series->s.begin()), series->s.size() - 1);
-      const QString number = QString::number(series->value[i], 'g', 4);
-      switch (d.tab) {
-        case PlotTab::Radius:
-          text += tr(" · R %1 mm").arg(number);
-          break;
-        case PlotTab::Curvature:
-          text += tr(" · κ %1 /mm").arg(number);
-          break;
-        case PlotTab::CurvatureSlope:
-          text += tr(" · dκ/ds %1 /mm²").arg(number);
-          break;
-        case PlotTab::Speed:
-          text += tr(" · |R′| %1").arg(number);
-          break;
-        case PlotTab::Deviation:
-          text += tr(" · %1 mm").arg(number);
-          break;
-      }
-      break;
-    }
   }
-  d.head->setValue(text);
+  d.head->setValue(isShown ? valueText(d.data, d.tab, *s) : QString());
   d.plot->replot(QCustomPlot::rpQueuedReplot);
 }
 

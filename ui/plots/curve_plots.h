@@ -43,11 +43,14 @@ class CurvePlots : public QWidget {
   void build();
   void refreshSoon();
   void refresh();
+  void refreshData();
+  /// Axes, their direction and names; what stands there while there is no curve.
+  void showAxes();
+  /// The part of new data that is shown: the same as before where that makes sense.
+  void refreshView();
   void applyTheme();
   void showCursor();
   void resetView();
-  void addBand();
-  void addMarks();
   const ExtremumMark* markAt(const QPointF& place) const;
   struct State;
   std::unique_ptr<State> state_;

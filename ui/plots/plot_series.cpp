@@ -202,6 +202,69 @@ bool runsLeft(const TracedCurve& curve, const PageFrame& frame) {
   return isUpright ? way.y() < 0.0 : way.x() < 0.0;
 }
 
+/// The selected curve as its plots need it.
+struct SampledCurve {
+  const TracedCurve& curve;
+  std::vector<CurveSample> sketched;
+  std::vector<CurveSample> faired;  ///< Empty where the sketched curve is judged alone.
+  double scale = 1.0;               ///< Of lengths along the sketched curve on the axis.
+
+  const NurbsCurve& shown() const { return faired.empty() ? curve.sketched : curve.faired; }
+  double shownScale() const { return faired.empty() ? scale : 1.0; }
+};
+
+void addSketchedAndFaired(PlotData& data, const SampledCurve& sampled, const auto& valueOf) {
+  add(data, PlotRole::Sketched, sampled.sketched, sampled.scale, valueOf);
+  add(data, PlotRole::Faired, sampled.faired, 1.0, valueOf);
+}
+
+/// The curves and their targets. @param valueOfKappa what the axis shows of a curvature
+void addWithTargets(PlotData& data, const EditorSession& session, const SampledCurve& sampled,
+                    const auto& valueOfKappa) {
+  addTargets(data, session, sampled.curve, valueOfKappa);
+  addDrawn(data, session, sampled.curve, valueOfKappa);
+  addSketchedAndFaired(data, sampled, [&](const CurveSample& sample) { return valueOfKappa(sample.kappa); });
+}
+
+void addRadius(PlotData& data, const EditorSession& session, const SampledCurve& sampled, bool isLinear) {
+  data.logarithmic = !isLinear;
+  const double size = extent(sampled.curve.sketched);
+  const double most = isLinear ? linearLimit(sampled.sketched, size) : kLargestRadius * size;
+  addWithTargets(data, session, sampled, [=](double kappa) { return clampedRadius(kappa, size * 1e-4, most); });
+}
+
+void addCurvature(PlotData& data, const EditorSession& session, const SampledCurve& sampled, Judged judged) {
+  addBand(data, sampled.curve, sampled.sketched, sampled.scale);
+  addWithTargets(data, session, sampled, [](double kappa) { return kappa; });
+  addJoints(data, sampled.shown(), sampled.shownScale(),
+            [](const NurbsCurve& of, double u) { return curvature(of, u); });
+  data.marks = extremumMarks(session, session.selectedCurve(), judged);
+  for (ExtremumMark& mark : data.marks) mark.s *= mark.note ? sampled.scale : 1.0;
+}
+
+void addSlope(PlotData& data, const SampledCurve& sampled) {
+  const auto slopeOf = [](const NurbsCurve& of) {
+    return [&of](const CurveSample& sample) {
+      return curvatureSlope(of, sample.u).value_or(std::numeric_limits<double>::quiet_NaN());
+    };
+  };
+  add(data, PlotRole::Sketched, sampled.sketched, sampled.scale, slopeOf(sampled.curve.sketched));
+  add(data, PlotRole::Faired, sampled.faired, 1.0, slopeOf(sampled.curve.faired));
+}
+
+void addSpeed(PlotData& data, const SampledCurve& sampled) {
+  addSketchedAndFaired(data, sampled, [](const CurveSample& sample) { return sample.speed; });
+  addJoints(data, sampled.shown(), sampled.shownScale(),
+            [](const NurbsCurve& of, double u) { return std::optional(of.derivatives(u, 1)[1].norm()); });
+}
+
+/// Nearly even must look even, and not like its last digits.
+void widenSpeedRange(PlotData& data) {
+  const double middle = 0.5 * (data.low + data.high), least = kLeastSpeedRange * std::abs(middle);
+  data.low = std::min(data.low, middle - least);
+  data.high = std::max(data.high, middle + least);
+}
+
 }  // namespace
 
 double clampedRadius(double kappa, double smallest, double largest) {
@@ -215,69 +278,33 @@ PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged, bool
   PlotData data;
   const TracedCurve* curve = session.selected();
   if (!curve || curve->sketched.isEmpty()) return data;
-  const std::vector<CurveSample> sketched = sampleByArcLength(curve->sketched, kSamples);
-  std::vector<CurveSample> faired;
-  if (judged == Judged::Result && isFaired(*curve)) faired = sampleByArcLength(curve->faired, kSamples);
+  SampledCurve sampled{*curve, sampleByArcLength(curve->sketched, kSamples), {}};
+  if (judged == Judged::Result && isFaired(*curve)) sampled.faired = sampleByArcLength(curve->faired, kSamples);
   // One axis for both: arc length of the curve that counts; the other is stretched by less than a hair.
-  const double sketchedLength = sketched.back().s;
-  data.lengthMm = faired.empty() ? sketchedLength : faired.back().s;
+  const double sketchedLength = sampled.sketched.back().s;
+  data.lengthMm = sampled.faired.empty() ? sketchedLength : sampled.faired.back().s;
   if (!(data.lengthMm > 0) || !(sketchedLength > 0)) return {};
-  const double scale = data.lengthMm / sketchedLength;
-  const double size = extent(curve->sketched);
-  const auto addBoth = [&](const auto& valueOf) {
-    const auto ofKappa = [&](double kappa) {
-      CurveSample sample;
-      sample.kappa = kappa;
-      return valueOf(sample);
-    };
-    addTargets(data, session, *curve, ofKappa);
-    addDrawn(data, session, *curve, ofKappa);
-    add(data, PlotRole::Sketched, sketched, scale, valueOf);
-    add(data, PlotRole::Faired, faired, 1.0, valueOf);
-  };
-  const NurbsCurve& shown = faired.empty() ? curve->sketched : curve->faired;
-  const double shownScale = faired.empty() ? scale : 1.0;
+  sampled.scale = data.lengthMm / sketchedLength;
   switch (tab) {
     case PlotTab::Radius:
-      data.logarithmic = !linearRadius;
-      addBoth([size, most = linearRadius ? linearLimit(sketched, size) : kLargestRadius * size](
-                  const CurveSample& sample) { return clampedRadius(sample.kappa, size * 1e-4, most); });
+      addRadius(data, session, sampled, linearRadius);
       break;
     case PlotTab::Curvature:
-      addBand(data, *curve, sketched, scale);
-      addBoth([](const CurveSample& sample) { return sample.kappa; });
-      addJoints(data, shown, shownScale, [](const NurbsCurve& of, double u) { return curvature(of, u); });
-      data.marks = extremumMarks(session, session.selectedCurve(), judged);
-      for (ExtremumMark& mark : data.marks) mark.s *= mark.note ? scale : 1.0;
+      addCurvature(data, session, sampled, judged);
       break;
-    case PlotTab::CurvatureSlope: {
-      const auto slopeOf = [](const NurbsCurve& of) {
-        return [&of](const CurveSample& sample) {
-          return curvatureSlope(of, sample.u).value_or(std::numeric_limits<double>::quiet_NaN());
-        };
-      };
-      add(data, PlotRole::Sketched, sketched, scale, slopeOf(curve->sketched));
-      add(data, PlotRole::Faired, faired, 1.0, slopeOf(curve->faired));
+    case PlotTab::CurvatureSlope:
+      addSlope(data, sampled);
       break;
-    }
     case PlotTab::Speed:
-      add(data, PlotRole::Sketched, sketched, scale, [](const CurveSample& sample) { return sample.speed; });
-      add(data, PlotRole::Faired, faired, 1.0, [](const CurveSample& sample) { return sample.speed; });
-      addJoints(data, shown, shownScale,
-                [](const NurbsCurve& of, double u) { return std::optional(of.derivatives(u, 1)[1].norm()); });
+      addSpeed(data, sampled);
       break;
     case PlotTab::Deviation:
-      addDeviation(data, session, *curve, scale, judged);
+      addDeviation(data, session, *curve, sampled.scale, judged);
       break;
   }
   data.runsLeft = runsLeft(*curve, session.output().frame);
   fitRange(data, tab == PlotTab::Radius ? 0.06 : 0.12);
-  // Nearly even must look even, and not like its last digits.
-  if (tab == PlotTab::Speed) {
-    const double middle = 0.5 * (data.low + data.high), least = kLeastSpeedRange * std::abs(middle);
-    data.low = std::min(data.low, middle - least);
-    data.high = std::max(data.high, middle + least);
-  }
+  if (tab == PlotTab::Speed) widenSpeedRange(data);
   return data;
 }
 

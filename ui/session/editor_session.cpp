@@ -39,7 +39,7 @@ EditorSession::~EditorSession() {
   // Told to stop together, then joined one by one: quitting takes as long as the slowest, not as the sum.
   runner_->pipeline.cancelAll();
   runner_->reader.cancelAll();
-  runner_->targeting.cancelAll();
+  runner_->targets.cancel();
   runner_->coarse.cancel();
 }
 
@@ -145,7 +145,7 @@ bool EditorSession::isStale(StageId stage) const {
 
 bool EditorSession::isBusy() const { return runner_->isRunning || runner_->isReading; }
 
-bool EditorSession::isTargeting() const { return runner_->isTargeting; }
+bool EditorSession::isTargeting() const { return runner_->targets.isComputing(); }
 
 bool EditorSession::isWorking() const { return isBusy() || isTargeting() || !sideWork_.isEmpty(); }
 
@@ -160,7 +160,7 @@ void EditorSession::computeAgain() {
 }
 
 bool EditorSession::hasRunningJobs() const {
-  return runner_->reader.isRunning() || runner_->pipeline.isRunning() || runner_->targeting.isRunning() ||
+  return runner_->reader.isRunning() || runner_->pipeline.isRunning() || runner_->targets.isRunning() ||
          runner_->coarse.isRunning();
 }
 

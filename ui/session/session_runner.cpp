@@ -7,45 +7,13 @@
 #include <utility>
 
 #include "core/base/conventions.h"
-#include "core/fairing/fairing.h"
-#include "core/pipeline/run/curve_targets.h"
 #include "core/pipeline/run/stage_keys.h"
 #include "ui/session/guarded.h"
+#include "ui/session/merge_outputs.h"
 #include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
-
-/// Of its length: a curve that is longer or shorter by more is another one.
-constexpr double kOtherCurve = 0.2;
-
-/// Puts the outputs up to `last` of a run over the shown ones; later stages keep what they have.
-void mergeOutputs(PipelineOutput& shown, const PipelineOutput& run, StageId last) {
-  const auto take = [last](StageId stage, auto& to, const auto& from) {
-    if (stage <= last) to = from;
-  };
-  take(StageId::Thresholds, shown.page, run.page);
-  take(StageId::Thresholds, shown.thresholds, run.thresholds);
-  take(StageId::Binary, shown.binary, run.binary);
-  take(StageId::Filtered, shown.filtered, run.filtered);
-  take(StageId::Edges, shown.edges, run.edges);
-  take(StageId::Contours, shown.contours, run.contours);
-  take(StageId::Pieces, shown.pieces, run.pieces);
-  take(StageId::Segments, shown.segments, run.segments);
-  take(StageId::Curves, shown.constructed, run.constructed);
-  take(StageId::Faired, shown.faired, run.faired);
-  if (shown.frame != run.frame) {
-    // Curves in millimetres of another frame would be drawn at the wrong place.
-    if (last < StageId::Curves) shown.constructed.reset();
-    if (last < StageId::Faired) shown.faired.reset();
-    shown.frame = run.frame;
-  }
-  // The numbers belong to the curves shown: curves of the run before keep theirs until the new ones are there.
-  if (last == StageId::Faired || (run.numbers && !shown.faired)) shown.numbers = run.numbers;
-  shown.timing = run.timing;
-  shown.error = run.error;
-  shown.failedStage = run.failedStage;
-}
 
 double squaredDistance(const Piece& piece, const Vec2& place) {
   double best = std::numeric_limits<double>::infinity();
@@ -56,7 +24,9 @@ double squaredDistance(const Piece& piece, const Vec2& place) {
 }  // namespace
 
 EditorSession::Runner::Runner(EditorSession& owner)
-    : session(owner), coarse(inbox, [this](const auto& scan, auto result) { applyCoarse(scan, std::move(result)); }) {
+    : session(owner),
+      coarse(inbox, [this](const auto& scan, auto result) { applyCoarse(scan, std::move(result)); }),
+      targets(inbox, [this](auto outcomes) { applyTargets(std::move(outcomes)); }) {
   clock.start();
   grace.setSingleShot(true);
   QObject::connect(&grace, &QTimer::timeout, &inbox, [this] { stopOvertaken(); });
@@ -129,10 +99,9 @@ void EditorSession::Runner::dropOldDrawing() {
 
 void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bool isRestored) {
   pipeline.cancelAll();
-  targeting.cancelAll();
+  targets.stop();
   coarse.cancel();
-  ++newestTargets;
-  isTargeting = isStopped = false;
+  isStopped = false;
   dropOldDrawing();
   session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
   path = scanPath;
@@ -150,7 +119,6 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   shownInkKey = {};
   session.cursorMm_.reset();
   session.hoveredTarget_ = 0;
-  targetsCurve.reset();
   anchorPx.reset();
   selectsItself = true;
   shownGeneration.fill(0);
@@ -325,11 +293,11 @@ void EditorSession::Runner::curvesChanged() {
   if (index != before) session.pointedSpan_.reset();
   session.selectedCurve_ = index;
   const TracedCurve* now = session.selected();
-  const bool isKnown = now != nullptr && targetsCurve && *targetsCurve == now->sketched;
+  const bool isKnown = now != nullptr && targets.isOf(*now);
   const bool areOfAnother = index != before && session.targets_ && !isKnown;
   if (areOfAnother) {
     session.targets_.reset();
-    targetsCurve.reset();
+    targets.forget();
   }
   if (index != before) emit session.selectionChanged();
   if (areOfAnother) emit session.targetsChanged();
@@ -340,10 +308,7 @@ void EditorSession::Runner::curvesChanged() {
 void EditorSession::Runner::computeTargets() {
   const TracedCurve* curve = session.selected();
   if (curve == nullptr || curve->sketched.isEmpty()) {
-    targeting.cancelAll();
-    ++newestTargets;
-    targetsCurve.reset();
-    isTargeting = false;
+    targets.stop();
     updateBusy();
     if (session.targets_) {
       session.targets_.reset();
@@ -351,49 +316,18 @@ void EditorSession::Runner::computeTargets() {
     }
     return;
   }
-  // The chosen mode and target do not change the six outcomes.
-  FairingParams params = curve->fairingUsed;
-  params.mode = FairingMode::None;
-  params.target = FairingTarget::Recommended;
-  params.lowPassMm = FairingParams{}.lowPassMm;
-  params.keepExtrema = kKeepSignificant;
-  params.keptAt.clear();
-  params.profile.clear();
-  params.spanTargets.clear();
-  const auto span = session.pointedSpan_;
-  if (targetsCurve && *targetsCurve == curve->sketched && targetsParams == params && targetsSpan == span) return;
-  targetsCurve = curve->sketched;
-  targetsParams = params;
-  targetsSpan = span;
-  const auto id = ++newestTargets;
-  isTargeting = true;
+  if (!targets.start(*curve, session.pointedSpan_)) return;
   // While one curve changes, its last outcomes stay; another curve's would be read as this one's.
-  const double length = curve->sketchedFigures.lengthMm;
-  if (session.targets_ && std::abs(length - targetsLengthMm) > kOtherCurve * std::max(length, targetsLengthMm)) {
+  if (session.targets_ && targets.isLikeAnother(*curve)) {
     session.targets_.reset();
     emit session.targetsChanged();
   }
   if (!session.isStale(StageId::Faired)) isStopped = false;
-  targeting.start([this, id, job = *curve, span](const CancelToken& token) {
-    RunContext context;
-    context.cancel = token;
-    auto result = guarded<TargetOutcomes>([&] { return targetsFor(job, context, span); });
-    if (!result && result.error().code == ErrorCode::Cancelled) return;
-    std::shared_ptr<const TargetOutcomes> outcomes;
-    if (result) outcomes = std::make_shared<const TargetOutcomes>(std::move(*result));
-    QMetaObject::invokeMethod(
-        &inbox, [this, id, outcomes, length = job.sketchedFigures.lengthMm] { applyTargets(id, outcomes, length); },
-        Qt::QueuedConnection);
-  });
   updateBusy();
 }
 
-void EditorSession::Runner::applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes,
-                                         double lengthMm) {
-  if (id != newestTargets) return;
+void EditorSession::Runner::applyTargets(std::shared_ptr<const TargetOutcomes> outcomes) {
   session.targets_ = std::move(outcomes);
-  targetsLengthMm = lengthMm;
-  isTargeting = false;
   emit session.targetsChanged();
   updateBusy();
 }
@@ -402,18 +336,15 @@ void EditorSession::Runner::stopAll() {
   pipeline.cancelAll();
   coarse.cancel();
   reader.cancelAll();
-  targeting.cancelAll();
+  const bool wasTargeting = targets.isComputing();
+  targets.cancel();
   overtaken.clear();
   ++newestRead;
   const bool ran = isRunning;
   if (ran) ++newestRun;  // What a stopped run still reports is no longer the newest.
-  if (isTargeting) {
-    ++newestTargets;
-    targetsCurve.reset();
-  }
   const auto& side = session.sideWork_;
-  if (ran || isTargeting || std::find(side.begin(), side.end(), true) != side.end()) isStopped = true;
-  isRunning = isReading = isTargeting = false;
+  if (ran || wasTargeting || std::find(side.begin(), side.end(), true) != side.end()) isStopped = true;
+  isRunning = isReading = false;
   session.sideWork_.clear();
   emit session.stopped();
   updateBusy();

@@ -8,12 +8,12 @@
 #include <functional>
 #include <vector>
 
-#include "core/fairing/fairing.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/coarse_runner.h"
 #include "ui/session/discarded_values.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/opened_scan.h"
+#include "ui/session/target_runner.h"
 
 namespace batten {
 
@@ -40,15 +40,11 @@ struct EditorSession::Runner {
 
   std::uint64_t recipeGeneration = 1;                           ///< Counts changes of recipe or scan.
   std::array<std::uint64_t, kStages.size()> shownGeneration{};  ///< Which of them each shown output belongs to.
-  std::uint64_t newestRun = 0, newestRead = 0, newestTargets = 0;
-  bool isRunning = false, isReading = false, isTargeting = false, isStopped = false;
+  std::uint64_t newestRun = 0, newestRead = 0;
+  bool isRunning = false, isReading = false, isStopped = false;
   bool wasBusy = false, wasWorking = false, hasRunFailure = false, edgesWanted = false;
   bool selectsItself = true;  ///< Until the user selects: the longest curve.
   std::optional<Vec2> anchorPx;
-  std::optional<NurbsCurve> targetsCurve;  ///< Whose outcomes are computed or shown.
-  FairingParams targetsParams;
-  std::optional<double> targetsSpan;
-  double targetsLengthMm = 0.0;  ///< Of the curve whose outcomes are shown.
 
   /// A run that a newer request overtakes still gets this long since its start, so that a drag that never pauses shows
   /// results all the same.
@@ -61,9 +57,10 @@ struct EditorSession::Runner {
 
   /// Last, so that they are stopped and joined before anything they use goes away.
   CoarseRunner coarse;
+  TargetRunner targets;
   ContentHash inkKey, shownInkKey;  ///< Of the ink asked for and of the one shown, to know whether it changes.
   DiscardedValues discarded;
-  BackgroundWorker reader, pipeline, targeting;
+  BackgroundWorker reader, pipeline;
 
  private:
   struct Job;
@@ -76,7 +73,7 @@ struct EditorSession::Runner {
   void applyStage(const std::shared_ptr<const Scan>&, std::uint64_t generation, StageId, const PipelineOutput&);
   void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,
                 const PipelineOutput&, double milliseconds);
-  void applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes, double lengthMm);
+  void applyTargets(std::shared_ptr<const TargetOutcomes> outcomes);
   void stopOvertaken();
   void runCoarse();
   void dropCoarse(std::uint64_t generation);

@@ -11,8 +11,8 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/angle.h"
 #include "core/contour/corner/corner_suggestions.h"
@@ -20,9 +20,8 @@
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
-#include "ui/panels/controls/segmented_control.h"
-#include "ui/panels/controls/setting_name.h"
 #include "ui/panels/controls/slider_track.h"
+#include "ui/panels/stages/corner_rounding.h"
 #include "ui/session/suggestion_source.h"
 #include "ui/theme/theme.h"
 
@@ -31,16 +30,7 @@ namespace {
 
 constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
 constexpr int kRows = 6;  // of the lists
-// In the order of their segments.
-constexpr std::array kRoundingSizes = {RoundingSize::Distance, RoundingSize::Radius};
-constexpr std::array kRoundingJoints = {RoundingJoint::Tangent, RoundingJoint::Curvature,
-                                        RoundingJoint::CurvatureSlope};
 constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
-
-template <typename Values, typename Value>
-int positionIn(const Values& values, Value value) {
-  return static_cast<int>(std::ranges::find(values, value) - values.begin());
-}
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
 
@@ -67,9 +57,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       close_(note({}, this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
-      rounding_(new NumberField(this)),
-      roundBy_(new SegmentedControl({tr("Distance"), tr("Radius")}, this)),
-      joint_(new SegmentedControl({tr("G1"), tr("G2"), tr("G3")}, this)),
+      rounding_(new CornerRounding(this)),
       angle_(new NumberField(this)),
       angleTrack_(new SliderTrack(this)),
       scale_(new NumberField(this)),
@@ -78,44 +66,60 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
       takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(14, 12, 14, 12);
-  layout->setSpacing(8);
-  layout->addWidget(heading(tr("Corners"), this));
-  layout->addWidget(note(tr("Click a sharp corner of a line to mark it; click a mark to select it, and again to "
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(14, 12, 14, 12);
+  column->setSpacing(8);
+  column->addWidget(heading(tr("Corners"), this));
+  column->addWidget(note(tr("Click a sharp corner of a line to mark it; click a mark to select it, and again to "
                             "remove it."),
                          this));
-  layout->addWidget(new ParameterEditor(session, {"corners.auto", "corners.exact", "corners.snap"}, this));
+  column->addWidget(new ParameterEditor(session, {"corners.auto", "corners.exact", "corners.snap"}, this));
+  buildFound();
+  buildMarks();
+  buildSuggestions();
+  close_->setObjectName(QStringLiteral("corners.close"));
+  column->addWidget(close_);
+  column->addStretch();
+  followSession();
+  refresh();
+}
+
+QVBoxLayout* CornersPanel::column() const { return static_cast<QVBoxLayout*>(layout()); }
+
+void CornersPanel::buildFound() {
   found_->setObjectName(QStringLiteral("corners.found"));
-  layout->addWidget(found_);
-  layout->addWidget(restore_);
+  column()->addWidget(found_);
+  column()->addWidget(restore_);
   connect(restore_, &QPushButton::clicked, this, [this] {
     Recipe after = session_.recipe();
     after.refusedCornersPx.clear();
     session_.change(tr("Restore corners"), std::move(after));
   });
-  layout->addWidget(caption(tr("Marked"), this));
+}
+
+void CornersPanel::buildMarks() {
+  column()->addWidget(caption(tr("Marked"), this));
   // Buttons stand above what grows.
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(remove_);
   buttons->addWidget(removeAll_);
   buttons->addStretch();
-  layout->addLayout(buttons);
-  buildRounding();
+  column()->addLayout(buttons);
+  column()->addWidget(rounding_);
   marks_->setObjectName(QStringLiteral("corners.list"));
   marks_->setAccessibleName(tr("Marked corners"));
-  layout->addWidget(marks_);
-  buildSuggestions();
-  close_->setObjectName(QStringLiteral("corners.close"));
-  layout->addWidget(close_);
-  layout->addStretch();
+  column()->addWidget(marks_);
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), marks_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &CornersPanel::removeSelected);
   connect(remove_, &QPushButton::clicked, this, &CornersPanel::removeSelected);
   connect(removeAll_, &QPushButton::clicked, this, &CornersPanel::removeAll);
+  connect(rounding_, &CornerRounding::changed, this, &CornersPanel::editSelected);
   connect(marks_, &QListWidget::currentRowChanged, this, [this](int row) {
     if (!filling_) session_.selectCorner(row);
   });
+}
+
+void CornersPanel::followSession() {
   connect(&session_, &EditorSession::cornerSelectionChanged, this, &CornersPanel::showSelected);
   connect(&session_.suggestions(), &SuggestionSource::changed, this, &CornersPanel::showSuggestions);
   connect(&session_, &EditorSession::scanOpened, this, &CornersPanel::refresh);
@@ -124,12 +128,10 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
     if (stage == StageId::Pieces) refreshMarks();
     if (stage == StageId::Contours) suggest();
   });
-  refresh();
 }
 
 void CornersPanel::addSlider(const QString& title, const QString& help, const SliderNames& names, NumberField* field,
                              SliderTrack* track) {
-  auto* layout = static_cast<QVBoxLayout*>(this->layout());
   auto* row = new QHBoxLayout;
   auto* name = new QLabel(title, this);
   name->setToolTip(help);
@@ -146,13 +148,12 @@ void CornersPanel::addSlider(const QString& title, const QString& help, const Sl
   row->addWidget(name);
   row->addStretch();
   row->addWidget(field);
-  layout->addLayout(row);
-  layout->addWidget(track);
+  column()->addLayout(row);
+  column()->addWidget(track);
 }
 
 void CornersPanel::buildSuggestions() {
-  auto* layout = static_cast<QVBoxLayout*>(this->layout());
-  layout->addWidget(caption(tr("Suggestions"), this));
+  column()->addWidget(caption(tr("Suggestions"), this));
   addSlider(tr("Sharper than"),
             tr("Suggests corners that turn by more than this angle. Larger: fewer, sharper corners."),
             {QStringLiteral("corners.suggestAngle"), tr("Smallest angle of a suggested corner"), QStringLiteral("°"),
@@ -164,17 +165,17 @@ void CornersPanel::buildSuggestions() {
             {QStringLiteral("corners.suggestScale"), tr("Window length of corner suggestions"), QStringLiteral("px"),
              kLeastScalePx, kLargestScalePx},
             scale_, scaleTrack_);
-  layout->addWidget(suggestedNote_);
+  column()->addWidget(suggestedNote_);
   suggestedNote_->setMinimumHeight(2 * suggestedNote_->fontMetrics().lineSpacing());
   suggestedNote_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(take_);
   buttons->addWidget(takeAll_);
   buttons->addStretch();
-  layout->addLayout(buttons);
+  column()->addLayout(buttons);
   suggested_->setObjectName(QStringLiteral("corners.suggestions"));
   suggested_->setAccessibleName(tr("Suggested corners"));
-  layout->addWidget(suggested_);
+  column()->addWidget(suggested_);
   const auto setAngle = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
   const auto setScale = [this](double px) { view_.setSuggestionScalePx(px); };
   const auto show = [](NumberField* field, SliderTrack* track, double value) {
@@ -298,7 +299,9 @@ void CornersPanel::showSelected() {
   marks_->setCurrentRow(session_.selectedCorner());
   filling_ = false;
   remove_->setEnabled(marks_->currentRow() >= 0);
-  showRounding();
+  const int row = marks_->currentRow();
+  const auto& marks = session_.recipe().cornerMarks;
+  rounding_->showMark(row >= 0 && row < std::ssize(marks) ? std::optional(marks[row]) : std::nullopt);
 }
 
 void CornersPanel::suggest() {
@@ -339,76 +342,12 @@ void CornersPanel::mark(const std::vector<Vec2>& positions) {
   session_.change(positions.size() == 1 ? tr("Mark corner") : tr("Mark suggested corners"), std::move(after));
 }
 
-void CornersPanel::buildRounding() {
-  auto* column = static_cast<QVBoxLayout*>(layout());
-  auto* row = new QHBoxLayout;
-  auto* name = new QLabel(tr("Rounding"), this);
-  const QString help = tr("Size of the rounding of the selected corner. 0 keeps it sharp.");
-  name->setToolTip(help);
-  rounding_->setToolTip(help);
-  rounding_->edit()->setObjectName(QStringLiteral("corners.rounding"));
-  rounding_->setRange(0.0, 500.0);
-  rounding_->setDecimals(2);
-  rounding_->setStep(0.5);
-  rounding_->setUnit(QStringLiteral("mm"));
-  rounding_->setFixedWidth(92);
-  rounding_->edit()->setAccessibleName(tr("Rounding of the selected corner"));
-  row->addWidget(name);
-  row->addStretch();
-  row->addWidget(rounding_);
-  column->addLayout(row);
-  roundBy_->setNames(QStringLiteral("corners.roundBy"), {QStringLiteral("distance"), QStringLiteral("radius")});
-  roundBy_->setToolTip(
-      tr("Distance: from the corner to where the rounding begins. Radius: the smallest radius of the rounding."));
-  setSettingName(roundBy_, tr("Measure of the rounding"));
-  joint_->setNames(QStringLiteral("corners.joint"), {QStringLiteral("g1"), QStringLiteral("g2"), QStringLiteral("g3")});
-  joint_->setToolTip(
-      tr("Continuity with the adjacent curves. G1: tangent, by two typical curves. G2: curvature. "
-         "G3: rate of change of curvature."));
-  setSettingName(joint_, tr("Continuity of the rounding"));
-  auto* choices = new QHBoxLayout;
-  choices->addWidget(roundBy_, 1);
-  choices->addWidget(joint_, 1);
-  column->addLayout(choices);
-  connect(rounding_, &NumberField::committed, this, &CornersPanel::roundSelected);
-  connect(roundBy_, &SegmentedControl::chosen, this, [this](int index) {
-    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.roundBy = kRoundingSizes.at(index); });
-  });
-  connect(joint_, &SegmentedControl::chosen, this, [this](int index) {
-    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.joint = kRoundingJoints.at(index); });
-  });
-}
-
 void CornersPanel::editSelected(const QString& what, const std::function<void(CornerMark&)>& change) {
   const int row = marks_->currentRow();
   Recipe after = session_.recipe();
   if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
   change(after.cornerMarks[row]);
   session_.change(what, std::move(after));
-}
-
-void CornersPanel::showRounding() {
-  const int row = marks_->currentRow();
-  const auto& marks = session_.recipe().cornerMarks;
-  const bool isMark = row >= 0 && row < static_cast<int>(marks.size());
-  rounding_->setEnabled(isMark);
-  // What a sharp corner would be rounded by is of no interest.
-  const bool isRound = isMark && marks[row].roundMm > 0.0;
-  roundBy_->setVisible(isRound);
-  joint_->setVisible(isRound);
-  if (isRound) {
-    roundBy_->setCurrent(positionIn(kRoundingSizes, marks[row].roundBy));
-    joint_->setCurrent(positionIn(kRoundingJoints, marks[row].joint));
-  }
-  if (isMark) {
-    rounding_->setValue(marks[row].roundMm);
-  } else {
-    rounding_->setEmpty(QStringLiteral("–"));
-  }
-}
-
-void CornersPanel::roundSelected(double mm) {
-  editSelected(mm > 0.0 ? tr("Round corner") : tr("Sharpen corner"), [mm](CornerMark& mark) { mark.roundMm = mm; });
 }
 
 void CornersPanel::removeSelected() {

@@ -13,11 +13,12 @@
 class QLabel;
 class QListWidget;
 class QPushButton;
+class QVBoxLayout;
 
 namespace batten {
 
+class CornerRounding;
 class NumberField;
-class SegmentedControl;
 class SliderTrack;
 
 /// The marked corners as a list, and places that look like corners.
@@ -35,15 +36,16 @@ class CornersPanel : public QWidget {
     double least, most;
   };
   void addSlider(const QString& title, const QString& help, const SliderNames&, NumberField*, SliderTrack*);
+  QVBoxLayout* column() const;
+  void buildFound();
+  void buildMarks();
   void buildSuggestions();
+  void followSession();
   void refresh();
   void refreshMarks();
   void suggest();
   void showSuggestions();
   void showSelected();
-  void showRounding();
-  void roundSelected(double mm);
-  void buildRounding();
   /// Changes the selected mark.
   void editSelected(const QString& what, const std::function<void(CornerMark&)>& change);
   void removeSelected();
@@ -62,9 +64,7 @@ class CornersPanel : public QWidget {
   QLabel* close_;  ///< Names corners that lie too close together.
   QPushButton* remove_;
   QPushButton* removeAll_;
-  NumberField* rounding_;
-  SegmentedControl* roundBy_;
-  SegmentedControl* joint_;
+  CornerRounding* rounding_;
   NumberField* angle_;
   SliderTrack* angleTrack_;
   NumberField* scale_;

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fairing/fairing_report.h"
-#include "core/fairing/target_advice.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
@@ -18,11 +16,11 @@
 #include "ui/panels/controls/setting_name.h"
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
+#include "ui/panels/stages/fairing_figures.h"
 #include "ui/panels/stages/like_link.h"
 #include "ui/panels/stages/profile_shelf.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
-#include "ui/session/judged_curve.h"
 
 namespace batten {
 namespace {
@@ -56,13 +54,6 @@ int segmentOf(FairingMode mode) {
   recipe.fairing.mode = mode;
   const auto& words = modeParameter().choices;
   return static_cast<int>(std::find(words.begin(), words.end(), modeParameter().get(recipe)) - words.begin());
-}
-
-/// What to take where a target is too far away.
-QString insteadOf(FairingTarget target) {
-  if (target == FairingTarget::Drawn) return FairingPanel::tr("choose or draw a profile that is nearer to its own");
-  if (target == FairingTarget::LogAesthetic) return FairingPanel::tr("choose another alpha or more spans");
-  return FairingPanel::tr("choose a higher degree or more spans");
 }
 
 }  // namespace
@@ -99,27 +90,58 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       figures_(new FigureTable(this)),
       ends_(new EndsTable([this] { return shown(session_.recipe()); },
                           [this](int end, EndHold hold) { setHold(end, hold); }, this)) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(14, 12, 14, 12);
-  layout->setSpacing(8);
-  layout->addWidget(heading(tr("Fairing"), this));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(14, 12, 14, 12);
+  column->setSpacing(8);
+  column->addWidget(heading(tr("Fairing"), this));
+  buildScopeAndMode();
+  buildTolerance();
+  buildSettingsOfModes();
+  column->addWidget(note_);
+  buildLinks();
+  buildScopeLinks();
+  buildProfiles();
+  buildFigures();
+  column->addWidget(caption(tr("Curves"), this));
+  column->addWidget(new CurveList(session, Judged::Result, this));
+  column->addStretch();
+  followSession();
+  refresh();
+}
+
+QVBoxLayout* FairingPanel::column() const { return static_cast<QVBoxLayout*>(layout()); }
+
+void FairingPanel::buildScopeAndMode() {
   scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
   scope_->setToolTip(tr(
       "Whether mode, tolerance, the settings of the mode and ends apply to the whole drawing or only to the selected "
       "curve."));
-  layout->addWidget(scope_);
+  column()->addWidget(scope_);
   mode_->setNames(QStringLiteral("fairing.mode"), wordsOf(modeParameter()));
   mode_->setToolTip(
       tr("None: as sketched. Target: follows a curvature profile. Smooth: least variation of "
          "curvature within the tolerance. Monotone: no or few curvature extrema. Low-pass: "
          "removes short waves of the curvature."));
   setSettingName(mode_, tr("Fairing mode"));
-  layout->addWidget(mode_);
-  buildTolerance();
-  layout->addWidget(keep_);
-  layout->addWidget(wavelength_);
-  layout->addWidget(policy_);
-  layout->addWidget(moves_);
+  column()->addWidget(mode_);
+  connect(scope_, &SegmentedControl::chosen, this, [this](int index) {
+    oneCurve_ = index == 1;
+    tolerance_->sync();
+    refresh();
+  });
+  connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(modeAt(index)); });
+}
+
+void FairingPanel::buildTolerance() {
+  tolerance_->setLabel(tr("Tolerance"));
+  tolerance_->setSliderRange(kLeastToleranceMm, kMostToleranceMm);
+  bindToScope(tolerance_,
+              [](PieceChoice& choice, const FairingParams& params) { choice.toleranceMm = params.toleranceMm; });
+  column()->addWidget(tolerance_);
+}
+
+void FairingPanel::buildSettingsOfModes() {
+  for (ParameterRow* row : {keep_, wavelength_, policy_, moves_}) column()->addWidget(row);
   bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
   bindToScope(wavelength_,
               [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
@@ -129,61 +151,6 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   bindToScope(moves_, [](PieceChoice& choice, const FairingParams& params) { choice.means = params.means; });
   wavelength_->setSliderRange(1.0, 300.0);
   keep_->setSliderRange(-1.0, 12.0);
-  layout->addWidget(note_);
-  buildLinks();
-  layout->addWidget(raise_, 0, Qt::AlignLeft);
-  layout->addWidget(useForAll_, 0, Qt::AlignLeft);
-  layout->addWidget(followAll_, 0, Qt::AlignLeft);
-  QLabel* saved = caption(tr("Saved profiles"), this);
-  saved->setObjectName(QStringLiteral("fairing.savedProfiles"));
-  layout->addWidget(saved);
-  layout->addWidget(new ProfileShelf(session, this));
-  layout->addWidget(caption(tr("Before and after"), this));
-  figures_->setHeader({}, {tr("sketched"), tr("faired")});
-  layout->addWidget(figures_);
-  layout->addWidget(caption(tr("Ends"), this));
-  layout->addWidget(ends_);
-  layout->addWidget(editor_);
-  layout->addWidget(caption(tr("Curves"), this));
-  layout->addWidget(new CurveList(session, Judged::Result, this));
-  layout->addStretch();
-  connect(scope_, &SegmentedControl::chosen, this, [this](int index) {
-    oneCurve_ = index == 1;
-    tolerance_->sync();
-    refresh();
-  });
-  connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(modeAt(index)); });
-  connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
-  connect(findChild<ProfileShelf*>(), &ProfileShelf::emptied, this, &FairingPanel::refresh);
-  connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
-  connect(raise_, &QPushButton::clicked, this, [this] {
-    if (const TracedCurve* curve = session_.selected()) {
-      Recipe after = session_.recipe();
-      // Rounded up to what the field shows, so that the target really fits.
-      const double needed = std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0;
-      if (hasOwnFairing(session_, session_.selectedCurve()))
-        after = withChoice(session_, session_.selectedCurve(),
-                           [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
-      else
-        after.fairing.toleranceMm = needed;
-      session_.change(tr("Tolerance"), std::move(after));
-    }
-  });
-  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
-                            &EditorSession::runFinished, &EditorSession::targetsChanged})
-    connect(&session_, signal, this, &FairingPanel::refresh);
-  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
-    if (stage == StageId::Pieces || stage == StageId::Curves || stage == StageId::Faired) refresh();
-  });
-  refresh();
-}
-
-void FairingPanel::buildTolerance() {
-  tolerance_->setLabel(tr("Tolerance"));
-  tolerance_->setSliderRange(kLeastToleranceMm, kMostToleranceMm);
-  bindToScope(tolerance_,
-              [](PieceChoice& choice, const FairingParams& params) { choice.toleranceMm = params.toleranceMm; });
-  static_cast<QVBoxLayout*>(layout())->addWidget(tolerance_);
 }
 
 void FairingPanel::bindToScope(ParameterRow* row,
@@ -206,9 +173,8 @@ void FairingPanel::bindToScope(ParameterRow* row,
 }
 
 void FairingPanel::buildLinks() {
-  auto* column = static_cast<QVBoxLayout*>(layout());
   for (QPushButton* link : {whole_, split_, unsplit_, draw_, forget_, like_, logAesthetic_})
-    column->addWidget(link, 0, Qt::AlignLeft);
+    column()->addWidget(link, 0, Qt::AlignLeft);
   split_->setText(tr("Natural spans"));
   split_->setToolTip(
       tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
@@ -228,13 +194,47 @@ void FairingPanel::buildLinks() {
   });
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
   compare->setToolTip(tr("Similarity of two curves and fairness of this one, as a table."));
-  column->addWidget(compare, 0, Qt::AlignLeft);
+  column()->addWidget(compare, 0, Qt::AlignLeft);
   connect(compare, &QPushButton::clicked, this, &FairingPanel::comparisonAsked);
   connect(split_, &QPushButton::clicked, this, [this] { splitNaturally(session_); });
   connect(unsplit_, &QPushButton::clicked, this, [this] { joinAllSpans(session_); });
   connect(whole_, &QPushButton::clicked, this, [this] { session_.pointAtSpan({}); });
   connect(draw_, &QPushButton::clicked, this, [this] { drawTarget(session_, profileToBeginWith(session_), -1); });
   connect(forget_, &QPushButton::clicked, this, [this] { forgetDrawnTarget(session_); });
+}
+
+void FairingPanel::buildScopeLinks() {
+  for (QPushButton* link : {raise_, useForAll_, followAll_}) column()->addWidget(link, 0, Qt::AlignLeft);
+  connect(raise_, &QPushButton::clicked, this, &FairingPanel::raiseTolerance);
+  connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
+  connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
+}
+
+void FairingPanel::buildProfiles() {
+  QLabel* saved = caption(tr("Saved profiles"), this);
+  saved->setObjectName(QStringLiteral("fairing.savedProfiles"));
+  column()->addWidget(saved);
+  auto* shelf = new ProfileShelf(session_, this);
+  column()->addWidget(shelf);
+  connect(shelf, &ProfileShelf::emptied, this, &FairingPanel::refresh);
+}
+
+void FairingPanel::buildFigures() {
+  column()->addWidget(caption(tr("Before and after"), this));
+  figures_->setHeader({}, {tr("sketched"), tr("faired")});
+  column()->addWidget(figures_);
+  column()->addWidget(caption(tr("Ends"), this));
+  column()->addWidget(ends_);
+  column()->addWidget(editor_);
+}
+
+void FairingPanel::followSession() {
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::runFinished, &EditorSession::targetsChanged})
+    connect(&session_, signal, this, &FairingPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Pieces || stage == StageId::Curves || stage == StageId::Faired) refresh();
+  });
 }
 
 void FairingPanel::refreshLinks(const FairingParams& params) {
@@ -287,6 +287,20 @@ void FairingPanel::setHold(int end, EndHold hold) {
   session_.change(end == 0 ? tr("Hold at start") : tr("Hold at end"), std::move(after));
 }
 
+void FairingPanel::raiseTolerance() {
+  const TracedCurve* curve = session_.selected();
+  if (!curve) return;
+  Recipe after = session_.recipe();
+  // Rounded up to what the field shows, so that the target really fits.
+  const double needed = std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0;
+  if (hasOwnFairing(session_, session_.selectedCurve()))
+    after =
+        withChoice(session_, session_.selectedCurve(), [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
+  else
+    after.fairing.toleranceMm = needed;
+  session_.change(tr("Tolerance"), std::move(after));
+}
+
 void FairingPanel::useForAll() {
   Recipe after = session_.recipe();
   after.fairing = shown(after);
@@ -329,69 +343,12 @@ void FairingPanel::refresh() {
 
 void FairingPanel::refreshFigures() {
   const TracedCurve* curve = session_.selected();
-  note_->hide();
-  raise_->hide();
-  const FigureTable::Cell none{QStringLiteral("–")};
-  if (!curve) {
-    figures_->setRows({{tr("No curve selected"), {none, none}, {}}});
-    return;
-  }
-  const bool faired = !curve->faired.isEmpty() && curve->fairingUsed.mode != FairingMode::None;
-  const CurveFigures &before = curve->sketchedFigures, &after = curve->fairedFigures;
-  const FairingReport& report = curve->fairing;
-  const bool over = faired && report.maxDeviationMm > curve->fairingUsed.toleranceMm * (1 + 1e-9);
-  const auto mm = [](double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); };
-  std::vector<FigureTable::Row> rows = {
-      {tr("Curvature extrema"),
-       {{QString::number(before.extrema)},
-        faired ? FigureTable::Cell{QString::number(report.roundedMm > 0.0 ? report.extremaAfter : after.extrema)}
-               : none},
-       tr("Local maxima and minima of the curvature: fewer is fairer. Those of rounded corners are "
-          "counted in the list and in files, not here.")},
-      {tr("Moved at most, mm"),
-       {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
-       tr("Largest distance of the faired curve from the sketched one; never above the tolerance.")},
-      {tr("Deviation from line, mm"),
-       {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
-       tr("Largest distance of an edge point of the scan from the curve.")}};
-  if (report.roundedMm > 0.0) {
-    rows.push_back({tr("Rounded by, mm"),
-                    {none, {mm(report.roundedMm)}},
-                    tr("Largest move of the curve by corner rounding, not counting fairing.")});
-  }
-  const auto targets = session_.targets();
-  int degree = degreeOf(curve->fairingUsed.target).value_or(0);
-  if (targets && curve->fairingUsed.target == FairingTarget::Recommended) degree = targets->recommendedDegree;
-  if (session_.pointedSpan()) degree = chosenSpanTarget(session_);
-  if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree > 0) {
-    const TargetProfile& profile = targets->targets.profiles[degree - 1];
-    rows.push_back({tr("Similarity S"),
-                    {{similarityText(profile.similarity)},
-                     report.similarityAfter ? FigureTable::Cell{similarityText(*report.similarityAfter)} : none},
-                    tr("Similarity of the sketched profile to the target; 1 is identical. Faired: similarity "
-                       "of the faired to the sketched profile. Of radii, or where the line has inflections, of "
-                       "curvatures.")});
-    rows.push_back({tr("Monotone target"),
-                    {none, {profile.isMonotone ? tr("yes") : tr("no")}},
-                    tr("A monotone profile adds no curvature extremum.")});
-  }
-  figures_->setRows(std::move(rows));
-  QString text = isLeftAsDrawn(*curve) ? whyLeftAsDrawn(*curve) : QString::fromStdString(report.note);
-  if (faired && !report.withinTolerance) {
-    if (text.isEmpty())
-      text = curve->fairingUsed.mode == FairingMode::LowPass
-                 ? tr("The tolerance is too small to follow the filtered curvature.")
-                 : tr("The tolerance is too small to reach the target.");
-    const bool isMore = report.neededMm > curve->fairingUsed.toleranceMm;
-    const bool isSensible = report.neededMm <= mostSensibleToleranceMm(curve->sketched);
-    raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));
-    raise_->setVisible(isMore && isSensible);
-    if (isMore && !isSensible && curve->fairingUsed.mode == FairingMode::Target)
-      text += tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
-                  .arg(millimetres(report.neededMm), insteadOf(curve->fairingUsed.target));
-  }
-  note_->setText(text);
-  note_->setVisible(!text.isEmpty());
+  const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
+  figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
+  note_->setText(said.text);
+  note_->setVisible(!said.text.isEmpty());
+  if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
+  raise_->setVisible(said.neededMm.has_value());
 }
 
 }  // namespace batten

@@ -8,6 +8,7 @@
 
 class QLabel;
 class QPushButton;
+class QVBoxLayout;
 
 namespace batten {
 
@@ -27,7 +28,11 @@ class FairingPanel : public QWidget {
   void comparisonAsked();  ///< The user wants to compare shapes.
 
  private:
+  QVBoxLayout* column() const;
+  void buildScopeAndMode();
   void buildTolerance();
+  /// Rows that only one of the modes has.
+  void buildSettingsOfModes();
   void refresh();
   void refreshFigures();
   /// Settings that the controls show: the selected curve's own where they act on it alone.
@@ -36,8 +41,14 @@ class FairingPanel : public QWidget {
   void setMode(FairingMode mode);
   void bindToScope(ParameterRow* row, const std::function<void(PieceChoice&, const FairingParams&)>& store);
   void buildLinks();
+  void buildScopeLinks();
+  void buildProfiles();
+  void buildFigures();
+  void followSession();
   void refreshLinks(const FairingParams& params);
   void setHold(int end, EndHold hold);
+  /// To what the selected curve needs to reach its target.
+  void raiseTolerance();
   void useForAll();
   void followAll();
 

@@ -71,11 +71,27 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
       swatch_(new ToneSwatch(this)),
       paperNote_(note({}, this)),
       inkBox_(new QWidget(this)) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(14, 12, 14, 12);
-  layout->setSpacing(8);
-  layout->addWidget(heading(tr("Scan"), this));
-  layout->addWidget(facts_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(14, 12, 14, 12);
+  column->setSpacing(8);
+  column->addWidget(heading(tr("Scan"), this));
+  column->addWidget(facts_);
+  buildPages();
+  buildScale(view);
+  column->addWidget(caption(tr("Tones"), this));
+  column->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
+  column->addWidget(swatch_);
+  buildPaper();
+  column->addStretch();
+  connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
+  connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, &ScanPanel::refreshPaper);
+  refresh();
+}
+
+QVBoxLayout* ScanPanel::column() const { return static_cast<QVBoxLayout*>(layout()); }
+
+void ScanPanel::buildPages() {
   auto* pages = new QGridLayout;
   pages->setHorizontalSpacing(8);
   pages->setColumnStretch(0, 1);
@@ -96,8 +112,21 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
            QStringLiteral("scan.pdfDpi"));
   pdfDpi_->setRange(20.0, 4800.0);
   pdfDpi_->setUnit(tr("dpi"));
-  layout->addLayout(pages);
-  layout->addWidget(caption(tr("Scale"), this));
+  column()->addLayout(pages);
+  connect(page_, &NumberField::committed, this, [this](double value) {
+    PageChoice choice = session_.recipe().scanPage;
+    choice.number = static_cast<int>(value);
+    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
+  });
+  connect(pdfDpi_, &NumberField::committed, this, [this](double value) {
+    PageChoice choice = session_.recipe().scanPage;
+    choice.pdfDpi = value;
+    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
+  });
+}
+
+void ScanPanel::buildScale(ViewSettings& view) {
+  column()->addWidget(caption(tr("Scale"), this));
   auto* scale = new QGridLayout;
   scale->setHorizontalSpacing(8);
   scale->setColumnStretch(0, 1);
@@ -114,44 +143,29 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   dpi_->edit()->setAccessibleName(tr("Resolution in dpi"));
   scale->addWidget(name, 0, 0);
   scale->addWidget(dpi_, 0, 1);
-  layout->addLayout(scale);
-  layout->addWidget(scaleNote_);
-  layout->addWidget(fromFile_, 0, Qt::AlignLeft);
-  layout->addWidget(new ScaleControls(session, view, this));
-  auto* units = new ImportUnits(session, this);
+  column()->addLayout(scale);
+  column()->addWidget(scaleNote_);
+  column()->addWidget(fromFile_, 0, Qt::AlignLeft);
+  column()->addWidget(new ScaleControls(session_, view, this));
+  auto* units = new ImportUnits(session_, this);
   connect(units, &ImportUnits::failed, scaleNote_,
           [this](const Error& error) { scaleNote_->setText(QString::fromStdString(error.message)); });
-  layout->addWidget(units);
-  layout->addWidget(caption(tr("Tones"), this));
-  layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
-  layout->addWidget(swatch_);
-  layout->addWidget(caption(tr("Paper"), this));
-  layout->addWidget(new ParameterEditor(
-      session, {"paper.colour", "paper.rulings", "paper.sheet", "paper.flatten", "paper.folds"}, this));
+  column()->addWidget(units);
+  connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
+  connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
+}
+
+void ScanPanel::buildPaper() {
+  column()->addWidget(caption(tr("Paper"), this));
+  column()->addWidget(new ParameterEditor(
+      session_, {"paper.colour", "paper.rulings", "paper.sheet", "paper.flatten", "paper.folds"}, this));
   paperNote_->setObjectName(QStringLiteral("scan.paperNote"));
-  layout->addWidget(paperNote_);
+  column()->addWidget(paperNote_);
   new QGridLayout(inkBox_);
   inkBox_->layout()->setContentsMargins(0, 0, 0, 0);
   inkBox_->setObjectName(QStringLiteral("scan.inks"));
-  layout->addWidget(inkBox_);
-  layout->addWidget(new ParameterEditor(session, {"inks.keep", "inks.drop", "inks.range"}, this));
-  layout->addStretch();
-  connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
-  connect(page_, &NumberField::committed, this, [this](double value) {
-    PageChoice choice = session_.recipe().scanPage;
-    choice.number = static_cast<int>(value);
-    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
-  });
-  connect(pdfDpi_, &NumberField::committed, this, [this](double value) {
-    PageChoice choice = session_.recipe().scanPage;
-    choice.pdfDpi = value;
-    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
-  });
-  connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
-  connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
-  connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
-  connect(&session_, &EditorSession::stageReady, this, &ScanPanel::refreshPaper);
-  refresh();
+  column()->addWidget(inkBox_);
+  column()->addWidget(new ParameterEditor(session_, {"inks.keep", "inks.drop", "inks.range"}, this));
 }
 
 void ScanPanel::focusResolution() {

@@ -9,6 +9,7 @@
 
 class QLabel;
 class QPushButton;
+class QVBoxLayout;
 
 namespace batten {
 
@@ -47,6 +48,10 @@ class ScanPanel : public QWidget {
   void pageChosen(const batten::PageChoice& page);
 
  private:
+  QVBoxLayout* column() const;
+  void buildPages();
+  void buildScale(ViewSettings& view);
+  void buildPaper();
   void setDpi(std::optional<double> dpi);
   void refreshPage(const Scan* scan);
   void refreshPaper();

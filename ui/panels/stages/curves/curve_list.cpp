@@ -195,8 +195,7 @@ void CurveList::showFairness() {
   }
 }
 
-void CurveList::judge() {
-  if (!isVisible()) return;
+std::shared_ptr<const CurveList::Judgements> CurveList::wantedJudgements() const {
   auto wanted = std::make_shared<Judgements>();
   bool isAllKnown = true, isAsked = asked_ != nullptr;
   const auto curves = session_.curves();
@@ -209,57 +208,64 @@ void CurveList::judge() {
     isAsked = isAsked && i < asked_->size() && (*asked_)[i].curve == one.curve && (*asked_)[i].closed == one.closed;
     wanted->push_back(std::move(one));
   }
-  if (isAllKnown || isAsked) return;
+  return isAllKnown || isAsked ? nullptr : wanted;
+}
+
+std::optional<CurveFairness> CurveList::fairnessOf(const Judgement& one, const Judgements* before) {
+  if (before) {
+    const auto same = [&](const Judgement& b) { return b.isJudged && b.closed == one.closed && b.curve == one.curve; };
+    const auto earlier = std::find_if(before->begin(), before->end(), same);
+    if (earlier != before->end() && earlier->fairness) return earlier->fairness;
+  }
+  // A curve that cannot be judged leaves the others theirs.
+  const auto judged = guarded<std::optional<CurveFairness>>(
+      [&]() -> Result<std::optional<CurveFairness>> { return curveFairness(one.curve, one.closed); });
+  return judged ? *judged : std::nullopt;
+}
+
+Result<CurveList::Judgements> CurveList::judgeAll(Judgements all, std::size_t first, const Judgements* before,
+                                                  const CancelToken& token,
+                                                  const std::function<void(const Judgements&)>& tell) {
+  QElapsedTimer sinceTold;
+  sinceTold.start();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (token.isCancelled()) return cancelled();
+    Judgement& one = all[(k + first) % all.size()];
+    if (one.isJudged) continue;
+    one.isJudged = true;
+    if (!one.fairness) one.fairness = fairnessOf(one, before);
+    if (k > 0 && sinceTold.elapsed() < kTellEveryMs) continue;
+    tell(all);
+    sinceTold.restart();
+  }
+  return all;
+}
+
+void CurveList::judge() {
+  if (!isVisible()) return;
+  const auto wanted = wantedJudgements();
+  if (!wanted) return;
   asked_ = wanted;
-  worker_->start([wanted, before = known_, first = session_.selectedCurve(),
-                  list = QPointer<CurveList>(this)](const CancelToken& token) {
-    const auto tell = [&](const Judgements& found, bool isAll) {
+  const auto first = static_cast<std::size_t>(std::max(0, session_.selectedCurve()));
+  worker_->start([wanted, before = known_, first, list = QPointer<CurveList>(this)](const CancelToken& token) {
+    const auto post = [&](const std::function<void(CurveList&)>& act) {
       if (token.isCancelled() || !list) return;
-      auto made = std::make_shared<const Judgements>(found);
       QMetaObject::invokeMethod(
           list.data(),
-          [list, made, wanted, isAll] {
-            if (list && list->asked_ == wanted) list->take(made, isAll);
+          [list, wanted, act] {
+            if (list && list->asked_ == wanted) act(*list);
           },
           Qt::QueuedConnection);
     };
-    const auto found = guarded<Judgements>([&]() -> Result<Judgements> {
-      Judgements all = *wanted;
-      QElapsedTimer sinceTold;
-      sinceTold.start();
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        if (token.isCancelled()) return cancelled();
-        Judgement& one = all[(k + static_cast<std::size_t>(std::max(0, first))) % all.size()];
-        if (one.isJudged) continue;
-        one.isJudged = true;
-        if (before) {
-          const auto same = [&](const Judgement& b) {
-            return b.isJudged && b.closed == one.closed && b.curve == one.curve;
-          };
-          const auto earlier = std::find_if(before->begin(), before->end(), same);
-          if (earlier != before->end()) one.fairness = earlier->fairness;
-        }
-        if (!one.fairness) {
-          // A curve that cannot be judged leaves the others theirs.
-          const auto judged = guarded<std::optional<CurveFairness>>(
-              [&]() -> Result<std::optional<CurveFairness>> { return curveFairness(one.curve, one.closed); });
-          if (judged) one.fairness = *judged;
-        }
-        if (k > 0 && sinceTold.elapsed() < kTellEveryMs) continue;
-        tell(all, false);
-        sinceTold.restart();
-      }
-      return all;
+    const auto tell = [&](const Judgements& found, bool isAll) {
+      post([made = std::make_shared<const Judgements>(found), isAll](CurveList& its) { its.take(made, isAll); });
+    };
+    const auto found = guarded<Judgements>([&] {
+      return judgeAll(*wanted, first, before.get(), token, [&](const Judgements& soFar) { tell(soFar, false); });
     });
     if (found) return tell(*found, true);
-    if (token.isCancelled() || !list) return;
     // What could not be found may be asked for again.
-    QMetaObject::invokeMethod(
-        list.data(),
-        [list, wanted] {
-          if (list && list->asked_ == wanted) list->asked_.reset();
-        },
-        Qt::QueuedConnection);
+    post([](CurveList& its) { its.asked_.reset(); });
   });
 }
 

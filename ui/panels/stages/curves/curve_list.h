@@ -2,9 +2,13 @@
 #pragma once
 
 #include <QListWidget>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/base/cancel_token.h"
+#include "core/base/result.h"
 #include "core/fairing/curve_fairness.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/judged_curve.h"
@@ -46,6 +50,13 @@ class CurveList : public QListWidget {
   void showFairness();
   /// Asks for what is not known of the curves that are shown.
   void judge();
+  /// The curves that are shown, with what is known of them; null where all is known, or asked for.
+  std::shared_ptr<const Judgements> wantedJudgements() const;
+  /// Judges what is not judged yet, the curve `first` before all others, and tells from time to time what it has.
+  /// @param before what may be taken over; null: nothing
+  static Result<Judgements> judgeAll(Judgements all, std::size_t first, const Judgements* before,
+                                     const CancelToken& token, const std::function<void(const Judgements&)>& tell);
+  static std::optional<CurveFairness> fairnessOf(const Judgement& one, const Judgements* before);
   void take(const std::shared_ptr<const Judgements>& found, bool isAll);
   EditorSession& session_;
   Judged judged_;

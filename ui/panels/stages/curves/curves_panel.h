@@ -51,11 +51,4 @@ class CurvesPanel : public QWidget {
   GrowingControls* growing_;
 };
 
-/// Height and density of the curvature comb; a matter of view, not of the drawing.
-class CombControls : public QWidget {
-  Q_OBJECT
- public:
-  explicit CombControls(ViewSettings& view, QWidget* parent = nullptr);
-};
-
 }  // namespace batten

@@ -15,8 +15,7 @@ Result<ExportReport> runExport(const ExportRequest& request, const RunContext& c
   try {
     const ExportDocument document = documentOf(request);
     if (document.curves.empty())
-      return fail(ErrorCode::NoCurve,
-                  "There is no curve to export. Include at least one curve (the eye in the list).");
+      return fail(ErrorCode::NoCurve, "There is no curve to export. Include at least one curve (the eye in the list).");
     return exportToFile(document, request.settings, request.path, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to export. Close other programs or exclude some curves.");

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/fairing_figures.h"
+
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/target_advice.h"
+#include "ui/panels/stages/fairing_panel.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/judged_curve.h"
+
+namespace batten {
+namespace {
+
+using Cell = FigureTable::Cell;
+
+Cell noFigure() { return {QStringLiteral("–")}; }
+
+QString millimetresOfMove(double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); }
+
+/// What to take where a target is too far away.
+QString insteadOf(FairingTarget target) {
+  if (target == FairingTarget::Drawn) return FairingPanel::tr("choose or draw a profile that is nearer to its own");
+  if (target == FairingTarget::LogAesthetic) return FairingPanel::tr("choose another alpha or more spans");
+  return FairingPanel::tr("choose a higher degree or more spans");
+}
+
+bool wasFaired(const TracedCurve& curve) {
+  return !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None;
+}
+
+/// The polynomial target that the curve follows, or that of the span which is pointed at; none while it is not known.
+std::optional<int> shownDegree(const EditorSession& session, const TracedCurve& curve) {
+  const auto targets = session.targets();
+  int degree = degreeOf(curve.fairingUsed.target).value_or(0);
+  if (targets && curve.fairingUsed.target == FairingTarget::Recommended) degree = targets->recommendedDegree;
+  if (session.pointedSpan()) degree = chosenSpanTarget(session);
+  return degree > 0 ? std::optional(degree) : std::nullopt;
+}
+
+void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& session, const TracedCurve& curve) {
+  const auto targets = session.targets();
+  const auto degree = shownDegree(session, curve);
+  if (!targets || !wasFaired(curve) || curve.fairingUsed.mode != FairingMode::Target || !degree) return;
+  const TargetProfile& profile = targets->targets.profiles[*degree - 1];
+  const auto& after = curve.fairing.similarityAfter;
+  rows.push_back({FairingPanel::tr("Similarity S"),
+                  {{similarityText(profile.similarity)}, after ? Cell{similarityText(*after)} : noFigure()},
+                  FairingPanel::tr("Similarity of the sketched profile to the target; 1 is identical. Faired: "
+                                   "similarity of the faired to the sketched profile. Of radii, or where the line has "
+                                   "inflections, of curvatures.")});
+  rows.push_back({FairingPanel::tr("Monotone target"),
+                  {noFigure(), {profile.isMonotone ? FairingPanel::tr("yes") : FairingPanel::tr("no")}},
+                  FairingPanel::tr("A monotone profile adds no curvature extremum.")});
+}
+
+}  // namespace
+
+std::vector<FigureTable::Row> noFairingRows() {
+  return {{FairingPanel::tr("No curve selected"), {noFigure(), noFigure()}, {}}};
+}
+
+std::vector<FigureTable::Row> fairingRows(const EditorSession& session, const TracedCurve& curve) {
+  const bool faired = wasFaired(curve);
+  const CurveFigures &before = curve.sketchedFigures, &after = curve.fairedFigures;
+  const FairingReport& report = curve.fairing;
+  const bool over = faired && report.maxDeviationMm > curve.fairingUsed.toleranceMm * (1 + 1e-9);
+  const int extrema = report.roundedMm > 0.0 ? report.extremaAfter : after.extrema;
+  std::vector<FigureTable::Row> rows = {
+      {FairingPanel::tr("Curvature extrema"),
+       {{QString::number(before.extrema)}, faired ? Cell{QString::number(extrema)} : noFigure()},
+       FairingPanel::tr("Local maxima and minima of the curvature: fewer is fairer. Those of rounded corners are "
+                        "counted in the list and in files, not here.")},
+      {FairingPanel::tr("Moved at most, mm"),
+       {noFigure(), faired ? Cell{millimetresOfMove(report.maxDeviationMm), over} : noFigure()},
+       FairingPanel::tr("Largest distance of the faired curve from the sketched one; never above the tolerance.")},
+      {FairingPanel::tr("Deviation from line, mm"),
+       {{millimetresOfMove(before.fromPoints.max)},
+        faired ? Cell{millimetresOfMove(after.fromPoints.max)} : noFigure()},
+       FairingPanel::tr("Largest distance of an edge point of the scan from the curve.")}};
+  if (report.roundedMm > 0.0) {
+    rows.push_back({FairingPanel::tr("Rounded by, mm"),
+                    {noFigure(), {millimetresOfMove(report.roundedMm)}},
+                    FairingPanel::tr("Largest move of the curve by corner rounding, not counting fairing.")});
+  }
+  addTargetRows(rows, session, curve);
+  return rows;
+}
+
+FairingNote fairingNote(const TracedCurve& curve) {
+  const FairingReport& report = curve.fairing;
+  FairingNote said{isLeftAsDrawn(curve) ? whyLeftAsDrawn(curve) : QString::fromStdString(report.note), {}};
+  if (!wasFaired(curve) || report.withinTolerance) return said;
+  if (said.text.isEmpty())
+    said.text = curve.fairingUsed.mode == FairingMode::LowPass
+                    ? FairingPanel::tr("The tolerance is too small to follow the filtered curvature.")
+                    : FairingPanel::tr("The tolerance is too small to reach the target.");
+  const bool isMore = report.neededMm > curve.fairingUsed.toleranceMm;
+  const bool isSensible = report.neededMm <= mostSensibleToleranceMm(curve.sketched);
+  if (isMore && isSensible) said.neededMm = report.neededMm;
+  if (isMore && !isSensible && curve.fairingUsed.mode == FairingMode::Target)
+    said.text += FairingPanel::tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
+                     .arg(millimetres(report.neededMm), insteadOf(curve.fairingUsed.target));
+  return said;
+}
+
+}  // namespace batten

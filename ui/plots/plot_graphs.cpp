@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plots/plot_graphs.h"
+
+#include <qcustomplot.h>
+
+#include <algorithm>
+
+#include "ui/plots/plot_style.h"
+
+namespace batten {
+namespace {
+
+void drawBand(QCustomPlot& plot, const PlotData& data, const Theme& theme) {
+  if (data.bandS.size() < 2) return;
+  QCPGraph* low = plot.addGraph();
+  QCPGraph* high = plot.addGraph();
+  const auto vector = [](const std::vector<double>& v) { return QVector<double>(v.begin(), v.end()); };
+  low->setData(vector(data.bandS), vector(data.bandLow), true);
+  high->setData(vector(data.bandS), vector(data.bandHigh), true);
+  low->setPen(Qt::NoPen);
+  high->setPen(Qt::NoPen);
+  QColor fill = theme.mute;
+  fill.setAlphaF(0.18F);
+  high->setBrush(fill);
+  high->setChannelFillGraph(low);
+}
+
+void drawMarks(QCustomPlot& plot, const PlotData& data, const Theme& theme) {
+  for (const ExtremumMark& mark : data.marks) {
+    QColor faint = theme.accent;
+    faint.setAlphaF(0.4F);
+    const QColor line = mark.wantedToKeep ? theme.amber : mark.isKept ? theme.accent : theme.mute;
+    const QColor fill = !mark.isKept ? theme.panel : mark.isCertain ? theme.accent : faint;
+    QCPGraph* graph = plot.addGraph();
+    graph->setData({mark.s}, {mark.kappa}, true);
+    graph->setLineStyle(QCPGraph::lsNone);
+    graph->setScatterStyle(
+        QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(line, mark.wantedToKeep ? 2.2 : 1.5), fill, 9));
+    graph->setAntialiasedScatters(true);
+  }
+}
+
+void drawLines(QCustomPlot& plot, const PlotData& data, PlotTab tab, const Theme& theme) {
+  // A curve that is judged alone is drawn as the one that counts.
+  const bool isAlone =
+      tab != PlotTab::Deviation && std::none_of(data.series.begin(), data.series.end(),
+                                                [](const auto& one) { return one.role == PlotRole::Faired; });
+  for (const PlotSeries& series : data.series) {
+    QCPGraph* graph = plot.addGraph();
+    graph->setData(QVector<double>(series.s.begin(), series.s.end()),
+                   QVector<double>(series.value.begin(), series.value.end()), true);
+    graph->setPen(penOf(isAlone && series.role == PlotRole::Sketched ? PlotRole::Faired : series.role, theme));
+    if (series.role == PlotRole::Joint) {
+      graph->setLineStyle(QCPGraph::lsNone);
+      graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, theme.text, theme.panel, 5.0));
+    }
+    graph->setAntialiased(true);
+  }
+}
+
+}  // namespace
+
+void drawGraphs(QCustomPlot& plot, const PlotData& data, PlotTab tab, const Theme& theme) {
+  drawBand(plot, data, theme);
+  drawLines(plot, data, tab, theme);
+  drawMarks(plot, data, theme);
+}
+
+}  // namespace batten
