@@ -16,8 +16,8 @@ namespace batten {
 namespace {
 
 constexpr int kFairnessSamples = 121;
-/// [mm] Extrema that move a closed curve less go, but for the four that it must have.
-constexpr double kFewestExtremaMm = 2.0;
+/// [mm] A tolerance that leaves a closed curve the four extrema that it must have.
+constexpr double kFewestExtremaMm = 20.0;
 /// Of the largest curvature: a curve whose curvature stays within this is a circle.
 constexpr double kEvenCurvature = 1e-6;
 
@@ -74,7 +74,7 @@ PartFairness fairnessOfPart(const NurbsCurve& curve, bool closed) {
   const auto [low, high] = std::minmax_element(samples.kappa.begin(), samples.kappa.end());
   const double largest = std::max(std::abs(*low), std::abs(*high));
   if (largest * size <= kStraightCurvature || *high - *low <= kEvenCurvature * largest) return result;
-  const std::vector<double> splits = closed ? significantSplits(curve, true, kFewestExtremaMm) : std::vector<double>{};
+  const std::vector<double> splits = closed ? naturalSplits(curve, true, kFewestExtremaMm) : std::vector<double>{};
   const ProfileData data =
       profileData(std::move(samples.perimeter), std::move(samples.kappa), size, TargetQuantity::Curvature);
   result.similarity = monotoneSimilarity(data, splits, closed);

@@ -12,7 +12,6 @@
 #include "core/fairing/structure/fair_as_needed.h"
 #include "core/fairing/structure/monotone_fairing.h"
 #include "core/fairing/structure/tolerance_fairing.h"
-#include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/log_aesthetic.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
@@ -47,7 +46,7 @@ TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
     if (job.spanAt) {
       outcomes.splits = targetSplits(job.curve, job.closed, job.params);
       outcomes.span = spanBetween(outcomes.splits, *job.spanAt, job.closed);
-      run.levels = {{{}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span)}};
+      run.levels = {{{}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span), false}};
     } else {
       run.levels = targetLevels(job.curve, job.closed, job.params);
       outcomes.splits = run.levels.front().splits;
@@ -167,8 +166,8 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     return modifyShape(curve, closed, drawn, params, context);
   }
   if (params.target == FairingTarget::LogAesthetic) {
-    const auto target = logAestheticTarget(withoutTremor(curve, closed, params), closed,
-                                           targetSplits(curve, closed, params), params.alpha, params.targets.samples);
+    const auto target =
+        logAestheticTarget(curve, closed, targetSplits(curve, closed, params), params.alpha, params.targets.samples);
     if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem);
     auto faired = withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
       return modifyShape(setup, target.profile, within.toleranceMm, context);

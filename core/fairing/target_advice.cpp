@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/curve/curvature.h"
-#include "core/fairing/model/fairing_setup.h"
 
 namespace batten {
 namespace {
@@ -13,6 +12,8 @@ namespace {
 constexpr double kStillTarget = 1e-3;
 /// A profile less like the sketch than this says nothing about it. Of a line with waves that go, S may be 0.4.
 constexpr double kLeastSimilarity = 0.2;
+/// Of the extent: a car's roof of 250 mm may move by 5 mm.
+constexpr double kSensibleShare = 0.02;
 constexpr double kLargestToleranceMm = 20.0;  // of the parameter
 
 }  // namespace

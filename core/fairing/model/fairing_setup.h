@@ -16,9 +16,6 @@
 
 namespace batten {
 
-/// Of the extent: who moves a curve farther makes another shape of it. A car's roof of 250 mm may move by 5 mm.
-inline constexpr double kSensibleShare = 0.02;
-
 /// What all fairings of one curve share. Never changes once made; owned by a shared_ptr because curves refer to
 /// `basis`.
 struct FairingSetup {

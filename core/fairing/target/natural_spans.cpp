@@ -7,18 +7,18 @@
 #include <numbers>
 #include <utility>
 
-#include "core/curve/curvature.h"
 #include "core/curve/curvature_structure.h"
 #include "core/fairing/profile/curvature_samples.h"
 
 namespace batten {
 namespace {
 
-/// [mm] Moves that part the levels of splits.
-constexpr std::array kSplitSeries = {0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01,
-                                     0.02,   0.05,   0.1,    0.2,   0.5,   1.0,   2.0};
-/// An extremum is natural whose removal moves the curve by this [mm], and by this share of its size.
-constexpr double kNaturalMoveMm = 0.02, kNaturalShare = 1e-4;
+/// [mm] Tolerances at which the natural spans change.
+constexpr std::array kSeries = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
+/// Part of the tolerance by which the removal of an extremum must move the curve, for it to part two spans.
+constexpr double kTriflingShare = 0.1;
+/// The series holds a tolerance that rounding has made a trifle smaller.
+constexpr double kSeriesRounding = 1.0 - 1e-9;
 constexpr int kLeastSamples = 241;
 /// Share of the length below which a part is none.
 constexpr double kLeastSpan = 5e-3;
@@ -36,13 +36,13 @@ class NaturalSpans {
     levels_ = structureLevels(s, std::span(samples_.kappa).first(count), samples_.lengthMm, closed);
   }
 
-  std::vector<double> splits(double leastMm) const {
+  std::vector<double> splits(double toleranceMm) const {
     std::vector<double> result;
     if (levels_.empty()) return result;
     std::size_t level = 0;
-    while (level + 1 < levels_.size() && levels_[level + 1].estimateMm < leastMm) ++level;
+    while (level + 1 < levels_.size() && levels_[level + 1].estimateMm < kTriflingShare * toleranceMm) ++level;
     const auto& extrema = levels_[level].structure.extrema;
-    if (closed_ && areTrifles(extrema, leastMm)) return result;
+    if (closed_ && areTrifles(extrema, kTriflingShare * toleranceMm)) return result;
     for (const StructureExtremum& extremum : extrema) result.push_back(samples_.perimeter[extremum.sample]);
     std::sort(result.begin(), result.end());
     std::erase_if(result, [this](double f) { return f <= (closed_ ? 0.0 : kLeastSpan) || f >= 1.0 - kLeastSpan; });
@@ -73,40 +73,24 @@ class NaturalSpans {
   std::vector<StructureLevel> levels_;
 };
 
-double naturalMoveMm(const NurbsCurve& curve) {
-  return curve.isEmpty() ? kNaturalMoveMm : std::max(kNaturalMoveMm, kNaturalShare * extent(curve));
+/// Of the series, this one and the smaller ones.
+auto seriesFrom(double toleranceMm) {
+  return std::find_if(kSeries.begin(), kSeries.end() - 1,
+                      [&](double one) { return one * kSeriesRounding <= toleranceMm; });
 }
 
 }  // namespace
 
-std::vector<double> significantSplits(const NurbsCurve& curve, bool closed, double leastMm) {
-  return NaturalSpans(curve, closed).splits(leastMm);
+std::vector<double> naturalSplits(const NurbsCurve& curve, bool closed, double toleranceMm) {
+  return NaturalSpans(curve, closed).splits(*seriesFrom(toleranceMm));
 }
 
-std::vector<double> naturalSplits(const NurbsCurve& curve, bool closed) {
-  return std::move(naturalSplitLevels(curve, closed).front().splits);
-}
-
-std::vector<SplitLevel> naturalSplitLevels(const NurbsCurve& curve, bool closed) {
+std::vector<std::vector<double>> naturalSplitLevels(const NurbsCurve& curve, bool closed, double toleranceMm) {
   const NaturalSpans spans(curve, closed);
-  const double natural = naturalMoveMm(curve);
-  std::vector<SplitLevel> levels;
-  const auto add = [&levels](std::vector<double> splits) {
-    if (std::ssize(splits) <= kMostSplits && (levels.empty() || splits.size() < levels.back().splits.size()))
-      levels.push_back({std::move(splits), false});
-  };
-  add(spans.splits(natural));
-  for (const double move : kSplitSeries)
-    if (move > natural) add(spans.splits(move));
-  add({});
-  std::size_t most = levels.front().splits.size();
-  for (auto move = kSplitSeries.rbegin(); move != kSplitSeries.rend(); ++move) {
-    if (!(*move < natural)) continue;
-    auto splits = spans.splits(*move);
-    if (std::ssize(splits) > kMostSplits) break;
-    if (splits.size() <= most) continue;
-    most = splits.size();
-    levels.push_back({std::move(splits), true});
+  std::vector<std::vector<double>> levels;
+  for (auto at = seriesFrom(toleranceMm); at != kSeries.end(); ++at) {
+    auto splits = spans.splits(*at);
+    if (levels.empty() || splits.size() > levels.back().size()) levels.push_back(std::move(splits));
   }
   return levels;
 }

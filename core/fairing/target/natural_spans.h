@@ -4,29 +4,18 @@
 #include <vector>
 
 #include "core/curve/nurbs_curve.h"
+#include "core/fairing/fairing_params.h"
 #include "core/fairing/profile/radius_target.h"
 
 namespace batten {
 
 /// Shares of the arc length, ascending and inside 0..1, of the curvature extrema whose removal would move the curve by
-/// `leastMm` or more (the estimate of structureLevels).
-std::vector<double> significantSplits(const NurbsCurve&, bool closed, double leastMm);
+/// a tenth of the tolerance or more (the estimate of structureLevels). So that they do not change with every step of a
+/// slider, the tolerance counts as the next lower one of the series 1, 2, 5, 10 …
+std::vector<double> naturalSplits(const NurbsCurve&, bool closed, double toleranceMm);
 
-/// A profile of more polynomials says nothing that the curve does not say itself.
-inline constexpr int kMostSplits = 24;
-
-/// Those of the natural extrema, whose removal would move the curve by 0.02 mm and by 1/10000 of its size; of a curve
-/// with more than kMostSplits of them those of the most significant ones. They
-/// depend on the curve alone, so that a target is the same target at every tolerance.
-std::vector<double> naturalSplits(const NurbsCurve&, bool closed);
-
-/// The natural splits first, then fewer and fewer down to none, then more and more, but no more than kMostSplits: those
-/// of the moves 1, 2, 5, 10 ... Without repetitions.
-struct SplitLevel {
-  std::vector<double> splits;
-  bool isFiner = false;  ///< More splits than the natural ones.
-};
-std::vector<SplitLevel> naturalSplitLevels(const NurbsCurve&, bool closed);
+/// The same for this and every smaller tolerance of the series, without repetitions, fewest splits first. Never empty.
+std::vector<std::vector<double>> naturalSplitLevels(const NurbsCurve&, bool closed, double toleranceMm);
 
 /// The part between two splits in which a place lies; with one split or none of a closed curve all of it.
 ProfileSpan spanBetween(const std::vector<double>& splits, double at, bool closed);

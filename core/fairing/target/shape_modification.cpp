@@ -75,7 +75,7 @@ class ShapeModification {
         asked_(effort.asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
     if (effort.asked == ExtremaAsked::UpToSketch)
       asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed, setup->check));
-    if (onlyIfMet_) mostMm_ = std::max(kBeyondReach * toleranceMm, kSensibleShare * setup->extent);
+    if (onlyIfMet_) mostMm_ = kBeyondReach * toleranceMm;
     openAll(setup);
     // One that comes to its target decides together with the others, which are then followed to the end.
     const auto endsEarly = [](const Course& course) { return course.steps.endsEarly(); };
@@ -100,18 +100,16 @@ class ShapeModification {
     best_.misfit = before->misfit;
     best_.extrema = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
     report_.objectiveBefore = std::sqrt(best_.misfit);
-    const TargetStep* nearest = nullptr;
-    report_.extremaOnTheWay = best_.extrema;
+    double nearest = std::numeric_limits<double>::max();
     for (const Course& course : courses_) {
       const TargetStep& full = course.steps.all().front();
-      if (!nearest || isNearer(full, *nearest)) nearest = &full;
+      if (full.misfit < nearest) report_.neededMm = full.deviationMm;
+      nearest = std::min(nearest, full.misfit);
       for (const TargetStep& step : course.steps.all()) {
-        report_.extremaOnTheWay = std::min(report_.extremaOnTheWay, step.extrema);
         if (isWithin(step)) take(step, &course);
       }
     }
-    report_.neededMm = nearest->deviationMm;
-    report_.withinTolerance = !courses_.front().steps.endsEarly() && isWithin(*nearest);
+    report_.withinTolerance = !courses_.front().steps.endsEarly() && report_.neededMm <= kTargetRoom * toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     for (const double tolerance : kRoundTolerances) {
       if (tolerance <= toleranceMm_) useRound(tolerance);
@@ -151,12 +149,9 @@ class ShapeModification {
   /// Extrema that the target itself has are no fault.
   int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
 
-  bool isNearer(const TargetStep& a, const TargetStep& b) const {
-    return rank(a) < rank(b) || (rank(a) == rank(b) && a.misfit < b.misfit);
-  }
-
   void take(const TargetStep& step, const Course* course) {
-    if (!isNearer(step, best_)) return;
+    const bool better = rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit);
+    if (!better) return;
     best_ = step;
     course_ = course;
   }
@@ -261,13 +256,10 @@ class ShapeModification {
       report_.note = report_.withinTolerance ? kTargetAddsExtrema : kNothingNearer;
       report_.withinTolerance = false;
     } else if (report_.withinTolerance && course_ && best_.weight > course_->steps.all().front().weight) {
-      // The tolerance would have allowed more.
-      report_.why = Termination::ToleranceLimited;
-      report_.note = kFollowedWithoutExtrema;
-      report_.withinTolerance = false;
+      report_.note = kFollowedWithoutExtrema;  // the tolerance is not what stopped it
     } else if (!report_.withinTolerance) {
       report_.why = Termination::ToleranceLimited;
-      report_.note = kFollowedWithinTolerance;
+      report_.note = "The profile was followed as far as the tolerance allows.";
       if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
       // The corridor had room left: it was not what stopped the curve.
       report_.note = own.isRough() ? "The profile is far out of reach for this curve. Split it, or mark the corners."

@@ -20,9 +20,6 @@ namespace batten {
 Result<FairedCurve> modifyShape(const NurbsCurve&, bool closed, const TargetProfile&, const FairingParams&,
                                 const RunContext&);
 
-/// The note of a profile that only a larger tolerance lets the curve follow further.
-inline constexpr const char* kFollowedWithinTolerance = "The profile was followed as far as the tolerance allows.";
-
 /// How many curvature extrema count as none too many, beside the nearness to the profile.
 enum class ExtremaAsked {
   None,        ///< As few as can be.

@@ -124,7 +124,8 @@ TEST(LargerTolerance, WhatATargetOrANumberOfExtremaNeedsDoesNotDependOnIt) {
     for (const Asked& asked :
          {Asked{FairingMode::Target, 1}, Asked{FairingMode::Target, 4}, Asked{FairingMode::Monotone, i % 4}}) {
       FairingParams params = paramsOf(asked.mode, asked.choice);
-      params.targets.spans = i % 2 == 0 ? TargetSpans::Whole : TargetSpans::Natural;
+      // One and the same target: natural spans are other ones for another tolerance.
+      params.targets.spans = TargetSpans::Whole;
       double needed = -1.0;
       for (const double tolerance : kTolerances) {
         params.toleranceMm = tolerance;
@@ -132,41 +133,10 @@ TEST(LargerTolerance, WhatATargetOrANumberOfExtremaNeedsDoesNotDependOnIt) {
                                         << asked.choice << ", tolerance " << tolerance);
         const auto faired = fair(line, false, params, {});
         ASSERT_TRUE(faired);
-        const FairingReport& report = faired->report;
-        if (needed < 0.0) needed = report.neededMm;
-        EXPECT_DOUBLE_EQ(report.neededMm, needed);
-        // Where the tolerance would do, extrema that the whole target adds may still stop it: then the note says so.
-        const bool wouldDo = needed <= 0.999 * tolerance;
-        EXPECT_TRUE(report.withinTolerance ? wouldDo : !wouldDo || report.note.find("extrem") != std::string::npos)
-            << needed << ": " << report.note;
+        if (needed < 0.0) needed = faired->report.neededMm;
+        EXPECT_DOUBLE_EQ(faired->report.neededMm, needed);
+        EXPECT_EQ(faired->report.withinTolerance, needed <= 0.999 * tolerance);
       }
-    }
-  }
-}
-
-/// Whatever target is asked for: fewer extrema, or the target is met now and was not, or it is the same curve or one
-/// that is as near.
-TEST(LargerTolerance, NeverGivesAWorseCurveOfATarget) {
-  std::mt19937 random(313);
-  for (int i = 0; i < (lineCount() + 1) / 2; ++i) {
-    const NurbsCurve line = randomLine(random);
-    FairingParams params = paramsOf(FairingMode::Target, 1 + i % 6);
-    std::optional<FairingReport> before;
-    for (double tolerance = 0.02 * std::pow(1.7, i % 4); tolerance < 18.0; tolerance *= 2.7) {
-      params.toleranceMm = tolerance;
-      SCOPED_TRACE(testing::Message() << "line " << i << ", target " << 1 + i % 6 << ", tolerance " << tolerance);
-      const auto faired = fair(line, false, params, {});
-      ASSERT_TRUE(faired) << faired.error().message;
-      const FairingReport& report = faired->report;
-      if (before) {
-        EXPECT_LE(report.extremaAfter, before->extremaAfter);
-        EXPECT_DOUBLE_EQ(report.neededMm, before->neededMm);
-        if (before->withinTolerance && report.extremaAfter == before->extremaAfter) {
-          EXPECT_TRUE(report.withinTolerance) << report.note;
-          EXPECT_LE(report.maxDeviationMm, before->maxDeviationMm * (1.0 + 1e-9));
-        }
-      }
-      before = report;
     }
   }
 }

@@ -178,8 +178,7 @@ void FairingPanel::buildLinks() {
   split_->setText(tr("Natural spans"));
   split_->setToolTip(
       tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
-         "less than 0.02 mm or less than 1/10 000 of its size do not count. Radius profiles and edge lengths have one "
-         "polynomial."));
+         "less than a tenth of the tolerance do not count. Radius profiles and edge lengths have one polynomial."));
   unsplit_->setText(tr("One polynomial for the whole curve"));
   unsplit_->setToolTip(tr("Joins all spans, as in the papers."));
   whole_->setText(tr("Targets for the whole curve"));
