@@ -133,9 +133,8 @@ RefinedStrokes placeStrokePaths(const std::vector<StrokePath>& paths, const Grai
   return all;
 }
 
-// [grey] by which a stroke is darker than the paper on both its sides. A stroke of which the grain was closed, and a
-// small loop that was closed with it, has paper within: only its `ink` counts.
-double depthOf(const StrokePath& s, const GreyImage& grey, const BitImage& ink) {
+// [grey] by which a stroke is darker than the paper on both its sides.
+double depthOf(const StrokePath& s, const GreyImage& grey) {
   constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;
   const auto level = [&](const Vec2& at) {
     return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
@@ -147,17 +146,8 @@ double depthOf(const StrokePath& s, const GreyImage& grey, const BitImage& ink) 
     const Vec2 along = s.points[i + 1].at - s.points[i - 1].at;
     if (!(along.norm() > 0.0)) continue;
     const double beside = kBesideWidths * 2.0 * static_cast<double>(s.points[i].radius) + kTakenBesidePx;
-    const Vec2 across = leftNormal(along.normalized()), away = beside * across, &at = s.points[i].at;
-    double inked = 0.0;
-    int on = 0;
-    const int reach = static_cast<int>(s.points[i].radius);
-    for (int u = -reach; u <= reach; ++u) {
-      const Vec2 place = at + u * across;
-      if (!ink.at(static_cast<int>(place.x()), static_cast<int>(place.y()))) continue;
-      inked += level(place);
-      ++on;
-    }
-    sum += 0.5 * (level(at + away) + level(at - away)) - (on > 0 ? std::min(inked / on, level(at)) : level(at));
+    const Vec2 away = beside * leftNormal(along.normalized()), &at = s.points[i].at;
+    sum += 0.5 * (level(at + away) + level(at - away)) - level(at);
     ++count;
   }
   return count > 0 ? sum / count : 0.0;
@@ -165,8 +155,8 @@ double depthOf(const StrokePath& s, const GreyImage& grey, const BitImage& ink) 
 
 // Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
 // of its own: such are kept only where they are as dark as the strokes around.
-void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const BitImage& strokes, double minWidths,
-               bool anyPencil, const RunContext& context) {
+void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double minWidths, bool anyPencil,
+               const RunContext& context) {
   constexpr double kGrainWidths = 2.5;  // times the shortest: longer ones are no grain
   constexpr double kAsDark = 0.8;
   // A free end of a skeleton lies half a width before that of its ink.
@@ -183,7 +173,7 @@ void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const BitI
     const double widths = widthsOf(s);
     bool drop = s.points.size() < 3 || widths < minWidths;
     if (!drop && grain && grain->isPencil(i) && widths < kGrainWidths * minWidths)
-      drop = depthOf(s, grey, strokes) < kAsDark * grain->depthAt(s.points[s.points.size() / 2].at);
+      drop = depthOf(s, grey) < kAsDark * grain->depthAt(s.points[s.points.size() / 2].at);
     isDropped.push_back(drop);
   }
   std::vector<StrokePath> kept;
@@ -238,7 +228,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
-  dropShort(paths, grey, strokes, options.minWidths, anyPencil, context);
+  dropShort(paths, grey, options.minWidths, anyPencil, context);
   if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
   RefinedStrokes placedStrokes;

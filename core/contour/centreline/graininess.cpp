@@ -4,10 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <optional>
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
@@ -33,8 +29,7 @@ constexpr int kLeastStride = 3;                // points: neighbouring samples s
 constexpr int kGrainEvery = 8;                 // points: regions are far larger
 constexpr double kLeastDepth = 2.0;            // [grey]
 constexpr double kMostDeviation = 0.12;        // of the depth: what is farther off is an end, a crossing or a gap
-constexpr double kGridPx = 4.0;        // [px] the middle of a narrower line is as near to the steps of its borders
-constexpr double kSmallerOfTwo = 1.7;  // mean of |x| over that of the smaller of two, for normal deviates
+constexpr double kSmallerOfTwo = 1.7;          // mean of |x| over that of the smaller of two, for normal deviates
 
 struct GrainSample {
   Vec2 at = Vec2::Zero();
@@ -84,19 +79,6 @@ float softGrey(const GreyImage& grey, const Vec2& at) {
                      sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
 }
 
-// The grey of a stroke at its middle. A skeleton is a pixel off it now and then, which on a stroke a few pixels wide is
-// seen as paper: there the mean across the stroke, which does not depend on where exactly its middle is.
-float greyOfMiddle(const GreyImage& grey, const Vec2& at, const Vec2& normal, double widthPx) {
-  constexpr double kOffMiddlePx = 2.5, kMostOffPx = 2.0, kStepPx = 0.5;  // to the border of a stroke; beyond the middle
-  const int steps = static_cast<int>(std::clamp(kOffMiddlePx - 0.5 * widthPx, 0.0, kMostOffPx) / kStepPx);
-  float sum = softGrey(grey, at);
-  for (int k = 1; k <= steps; ++k) {
-    const Vec2 off = k * kStepPx * normal;
-    sum += softGrey(grey, at + off) + softGrey(grey, at - off);
-  }
-  return sum / static_cast<float>(2 * steps + 1);
-}
-
 std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, int most) {
   std::vector<GrainSample> samples;
   if (path.points.size() < kFewestPathPoints) return samples;
@@ -107,7 +89,7 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
   for (int i = 0; i < n; ++i) {
     const CoursePoint& p = course.points[i];
     const Vec2 normal = leftNormal(p.tangent);
-    lanes[i][0] = greyOfMiddle(grey, p.base, normal, course.widthPx);
+    lanes[i][0] = softGrey(grey, p.base);
     for (int k = 0; k < 3; ++k) {
       const double off = 0.5 * course.widthPx + kBeside[k];
       lanes[i][1 + k] = softGrey(grey, p.base + off * normal);
@@ -155,28 +137,6 @@ double valueAt(const RegionValues& values, const Vec2& px, int width, int height
   return std::lerp(std::lerp(at(0, 0), at(1, 0), u - x), std::lerp(at(0, 1), at(1, 1), u - x), v - y);
 }
 
-// Whether a page has two levels, nothing between: grain is told from greys, and there are none.
-bool hasTwoLevels(const GreyImage& grey) {
-  constexpr int kSame = static_cast<int>(16 * GreyImage::kGreyUnit);
-  if (grey.width <= 0 || grey.height <= 0) return false;
-  const int first = grey.row(0)[0];
-  std::optional<int> second;
-  std::ptrdiff_t onSecond = 0, others = 0;
-  constexpr std::ptrdiff_t kFewOthers = 50;  // specks
-  for (int y = 0; y < grey.height; ++y) {
-    const std::uint16_t* row = grey.row(y);
-    for (int x = 0; x < grey.width; ++x) {
-      const int level = row[x];
-      if (std::abs(level - first) < kSame) continue;
-      if (!second) second = level;
-      ++(std::abs(level - *second) < kSame ? onSecond : others);
-    }
-    if (others > kFewOthers && others > onSecond) return false;
-  }
-  constexpr int kOneIn = 100;  // of the pixels of the ink
-  return kOneIn * others <= onSecond;
-}
-
 }  // namespace
 
 GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyImage& grey, const RunContext& context)
@@ -204,8 +164,6 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   ink_ = filledRegions(regions, &GrainSum::ink);
   paper_ = filledRegions(regions, &GrainSum::paper);
   depth_ = filledRegions(regions, &GrainSum::depth);
-  // The steps of the grid along thin lines are no grain.
-  if (hasTwoLevels(grey) && medianWidth(paths, [](int) { return true; }) < kGridPx) return;
   for (int i = 0; i < std::ssize(paths); ++i) {
     const std::vector<StrokePathPoint>& points = paths[i].points;
     if (points.empty()) continue;
