@@ -79,11 +79,13 @@ constexpr double kWidthsPx[] = {2.0, 3.0, 5.0, 8.0, 12.0};
 struct EndScan {
   std::string name;
   test::PageStyle style;
-  double tellsFromPx;      // strokes this wide show what kind of end they have
-  double thinnestTaperPx;  // blur leaves thinner ones paler than half the contrast: their mask is in pieces
+  double tellsFromPx;  // strokes this wide show what kind of end they have
+  // Thinner ones are in pieces where blur leaves them paler than half the contrast; sharp ones are taken for pencil, of
+  // which a line ends where it is last seen.
+  double thinnestTaperPx;
 };
 std::vector<EndScan> scans() {
-  return {{"clean", test::cleanPage(), 3.0, 2.0},
+  return {{"clean", test::cleanPage(), 3.0, 3.0},
           {"scan", test::scannedPage(3), 5.0, 2.0},
           {"blurred", test::gradatedPage(7), 5.0, 3.0}};
 }
