@@ -46,7 +46,7 @@ TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
     if (job.spanAt) {
       outcomes.splits = targetSplits(job.curve, job.closed, job.params);
       outcomes.span = spanBetween(outcomes.splits, *job.spanAt, job.closed);
-      run.levels = {{{}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span), false}};
+      run.levels = {{{}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span)}};
     } else {
       run.levels = targetLevels(job.curve, job.closed, job.params);
       outcomes.splits = run.levels.front().splits;

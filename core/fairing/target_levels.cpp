@@ -45,12 +45,7 @@ std::vector<TargetLevel> targetLevels(const NurbsCurve& curve, bool closed, cons
     if (!levels.empty() && one.size() > kMostSplits) break;
     TargetParams targets = params.targets;
     targets.splits = one;
-    levels.push_back({std::move(one), fitTargets(curve, targets, closed), false});
-  }
-  if (!levels.front().splits.empty() && hasNaturalSpans(params.targets)) {
-    TargetParams whole = params.targets;
-    whole.spans = TargetSpans::Whole;
-    levels.push_back({{}, fitTargets(curve, whole, closed), true});
+    levels.push_back({std::move(one), fitTargets(curve, targets, closed)});
   }
   return levels;
 }
@@ -60,7 +55,6 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
                                     const RunContext& context, bool onlyIfMet) {
   std::optional<LevelOutcome> best;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (levels[i].isLastResort && best && best->faired.report.maxDeviationMm > 0.0) break;
     // No fewer than the extrema between the spans are looked for.
     const auto fewest = static_cast<int>(levels.front().splits.size());
     if (best && best->faired.report.extremaAfter <= fewest) break;

@@ -18,11 +18,10 @@ namespace batten {
 struct TargetLevel {
   std::vector<double> splits;
   TargetSet targets;
-  bool isLastResort = false;  ///< One polynomial for a curve that no natural spans have moved.
 };
 
 /// The targets over the splits that the parameters ask for. Of natural spans also those of smaller tolerances, whose
-/// curves are valid here too: fewest splits first; at last none. Never empty.
+/// curves are valid here too: fewest splits first. Never empty.
 std::vector<TargetLevel> targetLevels(const NurbsCurve&, bool closed, const FairingParams&);
 
 /// What one degree comes to.

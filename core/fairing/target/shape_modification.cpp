@@ -39,9 +39,6 @@ constexpr const char* kTargetAddsExtrema =
     "Unchanged: reaching this target adds curvature extrema. Choose another degree, split "
     "the profile, or use Smooth.";
 
-constexpr const char* kFollowedWithoutExtrema =
-    "The profile was followed as far as possible without adding a curvature extremum.";
-
 /// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
 /// are tried, until a few extrema are left.
 constexpr int kTrembles = 6;
@@ -255,15 +252,13 @@ class ShapeModification {
       report_.why = Termination::ToleranceLimited;
       report_.note = report_.withinTolerance ? kTargetAddsExtrema : kNothingNearer;
       report_.withinTolerance = false;
-    } else if (report_.withinTolerance && course_ && best_.weight > course_->steps.all().front().weight) {
-      report_.note = kFollowedWithoutExtrema;  // the tolerance is not what stopped it
     } else if (!report_.withinTolerance) {
       report_.why = Termination::ToleranceLimited;
       report_.note = "The profile was followed as far as the tolerance allows.";
       if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
       // The corridor had room left: it was not what stopped the curve.
       report_.note = own.isRough() ? "The profile is far out of reach for this curve. Split it, or mark the corners."
-                                   : kFollowedWithoutExtrema;
+                                   : "The profile was followed as far as possible without adding a curvature extremum.";
     }
   }
 
