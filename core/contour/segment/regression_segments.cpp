@@ -146,8 +146,11 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params, const 
     return {{{piece.points.front(), Vec2::UnitX(), piece.points.front(), piece.points.front()}}, 0.0};
   }
   switch (params.mode) {
-    case SegmentMode::Stations:
-      return toSegments(measured, stationsOf(measured, stationCount(measured, params), context));
+    case SegmentMode::Stations: {
+      const std::vector<FittedStation> stations = stationsOf(measured, stationCount(measured, params), context);
+      if (context.isCancelled()) return {};  // there may be none
+      return toSegments(measured, stations);
+    }
     case SegmentMode::Sturges: {
       const std::vector<Vec2> points = groupedPoints(piece);
       return groupSegments(points, sturgesGroups(static_cast<int>(points.size())));

@@ -170,6 +170,23 @@ TEST(Stations, DegeneratePiecesStayFinite) {
   }
 }
 
+TEST(Stations, OfACancelledRunAreNone) {
+  for (const SegmentMode mode :
+       {SegmentMode::Stations, SegmentMode::Sturges, SegmentMode::Count, SegmentMode::Adaptive}) {
+    for (const bool closed : {false, true}) {
+      PieceSet set;
+      set.pieces.push_back(arc(100.0, closed ? 2 * std::numbers::pi : 1.0, closed));
+      SegmentParams params;
+      params.mode = mode;
+      RunContext context;
+      context.cancel.cancel();
+      const auto result = regressionSegments(set, params, context);
+      ASSERT_FALSE(result.has_value());
+      EXPECT_EQ(result.error().code, ErrorCode::Cancelled);
+    }
+  }
+}
+
 TEST(Stations, BadParametersAreRefused) {
   SegmentParams params;
   params.count = 1;
