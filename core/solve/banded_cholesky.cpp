@@ -11,19 +11,37 @@ namespace batten {
 namespace {
 
 /// The half width of a factor: a number that the compiler knows, for the matrices of quintic splines, so that its loops
-/// are unrolled; these are stored and gone through by rows. Else Eigen::Dynamic, and the number itself beside it; these
-/// by columns, below the diagonal, where vector instructions serve wide bands better.
+/// are unrolled; else Eigen::Dynamic, and the number itself beside it.
 constexpr int kOpenSpline = BandRow::kHalfWidth, kCyclicSpline = 2 * BandRow::kHalfWidth;
 
-template <int kBand>
-using BandBuffer = std::array<double, static_cast<std::size_t>(kBand) + 1>;
+template <int kKnown>
+using BandBuffer = std::conditional_t<kKnown == Eigen::Dynamic, std::vector<double>,
+                                      std::array<double, static_cast<std::size_t>(std::max(kKnown, 0)) + 1>>;
+
+template <int kKnown>
+BandBuffer<kKnown> bandBuffer(int band) {
+  BandBuffer<kKnown> buffer{};
+  if constexpr (kKnown == Eigen::Dynamic) buffer.resize(static_cast<std::size_t>(band) + 1);
+  return buffer;
+}
+
+/// start - a . b; of unknown length by vector instructions.
+template <int kKnown>
+double minusDot(double start, const double* a, const double* b, int count) {
+  if constexpr (kKnown == Eigen::Dynamic) {
+    using Values = Eigen::Map<const Eigen::VectorXd>;
+    return start - Values(a, count).dot(Values(b, count));
+  }
+  for (int i = 0; i < count; ++i) start -= a[i] * b[i];
+  return start;
+}
 
 /// L D L' in place, rows of band + 1 numbers. Column r - band + j of row r stands at j.
-template <int kBand>
-bool factorRows(std::vector<double>& lower, int size, double leastPivot) {
-  constexpr int band = kBand;
-  constexpr std::ptrdiff_t width = band + 1;
-  BandBuffer<kBand> scaled{};  // L(r,k) D(k) of the row at work
+template <int kKnown>
+bool factorRows(std::vector<double>& lower, int size, int halfWidth, double leastPivot) {
+  const int band = kKnown == Eigen::Dynamic ? halfWidth : kKnown;
+  const auto width = static_cast<std::ptrdiff_t>(band) + 1;
+  auto scaled = bandBuffer<kKnown>(band);  // L(r,k) D(k) of the row at work
   for (int r = 0; r < size; ++r) {
     double* row = lower.data() + r * width;
     const int begin = std::max(0, band - r);
@@ -31,8 +49,7 @@ bool factorRows(std::vector<double>& lower, int size, double leastPivot) {
     double diagonal = original;
     const auto column = [&](int j, int from) {
       const double* other = row - (band - j) * width;
-      double sum = row[j];
-      for (int k = from; k < j; ++k) sum -= scaled[k] * other[band - j + k];
+      const double sum = minusDot<kKnown>(row[j], scaled.data() + from, other + band - j + from, j - from);
       scaled[j] = sum;
       const double l = sum / other[band];
       row[j] = l;
@@ -49,16 +66,13 @@ bool factorRows(std::vector<double>& lower, int size, double leastPivot) {
   return true;
 }
 
-template <int kBand>
-void solveRows(const std::vector<double>& lower, int size, double* y) {
-  constexpr int band = kBand;
-  constexpr std::ptrdiff_t width = band + 1;
+template <int kKnown>
+void solveRows(const std::vector<double>& lower, int size, int halfWidth, double* y) {
+  const int band = kKnown == Eigen::Dynamic ? halfWidth : kKnown;
+  const auto width = static_cast<std::ptrdiff_t>(band) + 1;
   for (int r = 0; r < size; ++r) {
     const int begin = std::max(0, band - r);
-    const double* row = lower.data() + r * width;
-    double sum = y[r];
-    for (int j = begin; j < band; ++j) sum -= row[j] * y[r - band + j];
-    y[r] = sum;
+    y[r] = minusDot<kKnown>(y[r], lower.data() + r * width + begin, y + r - band + begin, band - begin);
   }
   for (int r = 0; r < size; ++r) y[r] /= lower[r * width + band];
   for (int r = size - 1; r >= 0; --r) {
@@ -67,94 +81,30 @@ void solveRows(const std::vector<double>& lower, int size, double* y) {
   }
 }
 
-using Column = Eigen::Map<Eigen::ArrayXd>;
-using ConstColumn = Eigen::Map<const Eigen::ArrayXd>;
-
-/// The factor by columns of band + 1 numbers: L(c + k, c) D(c) stands at k of column c while at work, L(c + k, c) in
-/// the end, D(c) at 0.
-class ColumnFactor {
- public:
-  ColumnFactor(std::vector<double>& lower, int size, int band)
-      : lower_(lower), size_(size), band_(band), diagonal_(size), a_(band), b_(band) {
-    for (int c = 0; c < size; ++c) diagonal_[c] = std::abs(*at(c));
-  }
-
-  /// Two columns at a time: what is to the right of them is read and written once for both.
-  bool run(double leastPivot) {
-    for (int c = 0; c < size_; c += 2) {
-      if (!isPivot(c, leastPivot)) return false;
-      double* first = at(c);
-      const int below = std::min(band_, size_ - 1 - c);
-      if (c + 1 == size_) return true;
-      double* second = at(c + 1);
-      const int belowSecond = std::min(band_, size_ - 2 - c);
-      Column(second, below) -= first[1] / first[0] * ConstColumn(first + 1, below);
-      if (!isPivot(c + 1, leastPivot)) return false;
-      a_.setZero();
-      a_.head(std::max(below - 1, 0)) = ConstColumn(first + 2, std::max(below - 1, 0));
-      b_.head(belowSecond) = ConstColumn(second + 1, belowSecond);
-      Column(first + 1, below) /= first[0];
-      Column(second + 1, belowSecond) /= second[0];
-      for (int k = 0; k < belowSecond; ++k) {
-        const int rest = belowSecond - k;
-        const double fromFirst = k + 2 <= below ? first[k + 2] : 0.0, fromSecond = second[k + 1];
-        Column(at(c + 2 + k), rest) -= fromFirst * a_.segment(k, rest) + fromSecond * b_.segment(k, rest);
-      }
-    }
-    return true;
-  }
-
- private:
-  double* at(int column) { return lower_.data() + std::ptrdiff_t{column} * (band_ + 1); }
-  bool isPivot(int column, double least) {
-    const double pivot = *at(column);
-    return pivot > least * diagonal_[column] && std::isfinite(pivot);
-  }
-
-  std::vector<double>& lower_;
-  int size_, band_;
-  Eigen::ArrayXd diagonal_;  ///< Of the matrix, without sign.
-  Eigen::ArrayXd a_, b_;     ///< Two columns as they were, from the second row below the first one's diagonal on.
-};
-
-void solveColumns(const std::vector<double>& lower, int size, int band, double* y) {
-  const auto columnOf = [&](int c) { return lower.data() + std::ptrdiff_t{c} * (band + 1); };
-  const auto belowOf = [&](int c) { return std::min(band, size - 1 - c); };
-  for (int c = 0; c < size; ++c) Column(y + c + 1, belowOf(c)) -= y[c] * ConstColumn(columnOf(c) + 1, belowOf(c));
-  for (int c = 0; c < size; ++c) y[c] /= *columnOf(c);
-  for (int c = size - 1; c >= 0; --c) {
-    const int below = belowOf(c);
-    y[c] -= ConstColumn(columnOf(c) + 1, below).matrix().dot(ConstColumn(y + c + 1, below).matrix());
-  }
-}
-
 /// Z(i, i + k) at i * width + k: Z = D^-1 L^-1 + (I - L') Z, read within the band from the last row up.
-/// @param below L(i + m, i); @param pivot D(i).
-template <int kKnown, class Below, class Pivot>
-std::vector<double> inverseRows(int size, int halfWidth, const Below& below, const Pivot& pivot) {
+template <int kKnown>
+std::vector<double> inverseRows(const std::vector<double>& lower, int size, int halfWidth) {
   const int band = kKnown == Eigen::Dynamic ? halfWidth : kKnown;
   const auto width = static_cast<std::ptrdiff_t>(band) + 1;
-  std::vector<double> z(static_cast<std::size_t>(size * width), 0.0);
-  std::vector<double> l(static_cast<std::size_t>(width));
+  std::vector<double> z(lower.size(), 0.0);
   for (int i = size - 1; i >= 0; --i) {
     const int reach = std::min(size - 1 - i, band);
     double* own = z.data() + i * width;
-    for (int m = 1; m <= reach; ++m) l[m] = below(i, m);
+    auto l = bandBuffer<kKnown>(band);  // L(i + m, i)
+    for (int m = 1; m <= reach; ++m) l[m] = lower[(i + m) * width + band - m];
     for (int j = reach; j >= 1; --j) {
       double sum = 0.0;
-      const double* other = own + j * width;
+      const double* below = own + j * width;
       for (int m = 1; m < j; ++m) sum -= l[m] * own[m * width + j - m];
-      for (int m = j; m <= reach; ++m) sum -= l[m] * other[m - j];
+      for (int m = j; m <= reach; ++m) sum -= l[m] * below[m - j];
       own[j] = sum;
     }
-    double sum = 1.0 / pivot(i);
+    double sum = 1.0 / lower[i * width + band];
     for (int m = 1; m <= reach; ++m) sum -= l[m] * own[m];
     own[0] = sum;
   }
   return z;
 }
-
-bool isKnown(int band) { return band == kOpenSpline || band == kCyclicSpline; }
 
 /// Calls `run` with the half width as a constant where the compiler knows it.
 template <class Run>
@@ -178,35 +128,20 @@ bool BandedCholesky::factor(const BandedMatrix& matrix, double leastPivot) {
   band_ = cyclic_ ? 2 * halfWidth_ : halfWidth_;
   const auto width = static_cast<std::ptrdiff_t>(band_) + 1;
   lower_.assign(static_cast<std::size_t>(size_ * width), 0.0);
-  const bool byRows = isKnown(band_);
   for (int i = 0; i < size_; ++i) {
-    if (!cyclic_ && !byRows) {
-      for (int k = 0; k <= halfWidth_ && i + k < size_; ++k) lower_[i * width + k] = matrix.entry(i, k);
-      continue;
-    }
     for (int k = 0; k <= halfWidth_; ++k) {
       if (!cyclic_ && i + k >= size_) break;
       const int p = place(i), q = place((i + k) % size_);
       const int row = std::max(p, q), column = std::min(p, q);
-      lower_[byRows ? row * width + band_ - row + column : column * width + row - column] += matrix.entry(i, k);
+      lower_[row * width + band_ - row + column] += matrix.entry(i, k);
     }
   }
-  return withBand(band_, [&](auto known) {
-    if constexpr (known() == Eigen::Dynamic)
-      return ColumnFactor(lower_, size_, band_).run(leastPivot);
-    else
-      return factorRows<known()>(lower_, size_, leastPivot);
-  });
+  return withBand(band_, [&](auto known) { return factorRows<known()>(lower_, size_, band_, leastPivot); });
 }
 
 void BandedCholesky::solveInPlace(Eigen::VectorXd& x) const {
   const auto solve = [&](double* y) {
-    withBand(band_, [&](auto known) {
-      if constexpr (known() == Eigen::Dynamic)
-        solveColumns(lower_, size_, band_, y);
-      else
-        solveRows<known()>(lower_, size_, y);
-    });
+    withBand(band_, [&](auto known) { solveRows<known()>(lower_, size_, band_, y); });
   };
   if (!cyclic_) return solve(x.data());
   Eigen::VectorXd folded(size_);
@@ -216,12 +151,8 @@ void BandedCholesky::solveInPlace(Eigen::VectorXd& x) const {
 }
 
 BandedMatrix BandedCholesky::inverseBand() const {
+  const std::vector<double> z = withBand(band_, [&](auto known) { return inverseRows<known()>(lower_, size_, band_); });
   const auto width = static_cast<std::ptrdiff_t>(band_) + 1;
-  const bool byRows = isKnown(band_);
-  const auto below = [&](int i, int m) { return lower_[byRows ? (i + m) * width + band_ - m : i * width + m]; };
-  const auto pivot = [&](int i) { return lower_[i * width + (byRows ? band_ : 0)]; };
-  const std::vector<double> z =
-      withBand(band_, [&](auto known) { return inverseRows<known()>(size_, band_, below, pivot); });
   BandedMatrix inverse(size_, halfWidth_, cyclic_);
   for (int i = 0; i < size_; ++i) {
     for (int k = 0; k <= halfWidth_; ++k) {

@@ -33,8 +33,7 @@ class BandedCholesky {
   int size_ = 0, halfWidth_ = 0;  ///< Of the matrix.
   int band_ = 0;                  ///< Half width of the factor.
   bool cyclic_ = false;
-  /// Row r: L(r, r-band..r-1), then D(r). Of wide bands column c: D(c), then L(c+1..c+band, c).
-  std::vector<double> lower_;
+  std::vector<double> lower_;  ///< Row r: L(r, r-band..r-1), then D(r).
 };
 
 }  // namespace batten

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solve/banded_program.h"
 
+#include <type_traits>
+
 #include "core/solve/banded_cholesky.h"
+#include "core/solve/column_cholesky.h"
 
 namespace batten {
 namespace {
@@ -31,7 +34,7 @@ const RowGroups& rowsOf(const GroupedProgram& program) { return program.rows; }
 /// A program as the interior point method sees it.
 template <class Program>
 struct ProgramView {
-  using Factor = BandedCholesky;
+  using Factor = std::conditional_t<std::is_same_v<Program, BandedProgram>, BandedCholesky, ColumnCholesky>;
   const Program& program;
 
   Eigen::Index size() const { return program.b.size(); }

@@ -11,7 +11,7 @@
 namespace batten {
 
 /// min x'Ax - 2b'x subject to rows[i] . x >= bounds[i]; A positive definite and banded, every row within its band.
-/// Rows: std::vector<BandRow> or RowGroups.
+/// Rows: std::vector<BandRow>, or RowGroups and then A not cyclic.
 template <class Rows>
 struct ProgramOver {
   BandedMatrix a;

@@ -7,6 +7,7 @@
 
 #include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
+#include "core/solve/column_cholesky.h"
 
 namespace batten {
 namespace {
@@ -81,34 +82,28 @@ INSTANTIATE_TEST_SUITE_P(Sizes, BandedInverse,
                          testing::Values(std::pair{6, false}, std::pair{7, false}, std::pair{40, false},
                                          std::pair{11, true}, std::pair{12, true}, std::pair{41, true}));
 
-/// Bands of other widths than those of splines, which are gone through in another way.
-TEST(BandedMatrix, OfAnyWidthAgreesWithTheDenseMatrix) {
+TEST(ColumnCholesky, AgreesWithTheDenseMatrix) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (const int halfWidth : {0, 1, 2, 3, 4, 6, 11, 13, 25}) {
-    for (const bool cyclic : {false, true}) {
-      for (const int n : {2 * halfWidth + 1, 2 * halfWidth + 2, 61}) {
-        Both m{BandedMatrix(n, halfWidth, cyclic), Eigen::MatrixXd::Zero(n, n)};
-        for (int i = 0; i < n; ++i) {
-          for (int k = 0; k <= halfWidth && (cyclic || i + k < n); ++k) {
-            const double value = k == 0 ? 4.0 * halfWidth + 1.0 + std::abs(normal(random)) : normal(random);
-            m.band.entry(i, k) = m.dense(i, (i + k) % n) = m.dense((i + k) % n, i) = value;
-          }
+    for (const int n : {halfWidth + 1, halfWidth + 2, 2 * halfWidth + 1, 60, 61}) {
+      Both m{BandedMatrix(n, halfWidth, false), Eigen::MatrixXd::Zero(n, n)};
+      for (int i = 0; i < n; ++i) {
+        for (int k = 0; k <= halfWidth && i + k < n; ++k) {
+          const double value = k == 0 ? 4.0 * halfWidth + 1.0 + std::abs(normal(random)) : normal(random);
+          m.band.entry(i, k) = m.dense(i, i + k) = m.dense(i + k, i) = value;
         }
-        BandedCholesky cholesky;
-        ASSERT_TRUE(cholesky.factor(m.band)) << halfWidth << " of " << n;
-        const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0).array().sin();
-        const Eigen::VectorXd reference = m.dense.ldlt().solve(x);
-        EXPECT_LT((cholesky.solve(x) - reference).norm(), 1e-12 * reference.norm()) << halfWidth << " of " << n;
-        const BandedMatrix inverse = cholesky.inverseBand();
-        const Eigen::MatrixXd dense = m.dense.inverse();
-        for (int i = 0; i < n; ++i)
-          for (int k = 0; k <= halfWidth && (cyclic || i + k < n); ++k)
-            EXPECT_NEAR(inverse.entry(i, k), dense(i, (i + k) % n), 1e-12) << halfWidth << " of " << n;
-        m.band.entry(n - 1, 0) = -1.0;
-        EXPECT_FALSE(BandedCholesky().factor(m.band)) << halfWidth << " of " << n;
-        if (n > 1) m.band.entry(n - 2, 0) = -1.0;
-        EXPECT_FALSE(BandedCholesky().factor(m.band)) << halfWidth << " of " << n;
+      }
+      ColumnCholesky cholesky;
+      ASSERT_TRUE(cholesky.factor(m.band, 1e-15)) << halfWidth << " of " << n;
+      Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0).array().sin();
+      const Eigen::VectorXd reference = m.dense.ldlt().solve(x);
+      cholesky.solveInPlace(x);
+      EXPECT_LT((x - reference).norm(), 1e-12 * reference.norm()) << halfWidth << " of " << n;
+      for (const int bad : {n - 1, n / 2, 0}) {
+        BandedMatrix wrong = m.band;
+        wrong.entry(bad, 0) = -1.0;
+        EXPECT_FALSE(ColumnCholesky().factor(wrong, 0.0)) << halfWidth << " of " << n << " at " << bad;
       }
     }
   }
