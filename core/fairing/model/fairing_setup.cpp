@@ -265,10 +265,10 @@ Result<FairedCurve> withSetup(
     const auto setup = makeSetup(curve, closed, params, context);
     if (context.isCancelled()) return cancelled();
     if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
-    if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
+    if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message, context);
     FairingParams within = params;
     within.toleranceMm -= (*setup)->seamMm;
-    if (!(within.toleranceMm > 0.0)) return unchanged(curve, closed, Termination::Degenerate, kSeamInTheWay);
+    if (!(within.toleranceMm > 0.0)) return unchanged(curve, closed, Termination::Degenerate, kSeamInTheWay, context);
     auto faired = body(*setup, within);
     if (!faired) return faired;
     return againstSketch(**setup, std::move(*faired));

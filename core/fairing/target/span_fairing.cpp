@@ -256,8 +256,9 @@ Result<FairedCurve> fairSpans(const NurbsCurve& curve, bool closed, const std::v
     addPart(result.report, faired->report);
     if (faired->report.maxDeviationMm > 0.0) result.curve = std::move(faired->curve);
   }
-  result.report.extremaBefore = countedExtrema(curve, closed);
-  result.report.extremaAfter = countedExtrema(result.curve, closed);
+  result.report.extremaBefore = countedExtrema(curve, closed, context);
+  result.report.extremaAfter = countedExtrema(result.curve, closed, context);
+  if (context.isCancelled()) return cancelled();
   return result;
 }
 

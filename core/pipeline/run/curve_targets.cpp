@@ -37,7 +37,7 @@ void moveControlPoints(const std::vector<Asked>& all, const RunContext& context)
     *all[i].outcomes = std::move(outcomes[i]);
     if (!*all[i].outcomes) continue;
     // The sketch that the user sees counts, not what fairing starts from.
-    const int sketched = countedExtrema(all[i].curve->sketched, all[i].curve->closed);
+    const int sketched = countedExtrema(all[i].curve->sketched, all[i].curve->closed, context);
     for (auto& faired : (*all[i].outcomes)->faired)
       if (faired) faired->report.extremaBefore = sketched;
   }

@@ -100,7 +100,7 @@ class LineFairing {
     params.toleranceMm -= startsOff();
     if (!(params.toleranceMm > 0.0)) {
       return unchanged(curve_.sketched, curve_.closed, Termination::Degenerate,
-                       "Unchanged: the tolerance is too small. Raise it.");
+                       "Unchanged: the tolerance is too small. Raise it.", context_);
     }
     auto faired = fairedWithin(params);
     if (!faired || params.mode == FairingMode::None) return faired;
