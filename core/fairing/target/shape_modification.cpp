@@ -109,7 +109,8 @@ class ShapeModification {
     report_.withinTolerance = !courses_.front().steps.endsEarly() && report_.neededMm <= kTargetRoom * toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     for (const double tolerance : kRoundTolerances) {
-      if (tolerance <= toleranceMm_) useRound(tolerance);
+      const double left = tolerance - sketch_.claimedMm();
+      if (left > 0.0 && left <= toleranceMm_) useRound(left);
     }
     for (const Course& course : courses_) {
       if (!course_ || (course_ == &course && best_.weight > course.steps.all().front().weight)) useTolerance(course);
