@@ -243,6 +243,34 @@ TEST(LowPassMode, KeepsItsShareOfEveryWaveAtAnyTolerance) {
   }
 }
 
+TEST(LowPassMode, AdvisesNothingThatOnlyTargetsHave) {
+  int noted = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    for (const double tolerance : {0.0005, 0.02, 0.5}) {
+      FairingParams params;
+      params.mode = FairingMode::LowPass;
+      params.toleranceMm = std::max(tolerance, 0.001);
+      params.lowPassMm = 20.0 * seed;
+      const auto faired = fair(test::noisy(test::wave(240, 18, 40), 0.3, seed), false, params, {});
+      ASSERT_TRUE(faired);
+      const std::string& note = faired->report.note;
+      noted += note.empty() ? 0 : 1;
+      for (const char* word : {"target", "degree", "plit", "rofile"})
+        EXPECT_EQ(note.find(word), std::string::npos) << note;
+    }
+  }
+  EXPECT_GT(noted, 0);
+}
+
+TEST(FairingModes, SayWhereAProfileThatIsMissingIsDrawn) {
+  FairingParams params;
+  params.mode = FairingMode::Target;
+  params.target = FairingTarget::Drawn;
+  const auto faired = fair(test::wave(240, 18, 40), false, params, {});
+  ASSERT_TRUE(faired);
+  EXPECT_EQ(faired->report.note, "No profile is drawn yet: drag its points in the plot, or set fairing.profile.");
+}
+
 /// What lies between the sketched curve and the one that fairing begins with is of the same tolerance.
 TEST(FairingModes, LeaveWhatIsTakenOfTheTolerance) {
   const NurbsCurve start = test::noisy(test::ellipseQuarter(200, 120, 20), 0.3, 5);
