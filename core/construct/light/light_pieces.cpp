@@ -112,17 +112,6 @@ Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool cl
   return std::move(*best);
 }
 
-/// What fairing starts from, that was simplified: the curve itself with more knots, and without the joints at which it
-/// would part.
-NurbsCurve fairingStartOf(const NurbsCurve& curve, bool closed, double apart) {
-  if (curve.isRational()) return {};
-  const bool isJoined = hasKnotsOf(curve, curve.degree() - 1) && cornersInside(curve).empty();
-  if (isJoined) {
-    if (auto smooth = smoothShape(curve, closed, apart)) return std::move(*smooth);
-  }
-  return fairableShape(curve);
-}
-
 void finishExact(ConstructedPiece& piece, bool closed, LightKind kind) {
   piece.report.isLine = piece.report.isLine || kind == LightKind::Line;
   piece.report.isCircle = piece.report.isCircle || (closed && kind == LightKind::Arc);
@@ -149,7 +138,7 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   if (simplified) {
     if (closed && !piece.curve.isRational() && cornersInside(piece.curve).empty() && !beginsAtCorner(piece.curve))
       piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
-    piece.dense = fairingStartOf(piece.curve, closed, kSmoothShare * options.step);
+    piece.dense = piece.curve.isRational() ? NurbsCurve() : fairingStartOf(piece.curve, closed, options);
     finishExact(piece, closed, light->report.kind);
     return;
   }
@@ -178,6 +167,14 @@ LightOptions lightOptions(const ConstructParams& params, const ConstructContour&
   if (most > options.tolerance) options.tolerance *= std::pow(most / options.tolerance, detail);
   options.significance = kLeastSignificance + detail * (kMostSignificance - kLeastSignificance);
   return options;
+}
+
+NurbsCurve fairingStartOf(const NurbsCurve& light, bool closed, const LightOptions& options) {
+  const bool isJoined = light.isRational() || (hasKnotsOf(light, light.degree() - 1) && cornersInside(light).empty());
+  if (isJoined) {
+    if (auto smooth = smoothShape(light, closed, kSmoothShare * options.step)) return std::move(*smooth);
+  }
+  return fairableShape(light);
 }
 
 LightNote lightNote(const LightReport& report, double pixelMm) {

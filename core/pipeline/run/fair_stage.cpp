@@ -191,6 +191,16 @@ class LineFairing {
   const RunContext& context_;
 };
 
+/// The dense curve ends a little otherwise than the light one: where an end is held, it is that of the curve that the
+/// user sees, so fairing starts from it.
+void startFromSeenEnds(TracedCurve& curve, const LightOptions& light) {
+  const auto isHeld = [](const EndHold& hold) { return hold.tangent || hold.curvature; };
+  const FairingParams& params = curve.fairingUsed;
+  if (curve.closed || params.mode == FairingMode::None || !(isHeld(params.startHold) || isHeld(params.endHold))) return;
+  if (curve.dense.isEmpty() || !curve.construct.light || curve.isSimplified()) return;
+  curve.dense = fairingStartOf(curve.sketched, false, light);
+}
+
 void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Recipe& recipe, const PageFrame& frame,
              const RunContext& context) {
   curve.faired = curve.sketched;
@@ -226,6 +236,7 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& c
     const auto piece = static_cast<std::size_t>(curve.piece);
     curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
     curve.fairingUsed = paramsFor(choices[piece], recipe, pieces.pieces[piece], curve.fairingStart(), frame);
+    startFromSeenEnds(curve, lightOptions(recipe.construct, frame.mmPerPx));
     const ContourKind kind = contours.contours[curve.contour].kind;
     fairOne(curve, pieces.pieces[piece], kind, recipe, frame, inner);
   });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/curve_targets.h"
 #include "core/pipeline/run/left_as_drawn.h"
@@ -154,6 +155,46 @@ TEST(LightCurves, ThatAreExactStaySoAndSayWhy) {
     EXPECT_EQ(curve.faired, curve.sketched);
     EXPECT_EQ(leftAsDrawnReason(curve), "Unchanged: exact circle.");
   }
+}
+
+/// The outline of a log spiral: open lines between its corners.
+const Scan& spiralScan() {
+  static const Scan scan = [] {
+    const auto shape = test::truthShape("logspiral", 400, 300);
+    return test::renderPage(test::strokeCoverage(shape.outline(), false, 6.0, 400, 300), 400, 300,
+                            test::scannedPage(3));
+  }();
+  return scan;
+}
+
+TEST(LightCurves, KeepTheEndsThatFairingHolds) {
+  StageCache cache;
+  int held = 0;
+  for (const FairingMode mode : kFairingModes) {
+    for (const double lightPx : {0.05, 0.5}) {
+      SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << ", light within " << lightPx);
+      Recipe recipe;
+      recipe.construct.lightTolerancePx = lightPx;
+      recipe.fairing.mode = mode;
+      recipe.fairing.toleranceMm = 0.5;
+      recipe.fairing.startHold = {.tangent = true, .curvature = true};
+      recipe.fairing.endHold.tangent = true;
+      const auto out = runPipeline(spiralScan(), recipe, cache, {}, {});
+      ASSERT_FALSE(out.error);
+      for (const TracedCurve& curve : out.faired->curves) {
+        if (curve.closed || curve.faired == curve.sketched) continue;
+        ++held;
+        const auto directionAt = [](const NurbsCurve& one, double u) {
+          return Vec2(one.derivatives(u, 1)[1].normalized());
+        };
+        const NurbsCurve &was = curve.sketched, &is = curve.faired;
+        EXPECT_NEAR(cross(directionAt(was, was.start()), directionAt(is, is.start())), 0.0, 1e-6);
+        EXPECT_NEAR(cross(directionAt(was, was.end()), directionAt(is, is.end())), 0.0, 1e-6);
+        EXPECT_NEAR(*curvature(is, is.start()), *curvature(was, was.start()), 1e-6);
+      }
+    }
+  }
+  EXPECT_GE(held, 4);
 }
 
 TEST(LightCurves, AreOfTheTrueAndFairFitOnly) {
