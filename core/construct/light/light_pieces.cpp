@@ -41,7 +41,7 @@ std::string reasonOf(LightObstacle obstacle) {
     case LightObstacle::Points:
       return "It needs more control points than a smaller detail gives.";
     case LightObstacle::Effort:
-      return "It has too many curvature extrema to search.";
+      return "The search was given up: the curvature wavers too often.";
   }
   return {};
 }
@@ -125,7 +125,7 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   const LightOptions& options = lightest->options;
   LightCurve* light = &lightest->light;
   const bool simplified = lightest->detail > 0.0;  // a smaller detail may have had fewer points
-  piece.report.light = lightNote(light->report, pixelMm);
+  piece.report.light = lightNote(*light, piece.curve, pixelMm);
   piece.report.light->tolerancePx = options.tolerance / pixelMm;
   if (light->report.necks > 0 && piece.report.note.empty()) {
     piece.report.note = light->report.necks == 1 ? "A spike or notch narrower than the detail was removed."
@@ -138,6 +138,7 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   if (simplified) {
     if (closed && !piece.curve.isRational() && cornersInside(piece.curve).empty() && !beginsAtCorner(piece.curve))
       piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
+    piece.report.light->points = piece.curve.controlPointCount();
     piece.dense = piece.curve.isRational() ? NurbsCurve() : fairingStartOf(piece.curve, closed, options);
     finishExact(piece, closed, light->report.kind);
     return;
@@ -177,12 +178,13 @@ NurbsCurve fairingStartOf(const NurbsCurve& light, bool closed, const LightOptio
   return fairableShape(light);
 }
 
-LightNote lightNote(const LightReport& report, double pixelMm) {
+LightNote lightNote(const LightCurve& light, const NurbsCurve& dense, double pixelMm) {
+  const LightReport& report = light.report;
   LightNote note;
   note.found = report.kind != LightKind::Dense;
   note.exact = report.kind == LightKind::Line || report.kind == LightKind::Arc;
-  note.points = report.points;
-  note.pointsBefore = report.pointsBefore;
+  note.points = light.curve.controlPointCount();
+  note.pointsBefore = dense.controlPointCount();
   note.movedPx = report.worst / pixelMm;
   note.sections = report.sections;
   note.sectionsDense = report.sectionsDense;

@@ -68,5 +68,16 @@ TEST(LightExtrema, AWobblyCircleHasNoMoreThanBefore) {
   EXPECT_GE(10 * light, 9 * wheels()) << "circles stay dense";
 }
 
+TEST(LightNote, CountsControlPointsAsTheListDoes) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const NurbsCurve dense = wobblyCircle(seed);
+    for (const double detail : {0.0, 1.0}) {
+      const ConstructedPiece made = lightPieceOf(dense, true, detail);
+      EXPECT_EQ(made.report.light->points, made.curve.controlPointCount()) << "circle " << seed;
+      EXPECT_EQ(made.report.light->pointsBefore, dense.controlPointCount()) << "circle " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten
