@@ -87,10 +87,16 @@ struct DetailCurve {
 
 /// The lightest of the curves of this and every smaller detail: each holds what this one asks, as it lies nearer and
 /// keeps more. So more detail never gives more control points than a smaller one; beyond kMostCompared, where that
-/// takes long, it may, and beyond kFarMore none is compared.
+/// takes long, it may, and beyond kFarMore none is compared. One that has more curvature extrema than the dense curve
+/// is none of them.
 Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool closed, const ConstructParams& params,
                                  const ConstructContour& contour, const RunContext& context) {
   std::optional<DetailCurve> best;
+  std::optional<int> mostExtrema;
+  const auto addsExtrema = [&](const NurbsCurve& curve) {
+    if (!mostExtrema) mostExtrema = countedExtrema(dense, closed, context);
+    return countedExtrema(curve, closed, context) > *mostExtrema;
+  };
   int step = detailStep(detail);
   while (step >= 0) {
     DetailCurve one;
@@ -104,6 +110,10 @@ Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool cl
     if (!light && best && !context.isCancelled()) break;
     if (!light) return fail(light.error());
     one.light = std::move(*light);
+    if (step > 0 && addsExtrema(one.light.curve)) {
+      --step;
+      continue;
+    }
     const bool isFewer = one.light.report.kind != LightKind::Dense && one.light.report.points <= one.options.mostPoints;
     // With fewer points wanted, the same detail may have another way.
     if (!isFewer) --step;
