@@ -123,7 +123,9 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     if (!faired.report.withinTolerance && faired.report.neededMm > toleranceMm)
       tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(faired.report.neededMm));
     else if (!faired.report.withinTolerance)
-      tip += tr("\nReaching it would add curvature extrema; the curve is unchanged.");
+      tip += faired.report.maxDeviationMm > 0.0
+                 ? tr("\nReaching it would add curvature extrema; the curve follows it in part.")
+                 : tr("\nReaching it would add curvature extrema; the curve is unchanged.");
     if (!profile.isMonotone) tip += tr("\nThis profile is not monotone within a span.");
     if (outcomes_->span)
       tip += tr("\nFor the span you clicked; the rest of the curve is unchanged.");
