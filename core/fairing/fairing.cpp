@@ -72,9 +72,9 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
       outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, run.problem, context);
       return;
     }
-    const double tolerance = job.params.toleranceMm - run.setup->seamMm;
+    const double tolerance = job.params.toleranceMm - run.setup->claimedMm();
     if (!(tolerance > 0.0)) {
-      outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, kSeamInTheWay, context);
+      outcomes.faired[at] = withoutTolerance(job.curve, job.closed, job.params, context);
       return;
     }
     auto faired = fairOverLevels(run.setup, run.levels, static_cast<int>(at) + 1, tolerance, context);

@@ -144,7 +144,8 @@ class MonotoneFairing {
     report.why = needed ? Termination::ToleranceLimited : Termination::NoProgress;
     report.withinTolerance = false;
     report.neededMm = needed.value_or(0.0);
-    report.note = needed ? "A curve with " + asked + " needs a tolerance of " + millimetres(*needed) + "; " + kept
+    report.note = needed ? "A curve with " + asked + " needs a tolerance of " +
+                               millimetres(*needed + setup_.claimedMm()) + "; " + kept
                          : "No curve with " + asked + " was found; " + kept;
     if (!needed && setup_.closed && params_.keepExtrema < 4 && !byPlace)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;

@@ -90,7 +90,7 @@ Result<FairedCurve> fairByLowPass(const NurbsCurve& curve, bool closed, const Fa
   return withSetup(curve, closed, params, context,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
                      return modifyShape(setup, smoothedProfile(*setup, within.lowPassMm), within.toleranceMm, context,
-                                        {ExtremaAsked::UpToSketch});
+                                        {.isFiltered = true});
                    });
 }
 
