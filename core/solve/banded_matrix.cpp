@@ -35,16 +35,6 @@ void addTo(Eigen::VectorXd& x, const BandRow& row, double factor) {
   }
 }
 
-double dot(const SparseRow& row, const Eigen::VectorXd& x) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < row.index.size(); ++k) sum += row.value[k] * x[row.index[k]];
-  return sum;
-}
-
-void addTo(Eigen::VectorXd& x, const SparseRow& row, double factor) {
-  for (std::size_t k = 0; k < row.index.size(); ++k) x[row.index[k]] += factor * row.value[k];
-}
-
 void BandedMatrix::addOuter(const BandRow& row, double weight) {
   int i = row.first;
   if (i + 6 <= size_) {
@@ -59,14 +49,6 @@ void BandedMatrix::addOuter(const BandRow& row, double weight) {
     if (i >= size_) i -= size_;
     const double wv = weight * row.v[a];
     for (std::size_t b = a; b < 6; ++b) entry(i, static_cast<int>(b - a)) += wv * row.v[b];
-  }
-}
-
-void BandedMatrix::addOuter(const SparseRow& row, double weight) {
-  for (std::size_t b = 0; b < row.index.size(); ++b) {
-    const double value = weight * row.value[b];
-    double* column = &entry(row.index[b], 0);
-    for (std::size_t a = b; a < row.index.size(); ++a) column[row.index[a] - row.index[b]] += value * row.value[a];
   }
 }
 

@@ -15,21 +15,10 @@ struct BandRow {
   std::array<double, kHalfWidth + 1> v{};
 };
 
-/// A row over few unknowns, ascending.
-struct SparseRow {
-  std::vector<int> index;
-  std::vector<double> value;
-
-  /// Distance from the first unknown to the last: the half width of a matrix that such rows make.
-  int width() const { return index.empty() ? 0 : index.back() - index.front(); }
-};
-
 /// row . x, with column numbers modulo the size of x.
 double dot(const BandRow& row, const Eigen::VectorXd& x);
-double dot(const SparseRow& row, const Eigen::VectorXd& x);
 /// x += factor * row'.
 void addTo(Eigen::VectorXd& x, const BandRow& row, double factor);
-void addTo(Eigen::VectorXd& x, const SparseRow& row, double factor);
 
 /// Where unknown `index` of `count` in a ring goes when the ring is folded flat (0, n-1, 1, n-2, ...): what lay within
 /// w of each other around the ring then lies within 2 w.
@@ -50,9 +39,8 @@ class BandedMatrix {
   /// entries may name the same place: they add.
   double& entry(int i, int k) { return data_[offset(i, k)]; }
   double entry(int i, int k) const { return data_[offset(i, k)]; }
-  /// += weight * row' row. A SparseRow is never wrapped around.
+  /// += weight * row' row.
   void addOuter(const BandRow& row, double weight);
-  void addOuter(const SparseRow& row, double weight);
   /// += factor * other (same size and kind).
   void add(const BandedMatrix& other, double factor);
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;

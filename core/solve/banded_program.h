@@ -6,30 +6,27 @@
 
 #include "core/solve/banded_matrix.h"
 #include "core/solve/interior_point.h"
+#include "core/solve/row_groups.h"
 
 namespace batten {
 
 /// min x'Ax - 2b'x subject to rows[i] . x >= bounds[i]; A positive definite and banded, every row within its band.
-/// Row: BandRow or SparseRow.
-template <class Row>
-struct BandedProgram {
+/// Rows: std::vector<BandRow>, or RowGroups and then A not cyclic.
+template <class Rows>
+struct ProgramOver {
   BandedMatrix a;
   Eigen::VectorXd b;
-  std::vector<Row> rows;
+  Rows rows;
   std::vector<double> bounds;
   /// What the diagonal grows by, as a share of itself, where a system cannot be factorised.
   double ridge = 1e-13;
   double leastPivot = 1e-15;  ///< See BandedCholesky::factor.
 };
+using BandedProgram = ProgramOver<std::vector<BandRow>>;
+using GroupedProgram = ProgramOver<RowGroups>;
 
 /// The interior point method with banded normal equations: linear cost per iteration.
-template <class Row>
-InteriorPointResult solveProgram(const BandedProgram<Row>&, const InteriorPointLimits& limits = {},
-                                 CancelCheck check = {});
-
-extern template InteriorPointResult solveProgram(const BandedProgram<BandRow>&, const InteriorPointLimits&,
-                                                 CancelCheck);
-extern template InteriorPointResult solveProgram(const BandedProgram<SparseRow>&, const InteriorPointLimits&,
-                                                 CancelCheck);
+InteriorPointResult solveProgram(const BandedProgram&, const InteriorPointLimits& limits = {}, CancelCheck check = {});
+InteriorPointResult solveProgram(const GroupedProgram&, const InteriorPointLimits& limits = {}, CancelCheck check = {});
 
 }  // namespace batten

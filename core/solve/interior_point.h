@@ -6,6 +6,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <optional>
 
 #include "core/base/cancel_check.h"
 #include "core/base/termination.h"
@@ -24,6 +25,8 @@ concept QuadraticProgram = requires(const P& p, typename P::Factor& factor, cons
   { p.bound(i) } -> std::convertible_to<double>;                  // h_i
   { p.dotRow(i, v) } -> std::convertible_to<double>;              // r_i . v
   p.addRow(i, 1.0, out);                                          // out += factor r_i'
+  { p.dotRows(v) } -> std::convertible_to<Eigen::VectorXd>;       // of all i
+  p.addRows(v, out);                                              // out += sum v_i r_i'
   { p.factorise(v, factor) } -> std::convertible_to<bool>;        // A + sum v_i r_i' r_i; an empty v is zero
   factor.solveInPlace(out);
 };
@@ -36,8 +39,8 @@ struct InteriorPointLimits {
 };
 
 struct InteriorPointResult {
-  /// Converged; Exact without rows; ToleranceLimited when `abortAbove` was exceeded; IterationLimit; Degenerate when a
-  /// system was singular; NotRun when it was cancelled.
+  /// Converged; Exact without rows; ToleranceLimited when `abortAbove` was exceeded; IterationLimit; NoProgress when
+  /// several steps in a row were next to nothing; Degenerate when a system was singular; NotRun when it was cancelled.
   Termination why = Termination::NotRun;
   Eigen::VectorXd x;
   double objective = 0.0;   ///< x'Ax - 2b'x.
@@ -64,7 +67,9 @@ class InteriorPoint {
     x_ = problem_.linear();
     plain_.solveInPlace(x_);
     result.lowerBound = -problem_.linear().dot(x_);
-    result.why = problem_.rowCount() == 0 ? Termination::Exact : iterateAll(result);
+    const bool hasRows = problem_.rowCount() > 0;
+    result.why = hasRows ? iterateAll(result) : Termination::Exact;
+    if (hasRows) result.lowerBound = std::max(result.lowerBound, lowerBound());
     result.x = x_;
     result.objective = x_.dot(problem_.multiply(x_)) - 2.0 * problem_.linear().dot(x_);
     return result;
@@ -72,26 +77,36 @@ class InteriorPoint {
 
  private:
   static constexpr double kStep = 0.99;
+  /// So many steps in a row below this share leave everything as it is: the rows ask for what lies so far off, in units
+  /// of their scale, or contradict each other so much, that slacks and multipliers of one are no start.
+  static constexpr int kStuckSteps = 5;
+  static constexpr double kStuck = 1e-10;
 
-  double row(Eigen::Index i, const Eigen::VectorXd& v) const { return scale_ * problem_.dotRow(i, v); }
+  /// All rows, scaled.
+  Eigen::VectorXd rows(const Eigen::VectorXd& v) const { return scale_ * problem_.dotRows(v); }
 
   Termination iterateAll(InteriorPointResult& result) {
     const Eigen::Index count = problem_.rowCount();
     setScale(count / 2);
-    s_.resize(count);
+    bounds_.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) bounds_[i] = scale_ * problem_.bound(i);
+    s_ = (rows(x_) - bounds_).cwiseMax(1.0);
     z_ = Eigen::VectorXd::Ones(count);
-    primal_.resize(count);
-    for (Eigen::Index i = 0; i < count; ++i) s_[i] = std::max(row(i, x_) - scale_ * problem_.bound(i), 1.0);
+    const bool mayAbort = std::isfinite(limits_.abortAbove);
+    int stuck = 0;  // steps in a row
     for (;; ++result.iterations) {
       residuals();
-      result.lowerBound = std::max(result.lowerBound, lowerBound());
+      if (mayAbort) result.lowerBound = std::max(result.lowerBound, lowerBound());
       if (s_.dot(z_) < limits_.complementarity && primal_.cwiseAbs().maxCoeff() < limits_.residual) {
         return Termination::Converged;
       }
       if (result.lowerBound > limits_.abortAbove) return Termination::ToleranceLimited;
       if (result.iterations >= limits_.iterations) return Termination::IterationLimit;
+      if (stuck >= kStuckSteps) return Termination::NoProgress;
       if (check_.isCancelled()) return Termination::NotRun;
-      if (!iterate()) return check_.isCancelled() ? Termination::NotRun : Termination::Degenerate;
+      const auto step = iterate();
+      if (!step) return check_.isCancelled() ? Termination::NotRun : Termination::Degenerate;
+      stuck = *step < kStuck ? stuck + 1 : 0;
     }
   }
 
@@ -106,10 +121,8 @@ class InteriorPoint {
   /// Residuals A x - b - G'z and G x - h - s.
   void residuals() {
     dual_ = problem_.multiply(x_) - problem_.linear();
-    for (Eigen::Index i = 0; i < s_.size(); ++i) {
-      problem_.addRow(i, -scale_ * z_[i], dual_);
-      primal_[i] = row(i, x_) - scale_ * problem_.bound(i) - s_[i];
-    }
+    problem_.addRows(-scale_ * z_, dual_);
+    primal_ = rows(x_) - bounds_ - s_;
   }
 
   /// Lagrange's dual value for the multipliers: a proven lower bound.
@@ -125,14 +138,10 @@ class InteriorPoint {
   void direction(const typename Problem::Factor& m, const Eigen::VectorXd& rc, Eigen::VectorXd& dx, Eigen::VectorXd& ds,
                  Eigen::VectorXd& dz) const {
     dx = -dual_;
-    for (Eigen::Index i = 0; i < s_.size(); ++i) {
-      problem_.addRow(i, -scale_ * (rc[i] + z_[i] * primal_[i]) / s_[i], dx);
-    }
+    problem_.addRows((-scale_ * (rc + z_.cwiseProduct(primal_))).cwiseQuotient(s_), dx);
     m.solveInPlace(dx);
-    for (Eigen::Index i = 0; i < s_.size(); ++i) {
-      ds[i] = row(i, dx) + primal_[i];
-      dz[i] = -(rc[i] + z_[i] * ds[i]) / s_[i];
-    }
+    ds = rows(dx) + primal_;
+    dz = -(rc + z_.cwiseProduct(ds)).cwiseQuotient(s_);
   }
 
   double longestStep(const Eigen::VectorXd& ds, const Eigen::VectorXd& dz) const {
@@ -144,9 +153,10 @@ class InteriorPoint {
     return step;
   }
 
-  bool iterate() {
+  /// @return the share of the way that was gone; none where a system is singular, and when the run is cancelled.
+  std::optional<double> iterate() {
     typename Problem::Factor m;
-    if (!problem_.factorise(scale_ * scale_ * z_.cwiseQuotient(s_), m) || check_.isCancelled()) return false;
+    if (!problem_.factorise(scale_ * scale_ * z_.cwiseQuotient(s_), m) || check_.isCancelled()) return std::nullopt;
     const Eigen::Index count = s_.size();
     Eigen::VectorXd dx, ds(count), dz(count), rc = s_.cwiseProduct(z_);
     direction(m, rc, dx, ds, dz);
@@ -156,12 +166,12 @@ class InteriorPoint {
     const double sigma = std::pow(std::clamp(muAffine / mu, 0.0, 1.0), 3);
     rc += ds.cwiseProduct(dz) - Eigen::VectorXd::Constant(count, sigma * mu);
     direction(m, rc, dx, ds, dz);
-    if (!dx.allFinite() || !ds.allFinite() || !dz.allFinite()) return false;
+    if (!dx.allFinite() || !ds.allFinite() || !dz.allFinite()) return std::nullopt;
     const double step = std::min(1.0, kStep * longestStep(ds, dz));
     x_ += step * dx;
     s_ += step * ds;
     z_ += step * dz;
-    return true;
+    return step;
   }
 
   const Problem& problem_;
@@ -169,7 +179,7 @@ class InteriorPoint {
   CancelCheck check_;
   typename Problem::Factor plain_;
   double scale_ = 1.0;
-  Eigen::VectorXd x_, s_, z_, dual_, primal_;  ///< Unknowns, slacks, multipliers, residuals.
+  Eigen::VectorXd x_, s_, z_, dual_, primal_, bounds_;  ///< Unknowns, slacks, multipliers, residuals; h, scaled.
 };
 
 }  // namespace batten

@@ -78,7 +78,7 @@ bool followExtrema(const Stations& stations, FairStructure& structure, const Eig
 }
 
 /// Adds the sign constraint of one station: bending one way inside a window, rising or falling outside.
-void addConstraint(BandedProgram<BandRow>& qp, const FrameStation& station, const FairStructure& structure,
+void addConstraint(BandedProgram& qp, const FrameStation& station, const FairStructure& structure,
                    const UniformKnots& knots, int firstColumn, int columns) {
   const auto& extrema = structure.extrema;
   if (extrema.empty() && knots.closed) return;
@@ -150,9 +150,9 @@ Part choosePart(const UniformKnots& knots, const std::optional<StructureStretch>
   return {((first % n) + n) % n, last - first, false};
 }
 
-BandedProgram<BandRow> makeProgram(const FairFrame& frame, const FairPosterior& posterior, const Part& part,
-                                   const Eigen::VectorXd& start) {
-  BandedProgram<BandRow> qp;
+BandedProgram makeProgram(const FairFrame& frame, const FairPosterior& posterior, const Part& part,
+                          const Eigen::VectorXd& start) {
+  BandedProgram qp;
   if (part.whole) {
     qp.a = posterior.a;
     qp.b = posterior.b;
@@ -231,7 +231,7 @@ std::optional<StructureFit> fitStructure(const FairFrame& frame, const FairPoste
                                          const StructureScope& scope, CancelCheck check) {
   const UniformKnots& knots = frame.base.knots();
   const Part part = choosePart(knots, scope.stretch);
-  BandedProgram<BandRow> qp = makeProgram(frame, posterior, part, start);
+  BandedProgram qp = makeProgram(frame, posterior, part, start);
   Eigen::VectorXd local(part.count);
   for (int i = 0; i < part.count; ++i) local[i] = start[(part.first + i) % knots.coefficients()];
   const double reference = local.dot(qp.a * local) - 2.0 * qp.b.dot(local);

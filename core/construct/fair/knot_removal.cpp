@@ -204,8 +204,7 @@ class KnotRemoval {
   /// full one does, the one that is nearest in place and curvature.
   bool makeMonotone(Fit& fit, const std::vector<double>& knots) const {
     const int points = static_cast<int>(knots.size()) - 6, unknowns = static_cast<int>(fit.x.size());
-    BandedProgram<BandRow> qp{
-        BandedMatrix(unknowns, BandRow::kHalfWidth, closed_), Eigen::VectorXd::Zero(unknowns), {}, {}};
+    BandedProgram qp{BandedMatrix(unknowns, BandRow::kHalfWidth, closed_), Eigen::VectorXd::Zero(unknowns), {}, {}};
     std::vector<PlaneDerivatives> curve;
     std::vector<BandRow> places;
     const auto add = [&](const BandRow& row, double w, double target) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/fairing/structure/monotone_search.h"
@@ -15,27 +16,38 @@ class MonotoneSearch::Program {
   Program(const FairingSetup& setup, const std::vector<SpanPlace>& places, const std::vector<Jet>& jets,
           const RunContext& context);
 
-  SparseRow localRow(int span, const LocalRow& local) const;
+  /// A row over the unknowns of one or two spans. Refers to the program: holds until the next call of the function that
+  /// made it.
+  struct Row {
+    std::span<const int> index;  ///< Ascending.
+    std::span<const double> value;
+  };
+  Row localRow(int span, const LocalRow& local);
   /// Change of dkappa/ds at a place, and of its difference between two.
-  const SparseRow& slope(int place) const { return slopes_[place]; }
-  SparseRow difference(int from, int to) const;
+  Row slope(int place) const;
+  Row difference(int from, int to);
   /// weight * (value + row . x)^2.
-  void addSquare(const SparseRow& row, double value, double weight);
+  void addSquare(const Row& row, double value, double weight);
   /// factor * row . x >= bound.
-  void addBound(const SparseRow& row, double factor, double bound);
+  void addBound(const Row& row, double factor, double bound);
+  struct Solution {
+    Eigen::VectorXd step;
+    bool isStuck = false;  ///< The solver made no progress: the step is that without bounds.
+  };
   /// Absent when there is no solution or it could not be found.
-  std::optional<Eigen::VectorXd> solve(bool mayBeInfeasible);
+  std::optional<Solution> solve(bool mayBeInfeasible);
 
  private:
-  struct Square {
-    SparseRow row;
-    double weight;
-  };
   const FairingSetup& setup_;
   const RunContext& context_;
-  std::vector<SparseRow> slopes_;
-  std::vector<Square> squares_;
-  BandedProgram<SparseRow> program_;  ///< `a` is made when all squares are known.
+  std::vector<int> spans_;        ///< Of the places.
+  std::vector<double> slopes_;    ///< Per place, as many numbers as a span has unknowns at most.
+  std::vector<double> local_;     ///< The last localRow.
+  std::vector<int> eitherIndex_;  ///< The last difference across a knot.
+  std::vector<double> difference_;
+  RowGroups squares_;
+  std::vector<double> weights_;  ///< Of the squares.
+  GroupedProgram program_;       ///< `a` is made when all squares are known.
   double constant_ = 0.0;
 };
 

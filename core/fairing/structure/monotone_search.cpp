@@ -19,6 +19,9 @@ constexpr double kWaveSpans = 2.0;
 /// Share of a sliding along the curve in the distance: it changes no shape, but far slides make the linear model wrong.
 constexpr double kSlideShare = 0.01;
 constexpr int kIterations = 20;
+/// Programs in a row that bring nothing: curves whose curvature has peaks beyond all measure, such as near-cusps, of
+/// which a linear model tells nothing.
+constexpr int kMostStuck = 3;
 /// After so many iterations windows stay, and steps are shortened: what has not settled by then swings.
 constexpr int kFreeIterations = 6;
 constexpr double kLateShare = 0.6;
@@ -170,13 +173,14 @@ void MonotoneSearch::addDistance(Program& program, const State& state, const Sca
       return program.localRow(places_[i].span, row);
     };
     const double w = state.weight[i] / (scales.distance * scales.distance);
-    const SparseRow normal = along(state.normal[i]);
+    const Program::Row normal = along(state.normal[i]);
     program.addSquare(normal, state.distance[i], w);
-    program.addSquare(along(state.tangent[i]), state.slide[i], kSlideShare * w);
     // Places far inside the bound cannot reach it in one step, and every second one is dense enough.
-    if (!(scales.bound > 0.0) || i % 2 != 0 || std::abs(state.distance[i]) < 0.25 * scales.bound) continue;
-    program.addBound(normal, -1.0, state.distance[i] - scales.bound);
-    program.addBound(normal, 1.0, -scales.bound - state.distance[i]);
+    if (scales.bound > 0.0 && i % 2 == 0 && std::abs(state.distance[i]) >= 0.25 * scales.bound) {
+      program.addBound(normal, -1.0, state.distance[i] - scales.bound);
+      program.addBound(normal, 1.0, -scales.bound - state.distance[i]);
+    }
+    program.addSquare(along(state.tangent[i]), state.slide[i], kSlideShare * w);
   }
 }
 
@@ -188,7 +192,7 @@ void MonotoneSearch::addBend(Program& program, const State& state, const Scales&
     const int next = (i + 1) % count;
     const double step = state.step[at(i)];
     if (!(step > 1e-9 * unit)) continue;
-    const SparseRow row = program.difference(i, next);
+    const Program::Row row = program.difference(i, next);
     const double change = state.curvature[at(next)].slope - state.curvature[at(i)].slope;
     program.addSquare(row, change, lambda / (step * unit));
   }
@@ -216,7 +220,7 @@ void MonotoneSearch::addSigns(Program& program, const State& state, const Curvat
       rising(w.high, -sign, 0.0);
     }
     for (int i = w.low; i < w.high; ++i) {
-      const SparseRow row = program.difference(wrapped(i), wrapped(i + 1));
+      const Program::Row row = program.difference(wrapped(i), wrapped(i + 1));
       const double change = slope(i + 1) - slope(i);
       program.addBound(row, -sign, sign * change);
     }
@@ -235,6 +239,7 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
   const auto [low, high] = std::minmax_element(kappa_.begin(), kappa_.end());
   Scales scales{std::max(0.05 * leastMoveMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length,
                 boundMm};
+  int stuck = 0;  // programs in a row
   for (; outcome.iterations < kIterations && !context_.isCancelled(); ++outcome.iterations) {
     Program program(setup_, places_, state.jets, context_);
     if (context_.isCancelled()) break;
@@ -243,11 +248,12 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
     addSigns(program, state, structure, scales);
     if (context_.isCancelled()) break;
     const std::vector<Window> used = windows(structure);
-    const auto step = program.solve(boundMm > 0.0);
-    if (!step) break;
+    const auto solution = program.solve(boundMm > 0.0);
+    stuck = solution && solution->isStuck ? stuck + 1 : 0;
+    if (!solution || stuck >= kMostStuck) break;
     double moved = 0.0;
     std::vector<Vec2> points = state.points;
-    setup_.unknowns.move(*step, points);
+    setup_.unknowns.move(solution->step, points);
     for (std::size_t i = 0; i < points.size(); ++i) moved = std::max(moved, (points[i] - state.points[i]).norm());
     // The linear model of the curvature holds for small moves only.
     const double longest = kLongestStep * std::max(leastMoveMm_, estimateMm);
@@ -283,7 +289,7 @@ int MonotoneSearch::denseTurns(const std::vector<Vec2>& points) const {
   std::vector<double> kappa;
   for (const SpanPlace& place : checkPlaces(setup_.basis, kPlacesPerSpan * kDenseFactor)) {
     if (context_.isCancelled()) return 0;
-    kappa.push_back(curvatureJet(curve.at(place, 4)).kappa);
+    kappa.push_back(curvatureJet(curve.at(place, 2)).kappa);
   }
   return countExtrema(kappa, flat_, setup_.closed);
 }

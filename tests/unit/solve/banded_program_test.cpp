@@ -4,15 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace batten {
 namespace {
 
 struct Problem {
-  BandedProgram<BandRow> qp;
+  BandedProgram qp;
   Eigen::MatrixXd a, g;
   Eigen::VectorXd h;
 };
@@ -136,17 +138,15 @@ TEST(BandedProgram, AnImpossibleProgramEndsWithoutNumbersThatAreNone) {
   EXPECT_TRUE(result.x.allFinite());
 }
 
-TEST(BandedProgram, SparseRowsGiveWhatTheSameRowsOfABandGive) {
+TEST(BandedProgram, GroupedRowsGiveWhatTheSameRowsOfABandGive) {
   const Problem p = randomProblem(14, false, 9, 11);
-  BandedProgram<SparseRow> sparse{p.qp.a, p.qp.b, {}, p.qp.bounds};
+  GroupedProgram grouped{p.qp.a, p.qp.b, {}, p.qp.bounds};
   for (const BandRow& row : p.qp.rows) {
-    SparseRow& same = sparse.rows.emplace_back();
-    for (int k = 0; k < 6; ++k) {
-      same.index.push_back(row.first + k);
-      same.value.push_back(row.v[static_cast<std::size_t>(k)]);
-    }
+    std::array<int, 6> index;
+    std::iota(index.begin(), index.end(), row.first);
+    grouped.rows.add(index, row.v);
   }
-  const InteriorPointResult a = solveProgram(p.qp), b = solveProgram(sparse);
+  const InteriorPointResult a = solveProgram(p.qp), b = solveProgram(grouped);
   EXPECT_EQ(b.why, Termination::Converged);
   EXPECT_LT((a.x - b.x).norm(), 1e-9 * a.x.norm());
 }

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <random>
 
 #include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
+#include "core/solve/column_cholesky.h"
 
 namespace batten {
 namespace {
@@ -79,6 +81,33 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Banded,
 INSTANTIATE_TEST_SUITE_P(Sizes, BandedInverse,
                          testing::Values(std::pair{6, false}, std::pair{7, false}, std::pair{40, false},
                                          std::pair{11, true}, std::pair{12, true}, std::pair{41, true}));
+
+TEST(ColumnCholesky, AgreesWithTheDenseMatrix) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (const int halfWidth : {0, 1, 2, 3, 4, 6, 11, 13, 25}) {
+    for (const int n : {halfWidth + 1, halfWidth + 2, 2 * halfWidth + 1, 60, 61}) {
+      Both m{BandedMatrix(n, halfWidth, false), Eigen::MatrixXd::Zero(n, n)};
+      for (int i = 0; i < n; ++i) {
+        for (int k = 0; k <= halfWidth && i + k < n; ++k) {
+          const double value = k == 0 ? 4.0 * halfWidth + 1.0 + std::abs(normal(random)) : normal(random);
+          m.band.entry(i, k) = m.dense(i, i + k) = m.dense(i + k, i) = value;
+        }
+      }
+      ColumnCholesky cholesky;
+      ASSERT_TRUE(cholesky.factor(m.band, 1e-15)) << halfWidth << " of " << n;
+      Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0).array().sin();
+      const Eigen::VectorXd reference = m.dense.ldlt().solve(x);
+      cholesky.solveInPlace(x);
+      EXPECT_LT((x - reference).norm(), 1e-12 * reference.norm()) << halfWidth << " of " << n;
+      for (const int bad : {n - 1, n / 2, 0}) {
+        BandedMatrix wrong = m.band;
+        wrong.entry(bad, 0) = -1.0;
+        EXPECT_FALSE(ColumnCholesky().factor(wrong, 0.0)) << halfWidth << " of " << n << " at " << bad;
+      }
+    }
+  }
+}
 
 TEST(BandedMatrix, RefusesWhatIsNotPositiveDefinite) {
   BandedMatrix m(8, BandRow::kHalfWidth, false);

@@ -26,6 +26,8 @@ struct DenseProgram {
   double bound(Eigen::Index i) const { return h[i]; }
   double dotRow(Eigen::Index i, const Eigen::VectorXd& v) const { return g.row(i).dot(v); }
   void addRow(Eigen::Index i, double factor, Eigen::VectorXd& out) const { out += factor * g.row(i).transpose(); }
+  Eigen::VectorXd dotRows(const Eigen::VectorXd& v) const { return g * v; }
+  void addRows(const Eigen::VectorXd& weights, Eigen::VectorXd& out) const { out += g.transpose() * weights; }
   bool factorise(const Eigen::VectorXd& weights, Factor& factor) const {
     Eigen::MatrixXd m = a;
     if (weights.size() > 0) m += g.transpose() * weights.asDiagonal() * g;
@@ -97,6 +99,16 @@ TEST(InteriorPoint, FindsTheOptimumOfRandomPrograms) {
     EXPECT_GE(found.lowerBound, p.objective(*truth) - 1e-5 * scale) << seed;
     EXPECT_GE((p.g * found.x - p.h).minCoeff(), -1e-6) << seed;
   }
+}
+
+TEST(InteriorPoint, EndsWhereItMakesNoProgress) {
+  // Twice as many rows as unknowns, nearly all contrary to others, and far beyond the scale of the program.
+  DenseProgram p = randomProgram(20, 40, 5);
+  for (Eigen::Index i = 0; i < p.h.size(); ++i) p.h[i] = 1e12 * std::sin(7.0 * static_cast<double>(i));
+  const InteriorPointResult found = InteriorPoint(p, kExact).solve();
+  EXPECT_EQ(found.why, Termination::NoProgress) << found.iterations;
+  EXPECT_LT(found.iterations, 20);
+  EXPECT_GT((p.h - p.g * found.x).maxCoeff(), 0.999 * p.h.maxCoeff()) << "the steps were steps";
 }
 
 TEST(InteriorPoint, WithoutRowsItSolvesTheSystem) {
