@@ -21,6 +21,7 @@
 #include "core/contour/merge/turn_cuts.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 namespace {
@@ -87,6 +88,17 @@ BitImage coverOf(const BitImage& like, const std::vector<StrokePath>& paths, con
   return cover;
 }
 
+// Of what was taken out of bodies, the holes of their grain: the rest encloses them, and they are shorter than paper
+// between two lines runs.
+BitImage grainHoles(const BitImage& taken, const BitImage& rest, double widthPx, const RunContext& context) {
+  constexpr double kLeastGapWidths =
+      4.0;  // the means that tell lines from paper are as long: half of it at either side
+  const BitImage body = either(taken, rest);
+  const BitImage brief = without(taken, keepPieces(taken, {.minDiagonal = kLeastGapWidths * widthPx}, context));
+  const BitImage besidePaper = grown(without(grown(body, 1, context), body), 1, context);
+  return without(brief, keepPieces(brief, {.seeds = &besidePaper}, context));
+}
+
 // The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
 // paper, beside pens too: there a threshold closes it as well.
 BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
@@ -104,7 +116,8 @@ BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vec
   }
   if (context.isCancelled()) return strokes;
   const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context);
-  return either(without(std::move(body), found.gaps), without(found.lines, ownPens));
+  const BitImage carved = either(without(body, found.gaps), without(found.lines, ownPens));
+  return either(carved, grainHoles(without(std::move(body), carved), carved, width, context));
 }
 
 // Every stroke path is placed by the rule that suits it.

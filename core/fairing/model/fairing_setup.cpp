@@ -243,12 +243,12 @@ double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& poin
   return bothWays ? std::max(there, largestDistance(setup.reference, curve, setup.check)) : there;
 }
 
-FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
   constexpr const char* kSeamInTheWay =
       "Unchanged: making this closed curve periodic would move it by more than the tolerance.";
   constexpr const char* kAllTaken = "Unchanged: the tolerance is too small. Raise it.";
   auto kept = unchanged(curve, closed, Termination::Degenerate,
-                        params.takenMm >= params.toleranceMm ? kAllTaken : kSeamInTheWay);
+                        params.takenMm >= params.toleranceMm ? kAllTaken : kSeamInTheWay, check);
   kept.report.withinTolerance = false;
   return kept;
 }
@@ -276,10 +276,10 @@ Result<FairedCurve> withSetup(
     const auto setup = makeSetup(curve, closed, params, context);
     if (context.isCancelled()) return cancelled();
     if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
-    if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
+    if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message, context);
     FairingParams within = params;
     within.toleranceMm -= (*setup)->claimedMm();
-    if (!(within.toleranceMm > 0.0)) return withoutTolerance(curve, closed, params);
+    if (!(within.toleranceMm > 0.0)) return withoutTolerance(curve, closed, params, context);
     auto faired = body(*setup, within);
     if (!faired) return faired;
     return againstSketch(**setup, std::move(*faired));

@@ -69,7 +69,7 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
 
 /// The curve as it was: what is taken of the tolerance, and the seam, leave nothing of it.
-FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params);
+FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check);
 
 /// A result over a setup as one of the curve that the user has: what it needs includes what is claimed of the
 /// tolerance. Where the curve had to be made periodic first, the deviation is measured again, and what has not moved is

@@ -51,7 +51,7 @@ void moveControlPoints(const std::vector<Asked>& all, const RunContext& context)
   for (std::size_t i = 0; i < all.size(); ++i) {
     *all[i].outcomes = std::move(outcomes[i]);
     if (!*all[i].outcomes) continue;
-    const int sketched = countedExtrema(all[i].curve->sketched, all[i].curve->closed);
+    const int sketched = countedExtrema(all[i].curve->sketched, all[i].curve->closed, context);
     for (auto& faired : (*all[i].outcomes)->faired)
       if (faired) measureFromSeen(*faired, *all[i].curve, sketched, context);
   }

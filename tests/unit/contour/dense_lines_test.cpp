@@ -115,6 +115,26 @@ TEST(DenseLines, ALineFromPenToPencilIsNotCut) {
   EXPECT_EQ(score.bridges, 0);
 }
 
+// A stroke as broad as several others side by side is one line all the same: its grain is no paper between lines.
+TEST(DenseLines, ABroadPencilStrokeAmongNarrowOnesHasOneLineInItsMiddle) {
+  constexpr double kNarrowPx = 7.0, kBroadPx = 26.0;
+  for (const std::uint32_t seed : {2u, 3u, 5u, 7u}) {
+    const DenseLines above = test::hatchLines({240, 60}, 3.0, 3, 30.0, 400.0, 0.0);
+    const DenseLines below = test::hatchLines({240, 300}, 3.0, 3, 30.0, 400.0, 0.0);
+    const DenseLines broad = test::hatchLines({240, 180}, 3.0, 1, 1.0, 300.0, 500.0);
+    DenseLines narrow = above;
+    narrow.insert(narrow.end(), below.begin(), below.end());
+    std::vector<float> cover = test::coverageOf(narrow, kNarrowPx, kDenseWidth, kDenseHeight);
+    const std::vector<float> band = test::coverageOf(broad, kBroadPx, kDenseWidth, kDenseHeight);
+    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], band[i]);
+    test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, seed);
+    const DenseLines found = foundOn(densePage(std::move(cover), 165.0, seed));
+    const test::DenseScore score = test::scoreDense(broad, found, 0.2 * kBroadPx, 0.1 * 300.0);
+    EXPECT_EQ(score.whole, 1) << "seed " << seed;
+    EXPECT_GE(test::scoreDense(narrow, found, 4.0, 12.0).whole, 5) << "seed " << seed;
+  }
+}
+
 TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
   for (const bool pencil : {false, true}) {
     const DenseLines two = test::hatchLines({240, 180}, 30.0, 2, 9.0, 240.0, 0.0);

@@ -7,6 +7,7 @@
 #include <QPainterPath>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/fairing/fairing.h"
@@ -322,7 +323,7 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
       emit hint(tr("Hover a target to see its curve; click to apply it."));
     });
     connect(tile, &TargetTile::left, this, [this] {
-      session_.hoverTarget(0);
+      session_.hoverTarget(std::nullopt);
       emit hint({});
     });
   }
@@ -344,7 +345,7 @@ void TargetStrip::setLow(bool low) {
 void TargetStrip::refresh() {
   const TracedCurve* curve = session_.selected();
   const auto targets = session_.targets();
-  int chosen = 0;
+  std::optional<int> chosen;
   double tolerance = session_.recipe().fairing.toleranceMm;
   if (curve) {
     const FairingParams used = fairingAsked(session_);
