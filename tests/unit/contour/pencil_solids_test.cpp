@@ -2,9 +2,11 @@
 // A tone of a pencil that lines of it run into: against what is known of the page.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/contour/ink_split.h"
+#include "core/contour/trace_contours.h"
 #include "core/image/binarize.h"
 #include "tests/support/dense_page.h"
 
@@ -50,6 +52,56 @@ TEST(PencilSolids, AreShapesAndTheLinesThatRunIntoThemAreStrokes) {
   }
   EXPECT_GT(found, 0.97 * tone);
   EXPECT_EQ(astray, 0);
+}
+
+// Straight lines of a pencil, and tones where `isTone`.
+template <class IsTone>
+GreyImage pencilPage(const std::vector<std::vector<Vec2>>& lines, std::uint32_t seed, const IsTone& isTone) {
+  std::vector<float> cover = test::coverageOf(lines, 7.0, kSolidPageWidth, kSolidPageHeight);
+  for (int y = 0; y < kSolidPageHeight; ++y) {
+    for (int x = 0; x < kSolidPageWidth; ++x) {
+      if (isTone(Vec2(x + 0.5, y + 0.5))) cover[static_cast<std::size_t>(y * kSolidPageWidth + x)] = 1.0f;
+    }
+  }
+  test::grainCoverage(
+      cover, kSolidPageWidth, kSolidPageHeight, [](double, double) { return 1.0; }, seed);
+  return test::scanOfLines(std::move(cover), kSolidPageWidth, kSolidPageHeight, seed).grey;
+}
+
+ContourSet tracedPencil(const GreyImage& grey) {
+  const ThresholdParams params;
+  const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
+  const auto set = traceContours(ink, grey, {}, {}, {});
+  EXPECT_TRUE(set);
+  return set ? *set : ContourSet{};
+}
+
+// A triangle, its corners clockwise on the page.
+struct Triangle {
+  Vec2 a, b, c;
+  bool contains(const Vec2& p) const {
+    const auto side = [&](const Vec2& from, const Vec2& to) {
+      return (to - from).x() * (p - from).y() - (to - from).y() * (p - from).x();
+    };
+    return side(a, b) > 0.0 && side(b, c) > 0.0 && side(c, a) > 0.0;
+  }
+};
+
+TEST(PencilSolids, LeaveTheLinesBesideThemStrokes) {
+  const Triangle tone{{150, 120}, {300, 150}, {180, 250}};
+  auto lines = test::hatchLines({400, 180}, 80.0, 4, 30.0, 300.0, 0.0);
+  for (auto& line : test::hatchLines({60, 180}, 80.0, 3, 30.0, 300.0, 0.0)) lines.push_back(std::move(line));
+  for (const std::uint32_t seed : {2u, 3u, 5u}) {
+    const ContourSet set = tracedPencil(pencilPage(lines, seed, [&](const Vec2& p) { return tone.contains(p); }));
+    double centrePx = 0.0;
+    for (const Contour& c : set.contours) {
+      const double x = c.points.front().at.x();
+      if (x > 130.0 && x < 320.0) continue;
+      EXPECT_EQ(c.kind, ContourKind::Centreline) << "seed " << seed << ": at " << c.points.front().at.transpose();
+      centrePx += c.lengthPx;
+    }
+    EXPECT_GT(centrePx, 0.9 * 7 * 300.0) << "seed " << seed;
+  }
 }
 
 }  // namespace
