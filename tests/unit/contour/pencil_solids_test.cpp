@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contour/blots.h"
 #include "core/contour/ink_split.h"
 #include "core/contour/trace_contours.h"
 #include "core/image/binarize.h"
+#include "core/image/bits/bit_steps.h"
 #include "tests/support/dense_page.h"
 
 namespace batten {
@@ -76,6 +78,30 @@ ContourSet tracedPencil(const GreyImage& grey) {
   return set ? *set : ContourSet{};
 }
 
+TEST(PencilSolids, ADotAloneIsFollowedByItsBorderAndSpecksAreNot) {
+  constexpr double kDotRadius = 11.0;
+  const std::vector<Vec2> dots = {{100, 83}, {380, 270}};
+  const auto lines = test::hatchLines(kToneCentre, 3.0, 5, 60.0, 420.0, 0.0);
+  for (const std::uint32_t seed : {2u, 3u, 5u, 7u}) {
+    const GreyImage grey = pencilPage(lines, seed, [&](const Vec2& p) {
+      return std::any_of(dots.begin(), dots.end(), [&](const Vec2& d) { return (p - d).norm() < kDotRadius; });
+    });
+    std::vector<int> borders(dots.size(), 0);
+    for (const Contour& c : tracedPencil(grey).contours) {
+      if (c.kind != ContourKind::Outline) continue;
+      bool isOfDot = false;
+      for (std::size_t i = 0; i < dots.size(); ++i) {
+        if ((c.points.front().at - dots[i]).norm() > 1.5 * kDotRadius) continue;
+        ++borders[i];
+        isOfDot = true;
+        EXPECT_NEAR(c.areaPx, 3.14159 * kDotRadius * kDotRadius, 0.3 * 3.14159 * kDotRadius * kDotRadius);
+      }
+      EXPECT_TRUE(isOfDot) << "seed " << seed << ": at " << c.points.front().at.transpose();
+    }
+    for (const int count : borders) EXPECT_EQ(count, 1) << "seed " << seed;
+  }
+}
+
 // A triangle, its corners clockwise on the page.
 struct Triangle {
   Vec2 a, b, c;
@@ -102,6 +128,50 @@ TEST(PencilSolids, LeaveTheLinesBesideThemStrokes) {
     }
     EXPECT_GT(centrePx, 0.9 * 7 * 300.0) << "seed " << seed;
   }
+}
+
+void fill(BitImage& image, int x0, int y0, int x1, int y1) {
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) image.set(x, y, true);
+  }
+}
+
+Contour lineAlong(const Vec2& from, const Vec2& to, float widthPx) {
+  Contour line;
+  line.kind = ContourKind::Centreline;
+  for (double s = 0.0; s <= (to - from).norm(); s += 1.0) {
+    ContourPoint point;
+    point.at = point.unrefined = from + s * (to - from).normalized();
+    point.widthPx = widthPx;
+    line.points.push_back(point);
+  }
+  return line;
+}
+
+// A solid at the left, lines of 6 px above, and tones below them: one goes on from the solid, one stands alone.
+TEST(PencilSolids, GoOnWhereNoLineExplainsTheInkBesideThem) {
+  BitImage tones(200, 100);
+  fill(tones, 60, 30, 90, 70);
+  fill(tones, 140, 30, 170, 70);
+  InkSplit split;
+  split.shapes = BitImage(200, 100);
+  fill(split.shapes, 20, 30, 60, 70);
+  split.strokes = tones;
+  fill(split.strokes, 60, 24, 190, 30);
+  split.pencil = either(split.strokes, split.shapes);
+  split.pencilBody = split.pencil;
+  split.penPx = split.pencilPx = 6.0;
+  ContourSet lines;
+  lines.contours.push_back(lineAlong({54, 27}, {196, 27}, 6.0f));
+  const BitImage found = findFillings(split, lines, {});
+  const BitImage astray = without(found, tones);
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 0; x < 200; ++x) EXPECT_FALSE(astray.at(x, y)) << "on the line or on paper, " << x << " " << y;
+  }
+  BitImage beside(200, 100);
+  fill(beside, 60, 36, 86, 66);  // but its corners, which are round
+  EXPECT_EQ(without(beside, found).count(), 0) << "all of the tone but what the line reaches";
+  for (int x = 140; x < 170; ++x) EXPECT_FALSE(found.at(x, 50)) << "a tone has no border";
 }
 
 }  // namespace
