@@ -318,10 +318,11 @@ void MainWindow::findAction() {
 }
 
 void MainWindow::walkCurves(int step) {
-  const int count = static_cast<int>(session_.curves().size()), now = session_.selectedCurve();
+  const int count = static_cast<int>(session_.curves().size());
+  const auto now = session_.selectedCurve();
   if (count == 0) return;
   // None selected: the first, or the last.
-  session_.selectCurve(now < 0 ? (step > 0 ? 0 : count - 1) : (now + step + count) % count);
+  session_.selectCurve(now ? (*now + step + count) % count : step > 0 ? 0 : count - 1);
 }
 
 // What a step changed may lie in another stage, where nobody looks: it is named, and one press away.

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/conventions.h"
 #include "ui/panels/controls/number_field.h"
@@ -92,7 +93,7 @@ void NewDrawingDialog::addButtons() {
 }
 
 void NewDrawingDialog::follow() {
-  int chosen = -1;
+  std::optional<int> chosen;
   for (int i = 0; i < 3; ++i)
     if (QSizeF(width_->value(), height_->value()) == kFormats[i]) chosen = i;
   format_->setCurrent(chosen);

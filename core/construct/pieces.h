@@ -95,7 +95,7 @@ inline double typicalShare(std::span<const SegmentNote> segments) {
 struct LightNote {
   bool found = false;     ///< False: nothing lighter holds the tolerance and the extrema; the curve is the dense one.
   bool exact = false;     ///< An exact line, arc or circle.
-  int points = 0;         ///< Control points, each counted once; exact lines 2, arcs and circles 3.
+  int points = 0;         ///< Control points of the curve, as the list of curves and the files count them.
   int pointsBefore = 0;   ///< The same of the dense curve.
   double movedPx = 0.0;   ///< [px] largest distance of the two.
   int sections = 1;       ///< More than 1: it was cut into sections that meet with one curvature …

@@ -9,6 +9,8 @@
 
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/curve/held_end.h"
 #include "core/curve/knot_operations.h"
 #include "core/curve/periodic_form.h"
 #include "core/solve/banded_least_squares.h"
@@ -86,6 +88,20 @@ std::optional<NurbsCurve> closedFit(const std::vector<CurveSample>& samples, int
   return made ? std::optional(std::move(*made)) : std::nullopt;
 }
 
+/// With the direction and the curvature that the ends of another curve have.
+std::optional<NurbsCurve> withEndsOf(const NurbsCurve& curve, NurbsCurve fitted) {
+  for (const bool atEnd : {false, true}) {
+    const double u = atEnd ? curve.end() : curve.start();
+    const Vec2 along = curve.derivatives(u, 1)[1];
+    const auto kappa = curvature(curve, u);
+    if (!(along.norm() > 0.0) || !kappa) continue;
+    auto held = withEnd(fitted, atEnd, along.normalized(), *kappa);
+    if (!held) return std::nullopt;
+    fitted = std::move(*held);
+  }
+  return fitted;
+}
+
 }  // namespace
 
 NurbsCurve fairableShape(const NurbsCurve& curve) {
@@ -109,11 +125,12 @@ NurbsCurve fairableShape(const NurbsCurve& curve) {
 }
 
 std::optional<NurbsCurve> smoothShape(const NurbsCurve& curve, bool closed, double tolerance) {
-  if (curve.isEmpty() || curve.isRational()) return std::nullopt;
+  if (curve.isEmpty()) return std::nullopt;
   for (const int spans : kSmoothSpans) {
     const auto samples = sampleByArcLength(curve, kPlacesPerSpan * spans + 1);
     if (!(samples.back().s > 0.0)) return std::nullopt;
     auto fitted = closed ? closedFit(samples, spans) : openFit(samples, spans);
+    if (fitted && !closed) fitted = withEndsOf(curve, std::move(*fitted));
     if (fitted && deviation(*fitted, curve).max <= tolerance) return fitted;
   }
   return std::nullopt;

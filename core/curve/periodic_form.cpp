@@ -8,7 +8,7 @@
 #include "core/curve/blossom.h"
 #include "core/curve/curvature.h"
 #include "core/curve/span_curve.h"
-#include "core/solve/dense_solve.h"
+#include "core/solve/banded_least_squares.h"
 
 namespace batten {
 namespace {
@@ -20,25 +20,19 @@ constexpr double kSamePoints = 1e-9;
 void fitPeriodic(const NurbsCurve& curve, PeriodicForm& form) {
   const int p = curve.degree(), m = static_cast<int>(form.points.size());
   const SpanBasis basis(p, form.knots, m + p, m);
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(m, 2);
+  BandedLeastSquares system(m, p + 1, true);
   const int perSpan = 2 * p + 2;
+  std::vector<double> values(static_cast<std::size_t>(p) + 1);
   for (int s = 0; s < basis.spanCount(); ++s) {
+    const double weight = std::sqrt(basis.width(s));
     for (int i = 0; i < perSpan; ++i) {
       const SpanPlace place{s, (i + 0.5) / perSpan};
       const SpanRow row = basis.row(place, 0);
-      const Vec2 target = curve.point(basis.parameter(place));
-      for (int a = 0; a <= p; ++a) {
-        right.row(basis.point(s, a)) += basis.width(s) * row.d[0][a] * target.transpose();
-        for (int b = 0; b <= p; ++b) {
-          normal(basis.point(s, a), basis.point(s, b)) += basis.width(s) * row.d[0][a] * row.d[0][b];
-        }
-      }
+      for (int j = 0; j <= p; ++j) values[j] = weight * row.d[0][j];
+      system.add(basis.point(s, 0), values, weight * curve.point(basis.parameter(place)));
     }
   }
-  const Eigen::MatrixXd solved = solveSymmetric(normal, right);
-  if (!solved.allFinite()) return;
-  for (int j = 0; j < m; ++j) form.points[j] = solved.row(j).transpose();
+  if (auto solved = system.solve()) form.points = std::move(*solved);
 }
 
 }  // namespace

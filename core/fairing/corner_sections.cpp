@@ -79,7 +79,7 @@ int commonDegree(const std::vector<CornerSection>& sections, const std::vector<F
 
 /// The parts as one curve again, with what they report.
 Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std::vector<CornerSection>& sections,
-                                std::vector<FairedCurve> parts) {
+                                std::vector<FairedCurve> parts, CancelCheck check) {
   FairedCurve result;
   std::vector<ProfileSpan> spans;
   for (const CornerSection& section : sections) spans.push_back(section.span);
@@ -100,10 +100,10 @@ Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std:
   if (!joined) return fail(joined.error());
   result.curve = std::move(*joined);
   result.report.targetDegree = commonDegree(sections, parts);
-  result.report.extremaBefore = countedExtrema(whole, closed);
-  result.report.extremaAfter = countedExtrema(result.curve, closed);
+  result.report.extremaBefore = countedExtrema(whole, closed, check);
+  result.report.extremaAfter = countedExtrema(result.curve, closed, check);
   if (result.report.extremaAfter <= result.report.extremaBefore) return result;
-  auto same = unchanged(whole, closed, Termination::ToleranceLimited, kAddsAtCorners);
+  auto same = unchanged(whole, closed, Termination::ToleranceLimited, kAddsAtCorners, check);
   same.report.neededMm = result.report.neededMm;
   same.report.withinTolerance = false;
   return same;
@@ -118,7 +118,7 @@ Result<FairedCurve> fairSections(const NurbsCurve& curve, bool closed, const std
       const CornerSection& section = sections[i];
       const FairingParams own = paramsOf(params, section.span, closed);
       const bool isLeft = section.isStraight || (!params.spanTargets.empty() && own.spanTargets.empty());
-      made[i] = isLeft ? Result<FairedCurve>(unchanged(section.curve, false, Termination::Converged, {}))
+      made[i] = isLeft ? Result<FairedCurve>(unchanged(section.curve, false, Termination::Converged, {}, context))
                        : fair(section.curve, false, own, context, line);
     }
   });
@@ -128,7 +128,9 @@ Result<FairedCurve> fairSections(const NurbsCurve& curve, bool closed, const std
     if (!one) return one;
     parts.push_back(std::move(*one));
   }
-  return joinedParts(curve, closed, sections, std::move(parts));
+  auto joined = joinedParts(curve, closed, sections, std::move(parts), context);
+  if (context.isCancelled()) return cancelled();
+  return joined;
 }
 
 /// A straight part, or one that another span's target leaves alone.
@@ -181,7 +183,7 @@ void addProfile(TargetProfile& whole, const TargetProfile& part, const ProfileSp
 }
 
 Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<CornerSection>& sections,
-                                      std::vector<Result<TargetOutcomes>>& parts) {
+                                      std::vector<Result<TargetOutcomes>>& parts, CancelCheck check) {
   TargetOutcomes whole;
   std::array<bool, 6> isMet{true, true, true, true, true, true};
   std::array<std::vector<FairedCurve>, 6> faired;
@@ -209,7 +211,7 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
   const bool bySimilarity = job.params.targetChoice == TargetChoice::Similarity;
   for (std::size_t d = faired.size(); d-- > 0;) {
     if (faired[d].size() != sections.size()) continue;
-    auto joined = joinedParts(job.curve, job.closed, sections, std::move(faired[d]));
+    auto joined = joinedParts(job.curve, job.closed, sections, std::move(faired[d]), check);
     if (!joined) {
       whole.problems[d] = joined.error().message;
       continue;
@@ -302,7 +304,7 @@ std::vector<Result<TargetOutcomes>> targetsBetweenCorners(std::span<const Target
       parts.push_back(one.jobs[k] == kNoJob ? Result<TargetOutcomes>(asItIs(one.sections[k], jobs[i].params.targets))
                                             : std::move(outcomes[one.jobs[k]]));
     }
-    results.push_back(joinedOutcomes(jobs[i], one.sections, parts));
+    results.push_back(joinedOutcomes(jobs[i], one.sections, parts, context));
   }
   return results;
 }

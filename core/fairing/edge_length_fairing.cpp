@@ -46,8 +46,8 @@ std::vector<Quintic> quinticsOf(const NurbsCurve& curve) {
   return path;
 }
 
-Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const FairingParams& params) {
-  if (params.mode == FairingMode::LowPass) return lowPassedProfile(path, closed, params);
+Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const FairingParams& params, CancelCheck check) {
+  if (params.mode == FairingMode::LowPass) return lowPassedProfile(path, closed, params, check);
   if (params.target == FairingTarget::Drawn) return drawnProfile(params.profile, closed);
   if (params.target == FairingTarget::LogAesthetic)
     return logAestheticTarget(path, closed, targetSplits(path, closed, params), params.alpha, params.targets.samples)
@@ -76,7 +76,7 @@ class EdgeLengthFairing {
   EdgeLengthFairing(const NurbsCurve& curve, bool closed, const std::vector<Quintic>& path,
                     const TargetProfile& profile, const FairingParams& params, const RunContext& context)
       : curve_(curve), closed_(closed), path_(path), profile_(profile), params_(params), context_(context) {
-    for (const CurveSample& sample : sampleByArcLength(curve, kSamples)) own_.push_back(sample.kappa);
+    for (const CurveSample& sample : sampleByArcLength(curve, kSamples, context)) own_.push_back(sample.kappa);
     length_ = ArcLength(curve).total();
   }
 
@@ -94,9 +94,10 @@ class EdgeLengthFairing {
       if (found && found->report.objectiveAfter < best.report.objectiveAfter) best = *found;
     }
     const double scale = kExtremumProminence / std::max(extent(curve_), 1e-300);
-    best.report.extremaBefore = static_cast<int>(curvatureExtrema(curve_, scale, closed_).size());
-    best.report.extremaAfter = static_cast<int>(curvatureExtrema(best.curve, scale, closed_).size());
+    best.report.extremaBefore = static_cast<int>(curvatureExtrema(curve_, scale, closed_, context_).size());
+    best.report.extremaAfter = static_cast<int>(curvatureExtrema(best.curve, scale, closed_, context_).size());
     best.report.iterations = iterations_;
+    if (context_.isCancelled()) return cancelled();
     return best;
   }
 
@@ -111,7 +112,7 @@ class EdgeLengthFairing {
   double misfit(const NurbsCurve& curve) const {
     const double scale = ArcLength(curve).total() / length_;
     double sum = 0.0, size = 0.0;
-    const auto samples = sampleByArcLength(curve, kSamples);
+    const auto samples = sampleByArcLength(curve, kSamples, context_);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const double wanted = profile_.curvatureAt(static_cast<double>(i) / (kSamples - 1));
       sum += std::pow(scale * samples[i].kappa - wanted, 2);
@@ -144,11 +145,11 @@ class EdgeLengthFairing {
   }
 
   double movedAt(const NurbsCurve& curve, int places) const {
-    const auto farthest = [places](const NurbsCurve& from, const NurbsCurve& to) {
+    const auto farthest = [places, this](const NurbsCurve& from, const NurbsCurve& to) {
       std::vector<Vec2> points;
       for (int i = 0; i <= places; ++i)
         points.push_back(from.point(from.start() + (from.end() - from.start()) * i / places));
-      return deviation(to, points, true).max;
+      return deviation(to, points, true, context_).max;
     };
     return std::max(farthest(curve, curve_), farthest(curve_, curve));
   }
@@ -217,7 +218,8 @@ Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const
   if (path.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to fair.");
   const std::vector<Quintic> pieces = quinticsOf(path);
   if (pieces.empty()) return noted(fair(path, closed, params, context));
-  const auto profile = profileFor(path, closed, params);
+  const auto profile = profileFor(path, closed, params, context);
+  if (context.isCancelled()) return cancelled();
   if (!profile || !profile->valid) return fair(path, closed, params, context);
   return EdgeLengthFairing(path, closed, pieces, *profile, params, context).run();
 }

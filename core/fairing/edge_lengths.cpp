@@ -85,7 +85,7 @@ bool turnsOver(const Edges& edges) {
 
 /// One piece towards its wanted values at the samples.
 BlockSolution solvePiece(const Quintic& q, const Edges& edges, std::span<const double> wanted, double scale, bool pin,
-                           const RunContext& context) {
+                         const RunContext& context) {
   const auto n = static_cast<int>(wanted.size());
   const double share = 1.0 / std::sqrt(static_cast<double>(n)), size = (q[5] - q[0]).norm() + edges.lengths[0];
   ResidualBlock block;
@@ -126,6 +126,7 @@ EdgeLengthResult followCurvature(std::span<const Quintic> path, const SpecifiedC
   double total = 0.0, scale = 0.0;
   std::vector<std::vector<double>> lengths, values;
   for (const Quintic& q : path) {
+    if (context.isCancelled()) return result;
     lengths.push_back(lengthsAt(q, samples));
     total += lengths.back().back();
   }

@@ -69,12 +69,12 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
   TargetOutcomes& outcomes = *run.outcomes;
   try {
     if (!run.setup) {
-      outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, run.problem);
+      outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, run.problem, context);
       return;
     }
-    const double tolerance = job.params.toleranceMm - run.setup->seamMm;
+    const double tolerance = job.params.toleranceMm - run.setup->claimedMm();
     if (!(tolerance > 0.0)) {
-      outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, kSeamInTheWay);
+      outcomes.faired[at] = withoutTolerance(job.curve, job.closed, job.params, context);
       return;
     }
     auto faired = fairOverLevels(run.setup, run.levels, static_cast<int>(at) + 1, tolerance, context);
@@ -150,7 +150,7 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
   if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to fair.");
   switch (params.mode) {
     case FairingMode::None:
-      return unchanged(curve, closed, Termination::NotRun, {});
+      return unchanged(curve, closed, Termination::NotRun, {}, context);
     case FairingMode::Tolerance:
       return fairWithinTolerance(curve, closed, params, context, line);
     case FairingMode::Monotone:
@@ -162,13 +162,13 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
   }
   if (params.target == FairingTarget::Drawn) {
     const TargetProfile drawn = drawnProfile(params.profile, closed);
-    if (!drawn.valid) return unchanged(curve, closed, Termination::NotRun, drawn.problem);
+    if (!drawn.valid) return unchanged(curve, closed, Termination::NotRun, drawn.problem, context);
     return modifyShape(curve, closed, drawn, params, context);
   }
   if (params.target == FairingTarget::LogAesthetic) {
     const auto target =
         logAestheticTarget(curve, closed, targetSplits(curve, closed, params), params.alpha, params.targets.samples);
-    if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem);
+    if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem, context);
     auto faired = withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
       return modifyShape(setup, target.profile, within.toleranceMm, context);
     });

@@ -83,6 +83,9 @@ struct FairingParams {
   TargetChoice targetChoice = TargetChoice::Simplest;
   std::optional<double> alpha;  ///< -3..6. Of a log-aesthetic target; absent: what each span comes nearest to.
   double toleranceMm = 0.2;     ///< [mm] 0.001..20. Largest move of the curve from the sketched one; never exceeded.
+  /// [mm] >= 0. Of the tolerance, not for fairing: how far the curve that it begins with lies off the sketched one.
+  /// What goes by the tolerance (spans) goes by all of it.
+  double takenMm = 0.0;
   TolerancePolicy tolerancePolicy = TolerancePolicy::AsNeeded;  ///< Tolerance mode.
   FairingMeans means = FairingMeans::ControlPoints;  ///< Target and low-pass modes; edge lengths only on Bezier paths.
   double lowPassMm =

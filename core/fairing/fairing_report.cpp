@@ -8,12 +8,12 @@
 
 namespace batten {
 
-FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note) {
+FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note, CancelCheck check) {
   FairedCurve result;
   result.curve = curve;
   result.report.why = why;
   result.report.note = std::move(note);
-  if (!curve.isEmpty()) result.report.extremaBefore = result.report.extremaAfter = countedExtrema(curve, closed);
+  if (!curve.isEmpty()) result.report.extremaBefore = result.report.extremaAfter = countedExtrema(curve, closed, check);
   return result;
 }
 

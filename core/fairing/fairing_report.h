@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/termination.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -48,8 +49,8 @@ struct FairedCurve {
   FairingReport report;
 };
 
-/// The curve as sketched, with the reason why nothing was done.
-FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note);
+/// The curve as sketched, with the reason why nothing was done. Cancelled: the extrema are not counted.
+FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note, CancelCheck check = {});
 
 /// The six targets of one curve made fair, by degree minus one; absent where one failed.
 using FairedByDegree = std::array<std::optional<FairedCurve>, 6>;

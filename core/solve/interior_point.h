@@ -91,7 +91,7 @@ class InteriorPoint {
       if (result.lowerBound > limits_.abortAbove) return Termination::ToleranceLimited;
       if (result.iterations >= limits_.iterations) return Termination::IterationLimit;
       if (check_.isCancelled()) return Termination::NotRun;
-      if (!iterate()) return Termination::Degenerate;
+      if (!iterate()) return check_.isCancelled() ? Termination::NotRun : Termination::Degenerate;
     }
   }
 
@@ -146,7 +146,7 @@ class InteriorPoint {
 
   bool iterate() {
     typename Problem::Factor m;
-    if (!problem_.factorise(scale_ * scale_ * z_.cwiseQuotient(s_), m)) return false;
+    if (!problem_.factorise(scale_ * scale_ * z_.cwiseQuotient(s_), m) || check_.isCancelled()) return false;
     const Eigen::Index count = s_.size();
     Eigen::VectorXd dx, ds(count), dz(count), rc = s_.cwiseProduct(z_);
     direction(m, rc, dx, ds, dz);

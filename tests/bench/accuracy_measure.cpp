@@ -16,6 +16,7 @@ constexpr double kCornerZonePx = 10.0;
 constexpr double kFoundWithinPx = 2.0, kOutlierPx = 6.0, kCornerWithinPx = 4.0;
 constexpr double kProminence = 5e-3;  // of kappa times the diagonal
 constexpr double kSamplePx = 0.5;
+constexpr int kPointsOfArc = 3;  // an arc or circle counts as what it takes to draw it
 
 /// Where the truth is nearest to a place.
 struct Foot {
@@ -389,9 +390,9 @@ TraceResult traceShape(const TruthShape& shape, const Scan& scan, Recipe recipe,
   const bool faired = recipe.fairing.mode != FairingMode::None;
   for (const TracedCurve& curve : output.faired->curves) {
     result.curves.push_back(sampledCurve(curve, faired, output.frame));
-    const bool counted = !faired && curve.construct.light;
-    result.controlPoints +=
-        counted ? curve.construct.light->points : (faired ? curve.faired : curve.sketched).controlPointCount();
+    const NurbsCurve& shown = faired ? curve.faired : curve.sketched;
+    const bool isArc = !faired && curve.construct.light && shown.isRational();
+    result.controlPoints += isArc ? kPointsOfArc : shown.controlPointCount();
   }
   if (output.pieces)
     for (const Corner& corner : output.pieces->corners) result.corners.push_back(corner.positionPx);

@@ -45,6 +45,8 @@ using namespace batten::test;
 
 namespace {
 
+constexpr int kPointsOfArc = 3;  // an arc or circle counts as what it takes to draw it
+
 std::optional<NurbsCurve> denseCurve(const TruthPiece& piece, bool closed) {
   std::vector<double> t(1, 0.0);
   for (std::size_t i = 1; i < piece.points.size(); ++i) {
@@ -317,7 +319,7 @@ void printDetails(const std::filesystem::path& path) {
     double tolerance = 0.0, moved = 0.0;
     for (const TracedCurve& curve : out.constructed->curves) {
       extrema += curve.sketchedFigures.extrema;
-      points += curve.construct.light ? curve.construct.light->points : curve.sketchedFigures.controlPoints;
+      points += curve.sketched.isRational() ? kPointsOfArc : curve.sketchedFigures.controlPoints;
       if (!curve.construct.light) continue;
       corners += curve.construct.light->corners;
       dense += curve.construct.light->found ? 0 : 1;

@@ -370,7 +370,7 @@ TEST_F(CanvasTest, ClickSelectsTheNearestCurve) {
   }
   open(page);
   ASSERT_EQ(session().curves().size(), 2u);
-  const int first = session().selectedCurve();
+  const auto first = session().selectedCurve();
   ASSERT_TRUE(waitUntil([&] {
     click(180, 355);
     return session().selectedCurve() != first;

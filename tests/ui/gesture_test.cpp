@@ -119,7 +119,7 @@ TEST_F(Gesture, UndoUnderTheMouseLeavesNoGhost) {
   session().undoStack()->undo();  // the mark at (400, 300)
   session().undoStack()->undo();  // the mark under the mouse
   ASSERT_TRUE(session().recipe().cornerMarks.empty());
-  EXPECT_EQ(session().selectedCorner(), -1);
+  EXPECT_FALSE(session().selectedCorner());
   canvas()->setFocus();
   QTest::keyClick(canvas(), Qt::Key_Delete);
   session().undoStack()->redo();
@@ -139,7 +139,7 @@ TEST_F(Gesture, UndoUnderTheMouseLeavesNoGhost) {
 TEST_F(Gesture, WhatIsNotPaintedCannotBeClickedInAnyStage) {
   QImage page = test::ellipsePage();
   openPage(page);
-  const int curve = session().selectedCurve();
+  const auto curve = session().selectedCurve();
   for (const PanelStage stage : kPanelStages) {
     window_->setStage(stage);
     window_->action(ActionId::ToolSelect)->trigger();
@@ -151,10 +151,10 @@ TEST_F(Gesture, WhatIsNotPaintedCannotBeClickedInAnyStage) {
     EXPECT_EQ(session().recipe() == before, !shown) << key(stage).toStdString();
     while (session().undoStack()->canUndo()) session().undoStack()->undo();
     ASSERT_TRUE(settle());
-    session().selectCurve(-1);
+    session().selectCurve(std::nullopt);
     clickCanvas({320, 80});
     const bool line = window_->view().isVisible(Layer::Curve) || window_->view().isVisible(Layer::Faired);
-    EXPECT_EQ(session().selectedCurve() >= 0, line) << key(stage).toStdString();
+    EXPECT_EQ(session().selectedCurve().has_value(), line) << key(stage).toStdString();
     while (session().undoStack()->canUndo()) session().undoStack()->undo();
     session().selectCurve(curve);
     ASSERT_TRUE(settle());

@@ -215,7 +215,7 @@ TEST_F(Layout, NothingLiesOverTheRegionsWhileTheyAreWorkedOn) {
     return std::pair(all.copy(0, 0, 300, 60), all.copy(0, all.height() - 60, 300, 60));
   };
   const auto with = corners();
-  session().selectCurve(-1);
+  session().selectCurve(std::nullopt);
   const auto without = corners();
   EXPECT_EQ(with.first, without.first) << "nothing is said of a curve that is not drawn";
   window_->setStage(PanelStage::Scan);

@@ -63,7 +63,7 @@ class Selection : public test::WindowFixture {
   void clickEyeOfSelected() {
     for (auto* list : window_->findChildren<CurveList*>()) {
       if (!list->isVisible()) continue;
-      const QRect row = list->visualItemRect(list->item(session().selectedCurve()));
+      const QRect row = list->visualItemRect(list->item(session().selectedCurve().value()));
       return QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, QPoint(8, row.center().y()));
     }
     FAIL() << "no list is shown";

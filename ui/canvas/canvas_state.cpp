@@ -143,10 +143,10 @@ void CurveCanvas::State::selectionChanged() {
 
 void CurveCanvas::State::hoverChanged() {
   ghost = {};
-  ghostDegree = session.hoveredTarget();
+  const auto degree = session.hoveredTarget();
   const auto targets = session.targets();
-  if (ghostDegree >= 1 && ghostDegree <= 6 && targets) {
-    const auto& outcome = targets->faired[ghostDegree - 1];
+  if (degree && targets) {
+    const auto& outcome = targets->faired[*degree - 1];
     if (outcome) ghost = sampledPath(outcome->curve, session.output().frame, 0.15 / zoomBracket(transform.zoom()));
   }
   canvas.update();
@@ -199,7 +199,7 @@ void CurveCanvas::State::requestShapes() {
 
 void CurveCanvas::State::requestCombs() {
   const CurveSource from = source();
-  const int selected = session.selectedCurve();
+  const auto selected = session.selectedCurve();
   const Judged judged = judgedIn(view);
   if (from == combsFor && selected == combsSelected && judged == combsJudged) return;
   combsFor = from;

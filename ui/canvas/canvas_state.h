@@ -38,7 +38,6 @@ struct CurveCanvas::State : CanvasScene {
   CurveCanvas& canvas;
   std::array<std::unique_ptr<CanvasTool>, kTools.size()> tools;
   QPainterPath ghost;
-  int ghostDegree = 0;
   bool isFitted = true;  ///< Follows the size of the view until the user zooms or pans.
   bool isPanning = false, isPressed = false, spaceHeld = false, ownsCursor = false;
   QPointF lastMouse;
@@ -65,7 +64,7 @@ struct CurveCanvas::State : CanvasScene {
 
   CurveSource shapesFor, combsFor;
   double shapesZoom = 0.0;
-  int combsSelected = -2;
+  std::optional<int> combsSelected;
   Judged combsJudged = Judged::Result;
   OverlaySource overlayFor;
 };

@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <QPoint>
 #include <QSize>
+#include <optional>
 
 #include "ui/canvas/scene/canvas_scene.h"
 #include "ui/canvas/screen_tiles.h"
@@ -26,7 +27,8 @@ class StillImage {
     QPoint origin;
     QSize size;
     double zoom = 0.0, ratio = 0.0, combScale = 0.0;
-    int combDensity = 0, selected = -1, layers = 0;
+    int combDensity = 0, layers = 0;
+    std::optional<int> selected;
     bool isGrowing = false, isRadius = false;
     const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr, *contours = nullptr;
     bool operator==(const LinesKey&) const = default;

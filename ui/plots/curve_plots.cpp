@@ -43,10 +43,10 @@ struct CurvePlots::State {
   QSharedPointer<RoundLogTicker> logTicker;
   PlotEditing* editing = nullptr;
   bool isPending = false;
-  bool isTurned = false;  ///< By the user, against the way the curve lies on the drawing.
-  double shownLength = -1.0;
+  bool isTurned = false;              ///< By the user, against the way the curve lies on the drawing.
+  std::optional<double> shownLength;  ///< None before the first data.
   PlotTab shownTab = PlotTab::Radius;
-  int shownCurve = -2;
+  std::optional<int> shownCurve;
   Judged shownJudged = Judged::Result;
   bool shownLinear = false;
 };
@@ -236,10 +236,11 @@ void CurvePlots::showAxes() {
 
 void CurvePlots::refreshView() {
   State& d = *state_;
-  const bool sameView = d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&
-                        std::abs(d.shownLength - d.data.lengthMm) < 0.2 * std::abs(d.shownLength);
+  const double before = d.shownLength.value_or(0.0);
+  const bool sameView = d.shownLength && d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&
+                        std::abs(before - d.data.lengthMm) < 0.2 * before;
   const QCPRange shown = d.plot->xAxis->range();
-  const bool wasWhole = shown.lower <= 0.0 && std::abs(shown.upper - d.shownLength) < 1e-6 * d.shownLength;
+  const bool wasWhole = shown.lower <= 0.0 && std::abs(shown.upper - before) < 1e-6 * before;
   d.shownTab = d.tab;
   d.shownCurve = d.session.selectedCurve();
   d.shownLength = d.data.lengthMm;

@@ -76,8 +76,8 @@ double PlotEditing::kappaAt(int y, double signOf) const {
   return std::copysign(1.0 / std::max(std::abs(value), 1e-9), signOf);
 }
 
-int PlotEditing::handleAt(const QPoint& position) const {
-  int best = -1;
+std::optional<int> PlotEditing::handleAt(const QPoint& position) const {
+  std::optional<int> best;
   double nearest = kReachPx;
   for (std::size_t i = 0; i < data_.handles.size(); ++i) {
     const double distance = std::hypot(plot_->xAxis->coordToPixel(data_.handles[i].first) - position.x(),
@@ -87,8 +87,8 @@ int PlotEditing::handleAt(const QPoint& position) const {
   return best;
 }
 
-int PlotEditing::splitAt(const QPoint& position) const {
-  int best = -1;
+std::optional<int> PlotEditing::splitAt(const QPoint& position) const {
+  std::optional<int> best;
   double nearest = kSplitReachPx;
   for (std::size_t i = 0; i < data_.splits.size(); ++i) {
     const double distance = std::abs(plot_->xAxis->coordToPixel(data_.splits[i]) - position.x());
@@ -119,9 +119,9 @@ bool PlotEditing::press(const QMouseEvent& event) {
   if (event.button() != Qt::LeftButton || !isOverAxes(at)) return false;
   pressedAt_ = at;
   hasMoved_ = false;
-  if (index_ = handleAt(at); index_ >= 0) {
+  if (index_ = handleAt(at); index_) {
     dragged_ = Dragged::Handle;
-  } else if (index_ = splitAt(at); index_ >= 0) {
+  } else if (index_ = splitAt(at); index_) {
     dragged_ = Dragged::Split;
   } else if (isOnTarget(at)) {
     // The target becomes a drawn one with a point under the mouse.
@@ -132,12 +132,12 @@ bool PlotEditing::press(const QMouseEvent& event) {
       const double distance = std::abs(profile[i].fraction - f);
       if (distance < spacing) spacing = distance, index_ = static_cast<int>(i);
     }
-    if (index_ < 0) return false;
+    if (!index_) return false;
     const bool isNear = spacing * plot_->axisRect()->width() < 2.0 * kReachPx;
     if (!isNear) {
       const auto above = std::upper_bound(profile.begin(), profile.end(), f,
                                           [](double x, const ProfilePoint& p) { return x < p.fraction; });
-      const double sign = profile[index_].kappa;
+      const double sign = profile[*index_].kappa;
       index_ = static_cast<int>(profile.insert(above, {f, kappaAt(at.y(), sign)}) - profile.begin());
     }
     dragged_ = Dragged::Handle;
@@ -154,10 +154,10 @@ bool PlotEditing::press(const QMouseEvent& event) {
 void PlotEditing::drag(const QPoint& position) {
   hasMoved_ = hasMoved_ || (position - pressedAt_).manhattanLength() >= QApplication::startDragDistance();
   if (!hasMoved_ && dragged_ == Dragged::Split) return;
-  if (dragged_ == Dragged::Split) return moveSplit(session_, index_, fractionAt(position.x()), gesture_);
+  if (dragged_ == Dragged::Split) return moveSplit(session_, *index_, fractionAt(position.x()), gesture_);
   std::vector<ProfilePoint> profile = fairingAsked(session_).profile;
-  const auto at = static_cast<std::size_t>(index_);
-  if (index_ < 0 || at >= profile.size()) return;
+  const auto at = static_cast<std::size_t>(index_.value_or(0));
+  if (!index_ || at >= profile.size()) return;
   // Points keep their order; the first and last of an open curve stay at its ends.
   const double gap = 1e-3;
   const double low = at == 0 ? 0.0 : profile[at - 1].fraction + gap,
@@ -172,8 +172,8 @@ void PlotEditing::drag(const QPoint& position) {
 
 QString PlotEditing::hintAt(const QPoint& position) const {
   if (!isEditable() || !isOverAxes(position)) return {};
-  if (handleAt(position) >= 0) return tr("Drag the point to shape the target; right-click removes it.");
-  if (splitAt(position) >= 0) return tr("Drag the split along the curve; click it to join the adjacent spans.");
+  if (handleAt(position)) return tr("Drag the point to shape the target; right-click removes it.");
+  if (splitAt(position)) return tr("Drag the split along the curve; click it to join the adjacent spans.");
   if (isOnTarget(position)) return tr("Drag the target to draw your own.");
   return {};
 }
@@ -185,9 +185,9 @@ bool PlotEditing::move(const QMouseEvent& event) {
     return true;
   }
   const QString text = hintAt(at);
-  plot_->setCursor(text.isEmpty()                         ? Qt::ArrowCursor
-                   : splitAt(at) >= 0 && handleAt(at) < 0 ? Qt::SizeHorCursor
-                                                          : Qt::PointingHandCursor);
+  plot_->setCursor(text.isEmpty()                 ? Qt::ArrowCursor
+                   : splitAt(at) && !handleAt(at) ? Qt::SizeHorCursor
+                                                  : Qt::PointingHandCursor);
   return false;
 }
 
@@ -201,9 +201,9 @@ void PlotEditing::openMenu(const QPoint& position) {
     action->setObjectName(QString::fromLatin1(name));
     QObject::connect(action, &QAction::triggered, menu, act);
   };
-  const int split = splitAt(position), handle = handleAt(position);
-  if (split >= 0) {
-    add(tr("Join the spans here"), "plot.removeSplit", [this, split] { joinAtSplit(session_, split); });
+  const auto split = splitAt(position), handle = handleAt(position);
+  if (split) {
+    add(tr("Join the spans here"), "plot.removeSplit", [this, at = *split] { joinAtSplit(session_, at); });
   } else {
     add(tr("Split the target here"), "plot.split", [this, f] { addSplit(session_, f); });
   }
@@ -217,17 +217,17 @@ void PlotEditing::openMenu(const QPoint& position) {
   }
   menu->addSeparator();
   if (!isTargetDrawn(session_)) {
-    add(tr("Draw the target"), "plot.draw", [this] { drawTarget(session_, profileToBeginWith(session_), -1); });
+    add(tr("Draw the target"), "plot.draw", [this] { drawTarget(session_, profileToBeginWith(session_)); });
   } else {
     std::vector<ProfilePoint> profile = profileToBeginWith(session_);
-    if (handle >= 0 && profile.size() > 2) {
-      profile.erase(profile.begin() + handle);
-      add(tr("Remove this point"), "plot.removePoint", [this, profile] { drawTarget(session_, profile, -1); });
-    } else if (handle < 0) {
+    if (handle && profile.size() > 2) {
+      profile.erase(profile.begin() + *handle);
+      add(tr("Remove this point"), "plot.removePoint", [this, profile] { drawTarget(session_, profile); });
+    } else if (!handle) {
       const auto above = std::upper_bound(profile.begin(), profile.end(), f,
                                           [](double x, const ProfilePoint& p) { return x < p.fraction; });
       profile.insert(above, {f, drawnProfile(profile, session_.selected()->closed).curvatureAt(f)});
-      add(tr("Add a point here"), "plot.addPoint", [this, profile] { drawTarget(session_, profile, -1); });
+      add(tr("Add a point here"), "plot.addPoint", [this, profile] { drawTarget(session_, profile); });
     }
     add(tr("Back to the six targets"), "plot.forget", [this] { forgetDrawnTarget(session_); });
   }
@@ -251,9 +251,10 @@ bool PlotEditing::eventFilter(QObject* watched, QEvent* event) {
       return move(*static_cast<QMouseEvent*>(event));
     case QEvent::MouseButtonRelease:
       if (!isDragging()) break;
-      if (dragged_ == Dragged::Split && !hasMoved_) joinAtSplit(session_, index_);
+      if (dragged_ == Dragged::Split && !hasMoved_) joinAtSplit(session_, *index_);
       dragged_ = Dragged::Nothing;
-      index_ = gesture_ = -1;
+      index_.reset();
+      gesture_.reset();
       return true;
     default:
       break;

@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QPoint>
+#include <optional>
 #include <vector>
 
 #include "ui/plots/plot_series.h"
@@ -39,8 +40,8 @@ class PlotEditing : public QObject {
   bool isEditable() const;
   double fractionAt(int x) const;
   double kappaAt(int y, double signOf) const;
-  int handleAt(const QPoint& position) const;
-  int splitAt(const QPoint& position) const;
+  std::optional<int> handleAt(const QPoint& position) const;
+  std::optional<int> splitAt(const QPoint& position) const;
   /// Within reach of the area between the axes: where a press can take hold of something.
   bool isOverAxes(const QPoint& position) const;
   bool isOnTarget(const QPoint& position) const;
@@ -50,7 +51,8 @@ class PlotEditing : public QObject {
   PlotData data_;
   PlotTab tab_ = PlotTab::Radius;
   Dragged dragged_ = Dragged::Nothing;
-  int index_ = -1, gesture_ = -1;
+  std::optional<int> index_;  ///< Of the handle or split that is dragged.
+  GestureId gesture_;
   QPoint pressedAt_;
   bool hasMoved_ = false;  ///< Since then, farther than a click may.
   std::vector<QObject*> items_;

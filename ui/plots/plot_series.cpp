@@ -42,15 +42,15 @@ void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples,
   if (series.s.size() > 1) data.series.push_back(std::move(series));
 }
 
-int chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
-  if (curve.fairingUsed.mode != FairingMode::Target || !isPolynomial(curve.fairingUsed.target)) return 0;
+std::optional<int> chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
+  if (curve.fairingUsed.mode != FairingMode::Target || !isPolynomial(curve.fairingUsed.target)) return std::nullopt;
   return degreeOf(curve.fairingUsed.target).value_or(targets.recommendedDegree);
 }
 
 void addTargets(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {
   const auto targets = session.targets();
   if (!targets) return;
-  const int chosen = session.pointedSpan() ? chosenSpanTarget(session) : chosenDegree(curve, *targets);
+  const auto chosen = session.pointedSpan() ? chosenSpanTarget(session) : chosenDegree(curve, *targets);
   for (const TargetProfile& profile : targets->targets.profiles) {
     if (!profile.valid) continue;
     PlotSeries series{PlotRole::Target, profile.degree, {}, {}};

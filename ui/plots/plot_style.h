@@ -14,7 +14,7 @@ namespace batten {
 struct DataKey {
   std::shared_ptr<const FairedSet> faired;
   std::shared_ptr<const PieceSet> pieces;
-  int curve;
+  std::optional<int> curve;
   PlotTab tab;
   Judged judged;
   bool operator==(const DataKey&) const = default;

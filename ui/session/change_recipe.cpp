@@ -7,7 +7,7 @@
 
 namespace batten {
 
-ChangeRecipe::ChangeRecipe(EditorSession& session, const QString& what, Recipe before, Recipe after, int gesture)
+ChangeRecipe::ChangeRecipe(EditorSession& session, const QString& what, Recipe before, Recipe after, GestureId gesture)
     : QUndoCommand(what), session_(session), before_(std::move(before)), after_(std::move(after)), gesture_(gesture) {}
 
 void ChangeRecipe::undo() { session_.setRecipe(before_); }

@@ -22,11 +22,11 @@ QString curveName(const EditorSession& session, int curve) {
   return QStringLiteral("%1 (%2)").arg(name, own);
 }
 
-int curveOfNumber(const EditorSession& session, int number) {
+std::optional<int> curveOfNumber(const EditorSession& session, int number) {
   const auto curves = session.curves();
   for (int i = 0; i < std::ssize(curves); ++i)
     if (curveNumber(session.output(), curves[i]) == number) return i;
-  return -1;
+  return std::nullopt;
 }
 
 QString curveOrigin(const EditorSession& session, int curve) {

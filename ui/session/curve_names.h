@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QString>
+#include <optional>
 
 #include "ui/session/editor_session.h"
 
@@ -11,8 +12,8 @@ namespace batten {
 /// line and by the name that an imported curve brought: "Curve 3", "Curve 3 (roof)". A long name is cut.
 QString curveName(const EditorSession& session, int curve);
 
-/// The index of the curve of a number; -1 if there is none.
-int curveOfNumber(const EditorSession& session, int number);
+/// The index of the curve of a number.
+std::optional<int> curveOfNumber(const EditorSession& session, int number);
 
 /// Where an imported curve comes from: "roof.dxf, layer body"; empty for other curves.
 QString curveOrigin(const EditorSession& session, int curve);

@@ -70,7 +70,7 @@ Recipe EditorSession::recipeToSave() const {
   return recipe;
 }
 
-void EditorSession::change(const QString& what, Recipe after, int gesture) {
+void EditorSession::change(const QString& what, Recipe after, GestureId gesture) {
   CurveNumbers numbers = std::exchange(after.curveNumbers, {});
   const bool bringsNumbers = numbers != CurveNumbers{};
   if (bringsNumbers) {
@@ -127,10 +127,9 @@ const ChoiceOwners& EditorSession::choiceOwners() const {
   return known_.owners;
 }
 
-const TracedCurve* EditorSession::selected() const {
+const TracedCurve* EditorSession::curveAt(std::optional<int> index) const {
   const auto all = curves();
-  if (selectedCurve_ < 0 || static_cast<std::size_t>(selectedCurve_) >= all.size()) return nullptr;
-  return &all[selectedCurve_];
+  return index && *index >= 0 && *index < std::ssize(all) ? &all[*index] : nullptr;
 }
 
 void EditorSession::setEdgesWanted(bool wanted) {
@@ -172,12 +171,13 @@ void EditorSession::setSideWork(const QObject* panel, bool busy, bool isShown) {
   runner_->updateBusy();
 }
 
-void EditorSession::selectCurve(int index) {
-  if (index < 0 || static_cast<std::size_t>(index) >= curves().size()) index = -1;
+void EditorSession::selectCurve(std::optional<int> index) {
+  const TracedCurve* curve = curveAt(index);
+  if (!curve) index.reset();
   runner_->selectsItself = false;
   runner_->anchorPx.reset();
-  if (index >= 0 && output_.pieces) {
-    const auto piece = static_cast<std::size_t>(curves()[index].piece);
+  if (curve && output_.pieces) {
+    const auto piece = static_cast<std::size_t>(curve->piece);
     if (piece < output_.pieces->pieces.size()) runner_->anchorPx = anchorOf(output_.pieces->pieces[piece]);
   }
   if (index == selectedCurve_) return;
@@ -190,8 +190,8 @@ void EditorSession::selectCurve(int index) {
   runner_->computeTargets();
 }
 
-void EditorSession::selectCorner(int mark) {
-  if (mark < 0 || static_cast<std::size_t>(mark) >= recipe_.cornerMarks.size()) mark = -1;
+void EditorSession::selectCorner(std::optional<int> mark) {
+  if (mark && (*mark < 0 || *mark >= std::ssize(recipe_.cornerMarks))) mark.reset();
   if (mark == selectedCorner_) return;
   selectedCorner_ = mark;
   emit cornerSelectionChanged();
@@ -200,11 +200,12 @@ void EditorSession::selectCorner(int mark) {
 void EditorSession::keepCornerSelection(const std::vector<CornerMark>& after) {
   const auto& before = recipe_.cornerMarks;
   // As many as before: the selected one may have moved. Else it is where it was, or it has gone.
-  if (selectedCorner_ < 0 || after.size() == before.size()) return;
-  const Vec2 place = before[selectedCorner_].positionPx;
+  if (!selectedCorner_ || after.size() == before.size()) return;
+  const Vec2 place = before[*selectedCorner_].positionPx;
   const auto found =
       std::find_if(after.begin(), after.end(), [&](const CornerMark& mark) { return mark.positionPx == place; });
-  selectedCorner_ = found == after.end() ? -1 : static_cast<int>(found - after.begin());
+  selectedCorner_.reset();
+  if (found != after.end()) selectedCorner_ = static_cast<int>(found - after.begin());
 }
 
 void EditorSession::selectNear(const Vec2& px) {
@@ -225,10 +226,10 @@ void EditorSession::unpin() {
   emit pinChanged();
 }
 
-const TracedCurve* EditorSession::pinnedOf(int curve) const {
-  const auto all = curves();
-  if (!pinned_ || !output_.pieces || curve < 0 || static_cast<std::size_t>(curve) >= all.size()) return nullptr;
-  const auto piece = static_cast<std::size_t>(all[curve].piece);
+const TracedCurve* EditorSession::pinnedOf(std::optional<int> curve) const {
+  const TracedCurve* of = curveAt(curve);
+  if (!pinned_ || !output_.pieces || !of) return nullptr;
+  const auto piece = static_cast<std::size_t>(of->piece);
   if (piece >= output_.pieces->pieces.size()) return nullptr;
   const Vec2 anchor = anchorOf(output_.pieces->pieces[piece]);
   const TracedCurve* nearest = nullptr;
@@ -251,10 +252,10 @@ void EditorSession::pointAtSpan(std::optional<double> share) {
   runner_->computeTargets();
 }
 
-void EditorSession::hoverTarget(int degree) {
-  const int bounded = degree < 1 || degree > 6 ? 0 : degree;
-  if (bounded == hoveredTarget_) return;
-  hoveredTarget_ = bounded;
+void EditorSession::hoverTarget(std::optional<int> degree) {
+  if (degree && (*degree < 1 || *degree > 6)) degree.reset();
+  if (degree == hoveredTarget_) return;
+  hoveredTarget_ = degree;
   emit hoverChanged();
 }
 

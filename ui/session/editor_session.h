@@ -14,6 +14,7 @@
 #include "core/pipeline/recipe/recipe.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
+#include "ui/session/gesture_id.h"
 
 namespace batten {
 
@@ -71,9 +72,9 @@ class EditorSession : public QObject {
   /// The recipe with the numbers given to curves so far: what files keep. recipe() is without them, as they are no
   /// change that could be undone.
   Recipe recipeToSave() const;
-  /// Changes the recipe by an undoable command. Changes with one `gesture` (>= 0) merge into one undo step; -1 never
-  /// merges. Numbers of curves in `after`, as a recipe from a file has them, count from now on.
-  void change(const QString& what, Recipe after, int gesture = -1);
+  /// Changes the recipe by an undoable command. Changes with one `gesture` merge into one undo step.
+  /// Numbers of curves in `after`, as a recipe from a file has them, count from now on.
+  void change(const QString& what, Recipe after, GestureId gesture = {});
   /// A fresh gesture number for a drag.
   int newGesture() { return ++lastGesture_; }
   QUndoStack* undoStack() { return &undo_; }
@@ -90,8 +91,10 @@ class EditorSession : public QObject {
   std::shared_ptr<const CoarseResult> coarseCurves() const;
   /// Whose choice is whose in the present recipe: on the pieces shown, as the next run applies them.
   const ChoiceOwners& choiceOwners() const;
+  /// One of curves(), or null where there is none of that index.
+  const TracedCurve* curveAt(std::optional<int> index) const;
   /// The selected one of curves(), or null.
-  const TracedCurve* selected() const;
+  const TracedCurve* selected() const { return curveAt(selectedCurve_); }
   /// The edges layer is only computed while someone looks at it (off at the start).
   void setEdgesWanted(bool);
   /// True while a stage's shown output does not belong to the present recipe yet.
@@ -115,9 +118,9 @@ class EditorSession : public QObject {
   /// Milliseconds of the last finished run.
   double lastRunMilliseconds() const { return lastRunMs_; }
 
-  /// The curve that panels and plots show; -1 = none. Kept by position when the curves change.
-  int selectedCurve() const { return selectedCurve_; }
-  void selectCurve(int index);
+  /// The curve that panels and plots show. Kept by position when the curves change.
+  std::optional<int> selectedCurve() const { return selectedCurve_; }
+  void selectCurve(std::optional<int> index);
   /// Selects the curve nearest to a place now and when the curves change next: for a line that is only being made.
   void selectNear(const Vec2& px);
 
@@ -126,12 +129,12 @@ class EditorSession : public QObject {
   void unpin();
   std::shared_ptr<const PinnedResult> pinned() const { return pinned_; }
   /// The pinned curve that belongs to one of curves(), by place; null = none.
-  const TracedCurve* pinnedOf(int curve) const;
+  const TracedCurve* pinnedOf(std::optional<int> curve) const;
 
-  /// The corner mark chosen in the list or on the drawing, index into recipe().cornerMarks; -1 = none. It follows its
-  /// place when marks come and go.
-  int selectedCorner() const { return selectedCorner_; }
-  void selectCorner(int mark);
+  /// The corner mark chosen in the list or on the drawing, index into recipe().cornerMarks. It follows its place
+  /// when marks come and go.
+  std::optional<int> selectedCorner() const { return selectedCorner_; }
+  void selectCorner(std::optional<int> mark);
 
   /// The six targets of the selected curve, null while they are computed.
   std::shared_ptr<const TargetOutcomes> targets() const { return targets_; }
@@ -139,9 +142,9 @@ class EditorSession : public QObject {
   /// none: the whole curve, every span by itself.
   std::optional<double> pointedSpan() const { return pointedSpan_; }
   void pointAtSpan(std::optional<double> share);
-  /// Target shown as a ghost while hovered, 0 = none.
-  int hoveredTarget() const { return hoveredTarget_; }
-  void hoverTarget(int degree);
+  /// Degree of the target shown as a ghost while hovered.
+  std::optional<int> hoveredTarget() const { return hoveredTarget_; }
+  void hoverTarget(std::optional<int> degree);
   /// The cursor common to canvas and plots: arc length [mm] on the selected curve, or none.
   std::optional<double> cursor() const { return cursorMm_; }
   /// How the typical chain of the selected curve grows, step by step; idle until it is opened.
@@ -188,11 +191,11 @@ class EditorSession : public QObject {
   mutable KnownOwners known_;
   QUndoStack undo_;
   int lastGesture_ = 0;
-  int selectedCurve_ = -1, selectedCorner_ = -1;
+  std::optional<int> selectedCurve_, selectedCorner_;
   QHash<const QObject*, bool> sideWork_;  ///< And whether its result is on display.
   std::shared_ptr<const TargetOutcomes> targets_;
   std::optional<double> pointedSpan_;
-  int hoveredTarget_ = 0;
+  std::optional<int> hoveredTarget_;
   std::optional<double> cursorMm_;
   std::shared_ptr<const PinnedResult> pinned_;
   double lastRunMs_ = 0.0;

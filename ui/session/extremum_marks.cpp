@@ -14,12 +14,6 @@ constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must hav
 constexpr double kSamePlacePx = 1.0;
 QString extremumText(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
 
-const TracedCurve* curveAt(const EditorSession& session, int curve) {
-  const auto curves = session.curves();
-  if (curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
-  return &curves[curve];
-}
-
 /// The choice in the recipe that a note stands for. While a new run is on its way the numbers in the report are those
 /// of the recipe before; then the place counts.
 std::optional<std::size_t> choiceOf(const EditorSession& session, const ExtremumNote& note) {
@@ -81,8 +75,8 @@ std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const Trac
 
 }  // namespace
 
-std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve, Judged judged) {
-  const TracedCurve* traced = curveAt(session, curve);
+std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optional<int> curve, Judged judged) {
+  const TracedCurve* traced = session.curveAt(curve);
   if (!traced) return {};
   if (judged == Judged::Result && isChanged(*traced)) return marksOfFaired(session, *traced);
   std::vector<ExtremumMark> marks;
@@ -103,8 +97,8 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve,
   return marks;
 }
 
-void toggleExtremum(EditorSession& session, int curve, int note) {
-  const TracedCurve* traced = curveAt(session, curve);
+void toggleExtremum(EditorSession& session, std::optional<int> curve, int note) {
+  const TracedCurve* traced = session.curveAt(curve);
   if (!traced || note < 0 || static_cast<std::size_t>(note) >= traced->construct.extrema.size()) return;
   const ExtremumNote& extremum = traced->construct.extrema[note];
   Recipe after = session.recipe();

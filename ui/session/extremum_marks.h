@@ -24,10 +24,11 @@ struct ExtremumMark {
 
 /// The extrema of one of session.curves(). Of the sketched curve: those that the fair fit found, with its judgement;
 /// empty for other methods. Of the result where fairing changed it: its own, as many as its figures count.
-std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve, Judged judged = Judged::Sketched);
+std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optional<int> curve,
+                                        Judged judged = Judged::Sketched);
 
 /// A click on a mark: keeps a dropped extremum, takes a kept one out; where the user has chosen already, the program
 /// decides again. Undoable.
-void toggleExtremum(EditorSession& session, int curve, int note);
+void toggleExtremum(EditorSession& session, std::optional<int> curve, int note);
 
 }  // namespace batten

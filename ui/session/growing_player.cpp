@@ -17,8 +17,8 @@ constexpr int kStepMs = 350;
 GrowingPlayer::GrowingPlayer(EditorSession& session) : QObject(&session), session_(session) {
   timer_.setInterval(kStepMs);
   connect(&timer_, &QTimer::timeout, this, [this] {
-    if (step_ + 1 < stepCount()) setStep(step_ + 1);
-    if (step_ + 1 >= stepCount()) setPlaying(false);
+    if (isMore()) stepBy(1);
+    if (!isMore()) setPlaying(false);
   });
   connect(&session_, &EditorSession::selectionChanged, this, &GrowingPlayer::compute);
   connect(&session_, &EditorSession::runFinished, this, &GrowingPlayer::compute);
@@ -43,7 +43,7 @@ void GrowingPlayer::close() {
   source_.reset();
   steps_.reset();
   problem_.clear();
-  step_ = -1;
+  step_.reset();
   emit changed();
 }
 
@@ -52,13 +52,13 @@ void GrowingPlayer::compute() {
   // A run that leaves the line as it is leaves the player where it stands.
   const TracedCurve* selected = session_.selected();
   const Source source{session_.output().pieces, session_.output().segments, session_.recipe().construct,
-                      session_.recipe().segmentPoints, selected ? selected->piece : -1};
+                      session_.recipe().segmentPoints, selected ? std::optional(selected->piece) : std::nullopt};
   if (source_ && *source_ == source) return;
   source_ = source;
   const std::uint64_t request = ++newest_;
   timer_.stop();
   steps_.reset();
-  step_ = -1;
+  step_.reset();
   const auto pieces = session_.output().pieces;
   const auto segments = session_.output().segments;
   problem_ = selected && pieces && segments ? QString() : tr("Select a curve to see how its chain grows.");
@@ -89,12 +89,13 @@ void GrowingPlayer::take(std::uint64_t request, std::shared_ptr<const std::vecto
   steps_ = std::move(steps);
   problem_ = problem;
   if (steps_ && steps_->empty()) problem_ = tr("This line is nowhere curved enough for typical curves.");
-  step_ = stepCount() > 0 ? 0 : -1;
+  step_ = stepCount() > 0 ? std::optional(0) : std::nullopt;
   emit changed();
 }
 
 void GrowingPlayer::setStep(int step) {
-  const int bounded = std::clamp(step, stepCount() > 0 ? 0 : -1, std::max(stepCount() - 1, -1));
+  if (stepCount() == 0) return;
+  const int bounded = std::clamp(step, 0, stepCount() - 1);
   if (bounded == step_) return;
   step_ = bounded;
   emit changed();
@@ -103,7 +104,7 @@ void GrowingPlayer::setStep(int step) {
 void GrowingPlayer::setPlaying(bool playing) {
   if (playing == timer_.isActive()) return;
   if (playing && stepCount() > 0) {
-    if (step_ + 1 >= stepCount()) step_ = 0;
+    if (!isMore()) step_ = 0;
     timer_.start();
   } else {
     timer_.stop();

@@ -29,10 +29,13 @@ class GrowingPlayer : public QObject {
   bool isComputing() const { return isOpen_ && !steps_ && problem_.isEmpty(); }
   QString problem() const { return problem_; }
   int stepCount() const { return steps_ ? static_cast<int>(steps_->size()) : 0; }
-  /// The step shown, 0..stepCount() - 1; -1 while there are none.
-  int step() const { return step_; }
+  /// The step shown, 0..stepCount() - 1; none while there are none.
+  std::optional<int> step() const { return step_; }
   const std::vector<GrowingStep>* steps() const { return steps_.get(); }
+  /// Bounded to the steps there are.
   void setStep(int step);
+  /// So many steps on, or back where negative.
+  void stepBy(int steps) { setStep(step_.value_or(0) + steps); }
   bool isPlaying() const { return timer_.isActive(); }
   void setPlaying(bool playing);
 
@@ -41,6 +44,8 @@ class GrowingPlayer : public QObject {
 
  private:
   void compute();
+  /// Whether steps follow the one shown.
+  bool isMore() const { return step_ && *step_ + 1 < stepCount(); }
   void take(std::uint64_t request, std::shared_ptr<const std::vector<GrowingStep>> steps, const QString& problem);
 
   EditorSession& session_;
@@ -50,14 +55,14 @@ class GrowingPlayer : public QObject {
     std::shared_ptr<const SegmentSet> segments;
     ConstructParams params;
     std::vector<SegmentPoint> segmentPoints;
-    int piece = -1;
+    std::optional<int> piece;
     bool operator==(const Source&) const = default;
   };
   std::optional<Source> source_;
   std::shared_ptr<const std::vector<GrowingStep>> steps_;
   QString problem_;
   bool isOpen_ = false;
-  int step_ = -1;
+  std::optional<int> step_;
   std::uint64_t newest_ = 0;
   QTimer timer_;
   BackgroundWorker worker_;

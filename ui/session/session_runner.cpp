@@ -112,13 +112,14 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   numbers = std::exchange(session.recipe_.curveNumbers, {});
   session.output_.frame = frameFor(*session.scan_, session.recipe_);
   session.pinned_.reset();
-  session.selectedCurve_ = session.selectedCorner_ = -1;
+  session.selectedCurve_.reset();
+  session.selectedCorner_.reset();
   session.pointedSpan_.reset();
   session.targets_.reset();
   session.coarse_.reset();
   shownInkKey = {};
   session.cursorMm_.reset();
-  session.hoveredTarget_ = 0;
+  session.hoveredTarget_.reset();
   anchorPx.reset();
   selectsItself = true;
   shownGeneration.fill(0);
@@ -271,8 +272,8 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
 
 void EditorSession::Runner::curvesChanged() {
   const auto curves = session.curves();
-  const int before = session.selectedCurve_;
-  int index = -1;
+  const auto before = session.selectedCurve_;
+  std::optional<int> index;
   if (selectsItself) {
     double longest = -1.0;
     for (std::size_t i = 0; i < curves.size(); ++i)

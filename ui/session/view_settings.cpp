@@ -93,11 +93,11 @@ void ViewSettings::setCombDensity(int density) {
   emit changed();
 }
 
-void ViewSettings::setSelectedRegion(int region) {
-  const int bounded = region < 0 || region >= kRegions ? -1 : region;
-  if (selectedRegion_ == bounded) return;
-  selectedRegion_ = bounded;
-  emit selectedRegionChanged(bounded);
+void ViewSettings::setSelectedRegion(std::optional<int> region) {
+  if (region && (*region < 0 || *region >= kRegions)) region.reset();
+  if (selectedRegion_ == region) return;
+  selectedRegion_ = region;
+  emit selectedRegionChanged();
 }
 
 void ViewSettings::setSuggestionAngleDeg(double degrees) {

@@ -79,8 +79,8 @@ class ViewSettings : public QObject {
   void setRadiusIsLinear(bool);
   int combDensity() const { return combDensity_; }  ///< 20..1000 quills a curve.
   void setCombDensity(int);
-  int selectedRegion() const { return selectedRegion_; }  ///< 0..63, -1 = none.
-  void setSelectedRegion(int);
+  std::optional<int> selectedRegion() const { return selectedRegion_; }  ///< 0..63
+  void setSelectedRegion(std::optional<int> region);
   double suggestionAngleDeg() const {
     return suggestionAngleDeg_;
   }  ///< [deg] 10..150, least turn of a suggested corner.
@@ -106,7 +106,7 @@ class ViewSettings : public QObject {
   void changed();
   void chosen(batten::Layer layer);
   void toolChanged(batten::Tool tool);
-  void selectedRegionChanged(int region);
+  void selectedRegionChanged();
   void measureChanged();
 
  private:
@@ -114,7 +114,7 @@ class ViewSettings : public QObject {
   Tool tool_ = Tool::Select;
   double combScale_ = 1.0;
   int combDensity_ = 120;
-  int selectedRegion_ = -1;
+  std::optional<int> selectedRegion_;
   double suggestionAngleDeg_ = 35.0;
   double suggestionScalePx_ = 14.0;
   std::optional<Measure> measure_;

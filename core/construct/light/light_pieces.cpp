@@ -41,7 +41,7 @@ std::string reasonOf(LightObstacle obstacle) {
     case LightObstacle::Points:
       return "It needs more control points than a smaller detail gives.";
     case LightObstacle::Effort:
-      return "It has too many curvature extrema to search.";
+      return "The search was given up: the curvature wavers too often.";
   }
   return {};
 }
@@ -87,10 +87,16 @@ struct DetailCurve {
 
 /// The lightest of the curves of this and every smaller detail: each holds what this one asks, as it lies nearer and
 /// keeps more. So more detail never gives more control points than a smaller one; beyond kMostCompared, where that
-/// takes long, it may, and beyond kFarMore none is compared.
+/// takes long, it may, and beyond kFarMore none is compared. One that has more curvature extrema than the dense curve
+/// is none of them.
 Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool closed, const ConstructParams& params,
                                  const ConstructContour& contour, const RunContext& context) {
   std::optional<DetailCurve> best;
+  std::optional<int> mostExtrema;
+  const auto addsExtrema = [&](const NurbsCurve& curve) {
+    if (!mostExtrema) mostExtrema = countedExtrema(dense, closed, context);
+    return countedExtrema(curve, closed, context) > *mostExtrema;
+  };
   int step = detailStep(detail);
   while (step >= 0) {
     DetailCurve one;
@@ -104,23 +110,16 @@ Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool cl
     if (!light && best && !context.isCancelled()) break;
     if (!light) return fail(light.error());
     one.light = std::move(*light);
+    if (step > 0 && addsExtrema(one.light.curve)) {
+      --step;
+      continue;
+    }
     const bool isFewer = one.light.report.kind != LightKind::Dense && one.light.report.points <= one.options.mostPoints;
     // With fewer points wanted, the same detail may have another way.
     if (!isFewer) --step;
     if (!best || isFewer) best = std::move(one);
   }
   return std::move(*best);
-}
-
-/// What fairing starts from, that was simplified: the curve itself with more knots, and without the joints at which it
-/// would part.
-NurbsCurve fairingStartOf(const NurbsCurve& curve, bool closed, double apart) {
-  if (curve.isRational()) return {};
-  const bool isJoined = hasKnotsOf(curve, curve.degree() - 1) && cornersInside(curve).empty();
-  if (isJoined) {
-    if (auto smooth = smoothShape(curve, closed, apart)) return std::move(*smooth);
-  }
-  return fairableShape(curve);
 }
 
 void finishExact(ConstructedPiece& piece, bool closed, LightKind kind) {
@@ -136,7 +135,7 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   const LightOptions& options = lightest->options;
   LightCurve* light = &lightest->light;
   const bool simplified = lightest->detail > 0.0;  // a smaller detail may have had fewer points
-  piece.report.light = lightNote(light->report, pixelMm);
+  piece.report.light = lightNote(*light, piece.curve, pixelMm);
   piece.report.light->tolerancePx = options.tolerance / pixelMm;
   if (light->report.necks > 0 && piece.report.note.empty()) {
     piece.report.note = light->report.necks == 1 ? "A spike or notch narrower than the detail was removed."
@@ -149,7 +148,8 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   if (simplified) {
     if (closed && !piece.curve.isRational() && cornersInside(piece.curve).empty() && !beginsAtCorner(piece.curve))
       piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
-    piece.dense = fairingStartOf(piece.curve, closed, kSmoothShare * options.step);
+    piece.report.light->points = piece.curve.controlPointCount();
+    piece.dense = piece.curve.isRational() ? NurbsCurve() : fairingStartOf(piece.curve, closed, options);
     finishExact(piece, closed, light->report.kind);
     return;
   }
@@ -180,12 +180,21 @@ LightOptions lightOptions(const ConstructParams& params, const ConstructContour&
   return options;
 }
 
-LightNote lightNote(const LightReport& report, double pixelMm) {
+NurbsCurve fairingStartOf(const NurbsCurve& light, bool closed, const LightOptions& options) {
+  const bool isJoined = light.isRational() || (hasKnotsOf(light, light.degree() - 1) && cornersInside(light).empty());
+  if (isJoined) {
+    if (auto smooth = smoothShape(light, closed, kSmoothShare * options.step)) return std::move(*smooth);
+  }
+  return fairableShape(light);
+}
+
+LightNote lightNote(const LightCurve& light, const NurbsCurve& dense, double pixelMm) {
+  const LightReport& report = light.report;
   LightNote note;
   note.found = report.kind != LightKind::Dense;
   note.exact = report.kind == LightKind::Line || report.kind == LightKind::Arc;
-  note.points = report.points;
-  note.pointsBefore = report.pointsBefore;
+  note.points = light.curve.controlPointCount();
+  note.pointsBefore = dense.controlPointCount();
   note.movedPx = report.worst / pixelMm;
   note.sections = report.sections;
   note.sectionsDense = report.sectionsDense;

@@ -18,8 +18,13 @@ LightOptions lightOptions(const ConstructParams&, double pixelMm);
 /// of the width of the ink (where that is not known, 1 % of the size of the curve), and what may go with it.
 LightOptions lightOptions(const ConstructParams&, const ConstructContour&, const NurbsCurve& dense, double detail);
 
-/// Figures of a light curve for the report.
-LightNote lightNote(const LightReport&, double pixelMm);
+/// Figures of a light curve for the report; control points as the list of curves and the files count them.
+LightNote lightNote(const LightCurve&, const NurbsCurve& dense, double pixelMm);
+
+/// What fairing starts from where it is to keep the ends of a light curve: the curve itself with more knots, and, where
+/// its pieces meet with one tangent or curvature only, or it is rational, a quintic close to it that has its ends.
+/// Empty: the curve itself.
+NurbsCurve fairingStartOf(const NurbsCurve& light, bool closed, const LightOptions&);
 
 /// Makes the curves of pieces light: each keeps the dense one beside it (ConstructedPiece::dense) and says in its
 /// report what was won. A curve without a lighter version is kept, with a note.

@@ -22,8 +22,6 @@ namespace batten {
 
 namespace {
 
-/// A path that runs this far [px, rms] from its points while the joints do not has lost its line.
-constexpr double kLostRmsPx = 3.0;
 /// A path laid along the fair fit is held to it by this [px].
 constexpr double kHoldPx = 0.01;
 /// A joint is put in no nearer to its neighbours than this part of their distance.
@@ -188,18 +186,20 @@ Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, co
 /// with more typical curves.
 std::optional<FoundPath> orGrown(Candidate chain, const TypicalLine& line, const ConstructParams& params,
                                  const RunContext& context) {
-  if (!chain.path || chain.share >= kMostOfIt || chain.path->path.elements.size() > kManyElements) return chain.path;
+  if (!chain.path || chain.share >= kMostOfIt || chain.path->path.elements.size() > kManyElements)
+    return std::move(chain.path);
   auto grown = grownPath(line, {}, params, nullptr, context);
   // Growing sees only what lies before it: on a line that wavers it makes many short segments, which take long to fit.
-  if (!grown || grown->path.elements.size() > kMostGrown * chain.path->path.elements.size()) return chain.path;
+  if (!grown || grown->path.elements.size() > kMostGrown * chain.path->path.elements.size())
+    return std::move(chain.path);
   // The noise of the points is in both.
   const double farthest = std::hypot(chain.rms, params.lightTolerancePx);
   for (const PathSearch search : {PathSearch::Tidy, PathSearch::Keep}) {
     Candidate one = fittedCandidate(grown->path, dataOf(line), search, line, context);
     if (one.path && one.falseExtrema <= chain.falseExtrema && one.rms <= farthest && one.share > chain.share)
-      return one.path;
+      return std::move(one.path);
   }
-  return chain.path;
+  return std::move(chain.path);
 }
 
 /// The path of the global chain; absent where the points allow none. Laid along the fair fit of the line; where that

@@ -20,8 +20,6 @@ namespace {
 
 /// More points than this are taken together in groups: they say no more, and cost time.
 constexpr std::size_t kMostPoints = 400;
-/// A fair fit that runs this far [px, rms] from its points has lost its line.
-constexpr double kLostFitRmsPx = 3.0;
 /// Largest distance [px] of an end of the stations and one of the fit that are the same place.
 constexpr double kAgreePx = 0.05;
 /// Without a pixel size, assume the length of a typical line of a drawing.
@@ -66,7 +64,7 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pix
   const double length = curve.isEmpty() ? 0.0 : ArcLength(curve).total();
   if (!(pixelMm > 0.0) || !(length > kLeastFairPx * pixelMm)) return std::nullopt;
   // A fit that lost its line is no guide.
-  if (!(deviation(curve, piece.points, true).rms < kLostFitRmsPx * pixelMm)) return std::nullopt;
+  if (!(deviation(curve, piece.points, true).rms < kLostRmsPx * pixelMm)) return std::nullopt;
   TypicalLine line;
   line.unitMm = pixelMm;
   line.closed = piece.closed;

@@ -12,6 +12,9 @@
 
 namespace batten {
 
+/// A fit or a path that runs this far [px, rms] from its points has lost its line.
+inline constexpr double kLostRmsPx = 3.0;
+
 /// A piece as the typical constructions take it: joints that roughly follow it, and its points, both from its start and
 /// in units of noise (px).
 struct TypicalLine {

@@ -57,6 +57,11 @@ void setValues(StrokeCourse& course, T CoursePoint::*value, const std::vector<T>
   for (int i = 0; i < course.count(); ++i) course.points[i].*value = values[i];
 }
 
+/// [stroke widths] So much before its end a skeleton may turn to a corner of the ink.
+inline constexpr double kHookWidths = 0.5;
+/// At least so many points give the direction of an end.
+inline constexpr int kLeastBackPoints = 4;
+
 /// Position, direction of travel and bend (second derivative, 1/px) at point `border` by a parabola through the points
 /// from there on to side +1 or -1, at most `reach` px and not into a junction.
 struct CourseApproach {

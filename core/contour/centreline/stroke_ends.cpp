@@ -19,8 +19,6 @@ namespace {
 constexpr int kFewestEndPoints = 8;        // of a stroke whose ends can be told from its middle
 constexpr double kFarthestEatenPx = 30.0;  // what the mask may have lost of a thin stroke, besides two widths
 constexpr double kCertain = 50.0;          // [nats]
-constexpr int kLeastBackPoints = 4;        // over which the direction of an end is taken
-constexpr double kHookWidths = 0.5;        // [stroke widths] the end of a skeleton turns to a corner of the ink there
 constexpr double kSameContrast = 0.6;      // of the stroke's contrast: less is another stroke, or paper
 constexpr double kSameWider = 1.4, kSameNarrower = 0.6;  // of its width
 constexpr double kLargestSidestepPx = 0.75;              // from one pixel to the next
@@ -35,20 +33,11 @@ constexpr double kSkeletonOffWidths = 0.6;  // [stroke widths]
 constexpr double kLeastStepPx = 0.35;       // between neighbours on a contour, of about 1 px
 constexpr float kLeastWidthPx = 0.1f;
 
-// Profile at a place, averaged over 3 px along the direction.
 std::optional<StrokeCentre> centreAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction,
                                      const GreyImage& grey) {
-  const int samples = 2 * c.profileHalf + 1;
-  std::vector<float> mean(samples, 0.0f), scratch(samples);
-  const Vec2 normal = leftNormal(direction);
-  for (int d = -1; d <= 1; ++d) {
-    for (int k = 0; k < samples; ++k) {
-      const double u = (k - c.profileHalf) * kStrokeStepPx;
-      const Vec2 p = at + d * direction + u * normal;
-      mean[k] += sampleGrey(grey, p.x(), p.y()) / 3.0f;
-    }
-  }
-  return halfLevelCentre(mean, c.widthPx, scratch);
+  const std::vector<float> profile = profileAcross(grey, at, direction, c.profileHalf);
+  std::vector<float> scratch(profile.size());
+  return halfLevelCentre(profile, c.widthPx, scratch);
 }
 
 // Smoothing a mask eats the ends of thin strokes: follows the ink on the grey values from the end of the skeleton on,

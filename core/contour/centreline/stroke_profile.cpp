@@ -129,6 +129,18 @@ std::optional<StrokeCentre> centroidCentre(std::span<const float> profile, doubl
   return result;
 }
 
+std::vector<float> profileAcross(const GreyImage& grey, const Vec2& at, const Vec2& direction, int half) {
+  std::vector<float> mean(2 * half + 1, 0.0f);
+  const Vec2 normal = leftNormal(direction);
+  for (int d = -1; d <= 1; ++d) {
+    for (int k = 0; k < std::ssize(mean); ++k) {
+      const Vec2 p = at + d * direction + (k - half) * kStrokeStepPx * normal;
+      mean[k] += sampleGrey(grey, p.x(), p.y()) / 3.0f;
+    }
+  }
+  return mean;
+}
+
 InkAcross inkAcross(std::span<const float> profile, double widthPx, double inkLevel) {
   const int half = static_cast<int>(profile.size()) / 2;
   const int edge = std::min(half - 1, static_cast<int>(std::lround(0.5 * widthPx / kStrokeStepPx)));

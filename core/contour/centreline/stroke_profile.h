@@ -29,6 +29,10 @@ inline float sampleGrey(const GreyImage& grey, double x, double y) {
   return (top + ty * (low - top)) * static_cast<float>(1.0 / GreyImage::kGreyUnit);
 }
 
+/// Grey levels across a stroke at kStrokeStepPx, 2 * half + 1 of them, from its right to its left, averaged over 3 px
+/// along its direction.
+std::vector<float> profileAcross(const GreyImage&, const Vec2& at, const Vec2& direction, int half);
+
 struct StrokeCentre {
   double centre = 0.0;                ///< [px] along the profile, 0 = its middle.
   double width = 0.0;                 ///< [px] between the half levels.

@@ -14,13 +14,11 @@ namespace {
 
 constexpr double kTaperWidths = 6.0, kLeastTaperPx = 16.0;  // looked at inside the end of the skeleton
 constexpr double kFarthestTaperPx = 30.0;                   // [px] beyond it, besides two widths
-constexpr double kTaperHookWidths = 0.5;  // [stroke widths] the end of a skeleton turns to a corner of the ink there
-constexpr int kLeastTaperBack = 4;        // points over which the direction is taken
-constexpr double kWide = 0.75, kThin = 0.25;  // shares of the whole width between which a taper is told,
+constexpr double kWide = 0.75, kThin = 0.25;                // shares of the whole width between which a taper is told,
 constexpr double kTaperSpanWidths = 1.5, kTaperSpanPx = 2.5;  // and how far apart they lie: less is a cut or a cap
-constexpr double kNarrow = 0.35,
-                 kFine = 0.1;  // shares of which the first is left as evenly as the whole: a stroke that
-constexpr double kLeastEven = 0.2, kLeastFinePx = 3.0;  // of two runs of the pen loses one, then is cut off
+// A stroke of two runs of the pen loses one, then is cut off: the last of its taper goes as evenly as the whole.
+constexpr double kNarrow = 0.35, kFine = 0.1;           // shares of the whole width between which that last lies
+constexpr double kLeastEven = 0.2, kLeastFinePx = 3.0;  // how long it is at least, as a share of the whole taper
 constexpr double kFitFrom = 0.6, kFitTo = 0.08;         // shares over which the tip is extrapolated
 constexpr double kUnseenTipPx = 1.5;  // [px] of the last that is seen, blur and noise hide so much more
 constexpr double kUnseenWidthPx = 0.45, kFarthestUnseenPx = 3.5;  // the line itself: ink so thin is as pale as paper
@@ -44,19 +42,10 @@ struct TaperTrack {
   int known = 0;  // stations that are points of the course
 };
 
-// The darkness of the ink across the course, averaged over 3 px along it.
+// The darkness of the ink across the course.
 InkAcross acrossAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction, double inkLevel, double widthPx,
                    const GreyImage& grey) {
-  const int samples = 2 * c.profileHalf + 1;
-  std::vector<float> mean(samples, 0.0f);
-  const Vec2 normal = leftNormal(direction);
-  for (int d = -1; d <= 1; ++d) {
-    for (int k = 0; k < samples; ++k) {
-      const Vec2 p = at + d * direction + (k - c.profileHalf) * kStrokeStepPx * normal;
-      mean[k] += sampleGrey(grey, p.x(), p.y()) / 3.0f;
-    }
-  }
-  return inkAcross(mean, widthPx, inkLevel);
+  return inkAcross(profileAcross(grey, at, direction, c.profileHalf), widthPx, inkLevel);
 }
 
 // The largest mean over five stations.
@@ -75,8 +64,8 @@ double wholeDarkness(const std::vector<TaperStation>& stations) {
 std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& grey) {
   const int n = c.count();
   const double w = c.widthPx;
-  const int hook = static_cast<int>(std::ceil(kTaperHookWidths * w));
-  const int back = std::max(kLeastTaperBack, static_cast<int>(std::lround(w)));
+  const int hook = static_cast<int>(std::ceil(kHookWidths * w));
+  const int back = std::max(kLeastBackPoints, static_cast<int>(std::lround(w)));
   TaperTrack track;
   track.first = std::max(0, n - hook - static_cast<int>(std::max(kLeastTaperPx, kTaperWidths * w)));
   if (n - hook - track.first < back + 2) return std::nullopt;
@@ -206,7 +195,7 @@ bool reachTaperTip(StrokeCourse& c, const GreyImage& grey) {
     tail.push_back(stations[i].at);
   // On to the tip itself, in the last direction.
   const int last = keep + static_cast<int>(tail.size());
-  const Vec2 from = stations[last].at, out = (from - stations[std::max(0, last - kLeastTaperBack)].at).normalized();
+  const Vec2 from = stations[last].at, out = (from - stations[std::max(0, last - kLeastBackPoints)].at).normalized();
   const double left = *tip - last;
   const int more = static_cast<int>(std::ceil(left - kTipJoinPx));
   for (int k = 1; k <= more; ++k) tail.push_back(from + left * k / more * out);

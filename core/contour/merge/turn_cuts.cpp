@@ -147,7 +147,7 @@ Contour cutPart(const Contour& line, int from, int to) {
   return part;
 }
 
-std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx, const CancelCheck& check) {
+std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx, CancelCheck check) {
   std::vector<Contour> parts;
   for (const Contour& line : lines) {
     if (check.isCancelled()) return {};

@@ -14,7 +14,7 @@ namespace batten {
 /// beyond them, and most of it lies between chords of 2 widths; tight arcs stay whole. No part is shorter than 3
 /// widths. The parts share the point of the cut; a closed line with one corner opens there. In the order of the lines.
 /// @pre widthPx > 0.
-std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx, const CancelCheck& check = {});
+std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx, CancelCheck check = {});
 /// The points of a line at which cutAtTurns() cuts it, ascending.
 std::vector<int> sharpPlacesOf(const Contour& line, double widthPx);
 /// The points from..to of a line, both included; of a closed one `to` may pass its end. Always open.

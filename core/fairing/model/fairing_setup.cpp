@@ -166,6 +166,7 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
   setup->closed = closed;
   setup->check = check;
   setup->extent = extent(curve);
+  setup->takenMm = params.takenMm;
   if (closed) {
     auto periodic = toPeriodic(curve);
     if (!periodic) return fail(periodic.error());
@@ -242,7 +243,18 @@ double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& poin
   return bothWays ? std::max(there, largestDistance(setup.reference, curve, setup.check)) : there;
 }
 
+FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
+  constexpr const char* kSeamInTheWay =
+      "Unchanged: making this closed curve periodic would move it by more than the tolerance.";
+  constexpr const char* kAllTaken = "Unchanged: the tolerance is too small. Raise it.";
+  auto kept = unchanged(curve, closed, Termination::Degenerate,
+                        params.takenMm >= params.toleranceMm ? kAllTaken : kSeamInTheWay, check);
+  kept.report.withinTolerance = false;
+  return kept;
+}
+
 FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired) {
+  if (faired.report.neededMm > 0.0) faired.report.neededMm += setup.claimedMm();
   if (!(setup.seamMm > 0.0)) return faired;
   const auto periodic = fromPeriodic(setup.periodic, setup.original);
   if (periodic && faired.curve == *periodic) {
@@ -253,7 +265,6 @@ FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired) {
   }
   faired.report.maxDeviationMm = std::max(deviation(faired.curve, setup.original, setup.check).max,
                                           deviation(setup.original, faired.curve, setup.check).max);
-  if (faired.report.neededMm > 0.0) faired.report.neededMm += setup.seamMm;
   return faired;
 }
 
@@ -265,10 +276,10 @@ Result<FairedCurve> withSetup(
     const auto setup = makeSetup(curve, closed, params, context);
     if (context.isCancelled()) return cancelled();
     if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
-    if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
+    if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message, context);
     FairingParams within = params;
-    within.toleranceMm -= (*setup)->seamMm;
-    if (!(within.toleranceMm > 0.0)) return unchanged(curve, closed, Termination::Degenerate, kSeamInTheWay);
+    within.toleranceMm -= (*setup)->claimedMm();
+    if (!(within.toleranceMm > 0.0)) return withoutTolerance(curve, closed, params, context);
     auto faired = body(*setup, within);
     if (!faired) return faired;
     return againstSketch(**setup, std::move(*faired));

@@ -26,6 +26,9 @@ struct FairingSetup {
   PeriodicForm periodic;  ///< Closed curves only.
   /// [mm] How far the periodic form is from a closed curve whose ends do not meet with all derivatives; else 0.
   double seamMm = 0.0;
+  double takenMm = 0.0;  ///< [mm] FairingParams::takenMm
+  /// [mm] Of the tolerance, before the curve moves.
+  double claimedMm() const { return seamMm + takenMm; }
   SpanBasis basis;
   std::vector<Vec2> points;  ///< Control points of the curve to begin with (each once).
   SpanCurve reference;       ///< The sketched curve.
@@ -65,14 +68,15 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
 /// `bothWays` also measures the sketched curve's distance from the curve.
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
 
-inline constexpr const char* kSeamInTheWay =
-    "Unchanged: making this closed curve periodic would move it by more than the tolerance.";
+/// The curve as it was: what is taken of the tolerance, and the seam, leave nothing of it.
+FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check);
 
-/// A result over a setup as one of the curve that the user has: where that one had to be made periodic first, the
-/// deviation is measured again, and what has not moved is that curve itself.
+/// A result over a setup as one of the curve that the user has: what it needs includes what is claimed of the
+/// tolerance. Where the curve had to be made periodic first, the deviation is measured again, and what has not moved is
+/// that curve itself.
 FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired);
 
-/// Runs `body` on the curve's setup, with the tolerance that its seam leaves. Curves that cannot be faired are returned
+/// Runs `body` on the curve's setup, with the tolerance that is left for it. Curves that cannot be faired are returned
 /// they are when the reason lies in their shape.
 Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params, const RunContext&,
                               const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>& setup,

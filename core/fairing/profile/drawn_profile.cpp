@@ -69,7 +69,7 @@ TargetProfile drawnProfile(std::span<const ProfilePoint> given, bool closed) {
   profile.degree = 3;
   profile.quantity = TargetQuantity::Curvature;
   if (given.empty() || validateProfile(given)) {
-    profile.problem = given.empty() ? "No profile is drawn yet. Drag its points in the curvature plot."
+    profile.problem = given.empty() ? "No profile is drawn yet: drag its points in the plot, or set fairing.profile."
                                     : validateProfile(given)->message;
     return profile;
   }

@@ -57,6 +57,7 @@ class NeededFairing {
 
   Result<FairedCurve> run() {
     const auto start = evaluate(setup_, objective_, {}, setup_.points, setup_.start.places);
+    if (context_.isCancelled()) return cancelled();
     if (!start) {
       return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
                        "The curve has a cusp and was not changed.");

@@ -38,6 +38,7 @@ class MonotoneFairing {
       : setup_(*setup), params_(params), context_(context), candidates_(setup, context) {}
 
   Result<FairedCurve> run() {
+    if (context_.isCancelled()) return cancelled();
     if (!candidates_.isValid()) {
       return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
                        "The curve has a cusp and was not changed.");
@@ -88,8 +89,9 @@ class MonotoneFairing {
 
   Result<FairedCurve> asFewAsCan() {
     StructureCandidate best = candidates_.fewest(most());
+    if (context_.isCancelled()) return cancelled();
     const int least = setup_.closed ? 4 : 0;
-    if (countedExtrema(setup_.original, setup_.closed) > least) {
+    if (countedExtrema(setup_.original, setup_.closed, context_) > least) {
       // Where none has fewer extrema, only a nearer one is better.
       const bool isLeast = best.extrema <= least && best.turns <= least;
       offer(targetCurves(kTargetReach * (isLeast ? best.deviationMm : params_.toleranceMm)), best);
@@ -115,7 +117,7 @@ class MonotoneFairing {
   }
 
   void offer(const std::vector<StructureCandidate>& curves, StructureCandidate& best) const {
-    const int sketched = countedExtrema(setup_.original, setup_.closed);
+    const int sketched = countedExtrema(setup_.original, setup_.closed, context_);
     for (const StructureCandidate& one : curves) {
       if (one.deviationMm <= most() && one.extrema < sketched && isFairerThan(one, best)) best = one;
     }
@@ -123,7 +125,7 @@ class MonotoneFairing {
 
   Result<FairedCurve> done(const StructureCandidate& found, std::optional<double> needed = {}) {
     FairingReport report;
-    const int sketched = countedExtrema(setup_.original, setup_.closed);
+    const int sketched = countedExtrema(setup_.original, setup_.closed, context_);
     report.why = found.deviationMm > 0.0 ? Termination::Converged : Termination::FixedPoint;
     if (found.deviationMm == 0.0 && sketched > 0 && params_.keptAt.empty() && params_.keepExtrema == kKeepSignificant)
       report.note = "No extremum can be removed within the tolerance.";
@@ -142,7 +144,8 @@ class MonotoneFairing {
     report.why = needed ? Termination::ToleranceLimited : Termination::NoProgress;
     report.withinTolerance = false;
     report.neededMm = needed.value_or(0.0);
-    report.note = needed ? "A curve with " + asked + " needs a tolerance of " + millimetres(*needed) + "; " + kept
+    report.note = needed ? "A curve with " + asked + " needs a tolerance of " +
+                               millimetres(*needed + setup_.claimedMm()) + "; " + kept
                          : "No curve with " + asked + " was found; " + kept;
     if (!needed && setup_.closed && params_.keepExtrema < 4 && !byPlace)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;

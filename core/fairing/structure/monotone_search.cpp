@@ -203,10 +203,10 @@ void MonotoneSearch::addSigns(Program& program, const State& state, const Curvat
     program.addBound(program.slope(wrapped(i)), sign, margin - sign * slope(i));
   };
   const auto stretch = [&](int from, int to, double sign) {  // between windows, their borders not included
-    for (int i = from; i < to; ++i) rising(i, sign, scales.margin);
+    for (int i = from; i < to && !context_.isCancelled(); ++i) rising(i, sign, scales.margin);
   };
   if (all.empty()) return stretch(0, count, structure.rising ? 1.0 : -1.0);
-  for (std::size_t j = 0; j < all.size(); ++j) {
+  for (std::size_t j = 0; j < all.size() && !context_.isCancelled(); ++j) {
     const Window& w = all[j];
     const double sign = w.maximum ? 1.0 : -1.0;
     if (!setup_.closed && j == 0) stretch(0, w.low, sign);

@@ -91,6 +91,7 @@ BoundedRun minimiseWithin(const FairingSetup& setup, const FairingObjective& obj
 Result<FairedCurve> fairWithinTolerance(const std::shared_ptr<const FairingSetup>& setup, const FairingParams& params,
                                         const RunContext& context) {
   const auto state = evaluate(*setup, {}, {}, setup->points, setup->start.places);
+  if (context.isCancelled()) return cancelled();
   if (!state) {
     return unchanged(setup->original, setup->closed, Termination::Degenerate,
                      "The curve has a cusp and was not changed.");

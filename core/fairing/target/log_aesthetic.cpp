@@ -21,16 +21,50 @@ constexpr double kNielsen = 1e-9;        // a smaller alpha is 0
 constexpr double kStraightShare = 1e-3;  // of the largest curvature: less is straight
 constexpr double kAlphaStep = 0.5, kAlphaAccuracy = 1e-4;
 constexpr int kEndSteps = 40;
-constexpr double kEndDifference = 1e-6, kEndConverged = 1e-12;
+constexpr double kEndConverged = 1e-12;
 constexpr double kMostLog = 24.0, kMostLogStep = 1.0;
 constexpr int kNodesPerStretch = 32;
 constexpr double kGolden = 0.6180339887498949;
 
+/// A log-aesthetic curvature made ready for many places: the power alpha of the radius is linear in x.
+class LogAestheticCourse {
+ public:
+  explicit LogAestheticCourse(const LogAesthetic& one)
+      : one_(one), isNielsen_(std::abs(one.alpha) < kNielsen), isClothoid_(one.alpha == kClothoid) {
+    if (isClothoid_) return;
+    const double ratio = one.startKappa / one.endKappa;  // of the radii, end over start
+    rise_ = isNielsen_ ? std::log(ratio) : std::pow(ratio, one.alpha) - 1.0;
+    power_ = -1.0 / one.alpha;
+  }
+
+  double kappa(double x) const {
+    if (isClothoid_) return one_.startKappa + (one_.endKappa - one_.startKappa) * x;
+    return one_.startKappa * (isNielsen_ ? std::exp(-rise_ * x) : std::pow(1.0 + rise_ * x, power_));
+  }
+  double slope(double x) const {
+    if (isClothoid_) return one_.endKappa - one_.startKappa;
+    return (isNielsen_ ? -rise_ : rise_ * power_ / (1.0 + rise_ * x)) * kappa(x);
+  }
+  /// Derivatives of kappa at x, which is known, by the logarithms of kappa at the start and at the end.
+  std::array<double, 2> byEnds(double x, double kappa) const {
+    if (isClothoid_) return {one_.startKappa * (1.0 - x), one_.endKappa * x};
+    if (isNielsen_) return {kappa * (1.0 - x), kappa * x};
+    const double share = kappa / (1.0 + rise_ * x);
+    return {share * (1.0 - x), share * (1.0 + rise_) * x};
+  }
+
+ private:
+  LogAesthetic one_;
+  bool isNielsen_, isClothoid_;
+  double rise_ = 0.0, power_ = 0.0;
+};
+
 /// Squares of the misfit of one stretch.
 double misfitOf(const LogAesthetic& one, std::span<const double> x, std::span<const double> kappa) {
+  const LogAestheticCourse course(one);
   double sum = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double off = one.kappa(x[i]) - kappa[i];
+    const double off = course.kappa(x[i]) - kappa[i];
     sum += off * off;
   }
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
@@ -76,20 +110,17 @@ class EndsProblem final : public LevenbergProblem {
   double linearise() override {
     gradient_ = {};
     h00_ = h01_ = h11_ = 0.0;
+    const LogAestheticCourse course(made(log_));
+    double squares = 0.0;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      std::array<double, 2> slope{};
-      for (std::size_t k = 0; k < 2; ++k) {
-        if (!isFree_[k]) continue;
-        std::array<double, 2> more = log_, less = log_;
-        more[k] += kEndDifference;
-        less[k] -= kEndDifference;
-        slope[k] = (made(more).kappa(x_[i]) - made(less).kappa(x_[i])) / (2.0 * kEndDifference);
-      }
-      const double off = made(log_).kappa(x_[i]) - kappa_[i];
+      const double value = course.kappa(x_[i]), off = value - kappa_[i];
+      std::array<double, 2> slope = course.byEnds(x_[i], value);
+      for (std::size_t k = 0; k < 2; ++k) slope[k] = isFree_[k] ? slope[k] : 0.0;
       gradient_[0] += slope[0] * off, gradient_[1] += slope[1] * off;
       h00_ += slope[0] * slope[0], h01_ += slope[0] * slope[1], h11_ += slope[1] * slope[1];
+      squares += off * off;
     }
-    return misfitOf(made(log_), x_, kappa_);
+    return std::isfinite(squares) ? squares : std::numeric_limits<double>::max();
   }
   double tryStep(double damping) override {
     const double a = isFree_[0] ? h00_ * (1.0 + damping) : 1.0, b = isFree_[1] ? h11_ * (1.0 + damping) : 1.0;
@@ -175,20 +206,9 @@ LogAestheticSpan reported(const Stretch& stretch, const LogAesthetic& fit, doubl
 
 }  // namespace
 
-double LogAesthetic::kappa(double x) const {
-  if (alpha == kClothoid) return startKappa + (endKappa - startKappa) * x;
-  const double ratio = startKappa / endKappa;  // of the radii, end over start
-  if (std::abs(alpha) < kNielsen) return startKappa * std::pow(ratio, -x);
-  return startKappa * std::pow(1.0 + (std::pow(ratio, alpha) - 1.0) * x, -1.0 / alpha);
-}
+double LogAesthetic::kappa(double x) const { return LogAestheticCourse(*this).kappa(x); }
 
-double LogAesthetic::slope(double x) const {
-  if (alpha == kClothoid) return endKappa - startKappa;
-  const double ratio = startKappa / endKappa;
-  if (std::abs(alpha) < kNielsen) return -std::log(ratio) * kappa(x);
-  const double rise = std::pow(ratio, alpha) - 1.0;
-  return -rise / alpha * kappa(x) / (1.0 + rise * x);
-}
+double LogAesthetic::slope(double x) const { return LogAestheticCourse(*this).slope(x); }
 
 LogAesthetic fitLogAesthetic(std::span<const double> x, std::span<const double> kappa, std::optional<double> alpha,
                              std::optional<double> start, std::optional<double> end) {

@@ -23,7 +23,7 @@ TargetProfile smoothedProfile(const FairingSetup& setup, double wavelength) {
   std::vector<double> kappa;
   for (const SpanPlace& place : setup.start.places) kappa.push_back(curvatureJet(setup.reference.at(place, 4)).kappa);
   const double spacing = setup.start.length / (setup.closed ? count : count - 1);
-  const std::vector<double> smooth = lowPass(kappa, spacing, wavelength, setup.closed);
+  const std::vector<double> smooth = lowPass(kappa, spacing, wavelength, setup.closed, setup.check);
   TargetProfile profile;
   profile.degree = 3;
   profile.valid = true;
@@ -40,7 +40,8 @@ TargetProfile smoothedProfile(const FairingSetup& setup, double wavelength) {
 
 }  // namespace
 
-std::vector<double> lowPass(std::span<const double> values, double spacing, double wavelength, bool closed) {
+std::vector<double> lowPass(std::span<const double> values, double spacing, double wavelength, bool closed,
+                            CancelCheck check) {
   const int count = static_cast<int>(values.size());
   std::vector<double> result(values.begin(), values.end());
   const double sigma = sigmaOf(wavelength) / spacing;
@@ -56,7 +57,7 @@ std::vector<double> lowPass(std::span<const double> values, double spacing, doub
       static_cast<int>(std::ceil(std::min(kLowPassReach * sigma, closed ? kLowPassReach * count : 1.0 * count)));
   std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
   for (int k = 0; k <= reach; ++k) weight[k] = std::exp(-0.5 * (k / sigma) * (k / sigma));
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count && !check.isCancelled(); ++i) {
     const int low = closed ? -reach : std::max(-reach, -i), high = closed ? reach : std::min(reach, count - 1 - i);
     double w0 = 0.0, w1 = 0.0, w2 = 0.0, y0 = 0.0, y1 = 0.0;
     for (int k = low; k <= high; ++k) {
@@ -77,8 +78,9 @@ std::vector<double> lowPass(std::span<const double> values, double spacing, doub
   return result;
 }
 
-Result<TargetProfile> lowPassedProfile(const NurbsCurve& curve, bool closed, const FairingParams& params) {
-  const auto setup = makeSetup(curve, closed, params);
+Result<TargetProfile> lowPassedProfile(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                                       CancelCheck check) {
+  const auto setup = makeSetup(curve, closed, params, check);
   if (!setup) return fail(setup.error());
   return smoothedProfile(**setup, params.lowPassMm);
 }
@@ -88,7 +90,7 @@ Result<FairedCurve> fairByLowPass(const NurbsCurve& curve, bool closed, const Fa
   return withSetup(curve, closed, params, context,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
                      return modifyShape(setup, smoothedProfile(*setup, within.lowPassMm), within.toleranceMm, context,
-                                        {ExtremaAsked::UpToSketch});
+                                        {.isFiltered = true});
                    });
 }
 

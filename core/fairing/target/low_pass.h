@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/curve/nurbs_curve.h"
@@ -18,10 +19,11 @@ namespace batten {
 /// length `wavelength` keeps half its height.
 /// @param spacing,wavelength in one unit, > 0.
 /// @param closed the last sample is followed by the first.
-std::vector<double> lowPass(std::span<const double> values, double spacing, double wavelength, bool closed);
+std::vector<double> lowPass(std::span<const double> values, double spacing, double wavelength, bool closed,
+                            CancelCheck check = {});
 
 /// That curvature over arc length as a profile. @return what makeSetup says of curves that cannot be made fair.
-Result<TargetProfile> lowPassedProfile(const NurbsCurve&, bool closed, const FairingParams&);
+Result<TargetProfile> lowPassedProfile(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
 
 /// Towards the sketched curve's curvature over arc length without its short waves (001 section 7: low-pass filtering of
 /// the curvature), as far as the tolerance allows.

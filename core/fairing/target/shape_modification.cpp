@@ -32,12 +32,27 @@ constexpr double kTargetRoom = 0.999;
 /// Tolerances: a curve that has left the sketch by this, on its way to the target, will not come back.
 constexpr double kBeyondReach = 2.0;
 
-constexpr const char* kNothingNearer =
-    "Unchanged: no curve within the tolerance is closer to this target without added "
-    "curvature extrema. Raise the tolerance, split the profile, or use Smooth.";
-constexpr const char* kTargetAddsExtrema =
-    "Unchanged: reaching this target adds curvature extrema. Choose another degree, split "
-    "the profile, or use Smooth.";
+/// Part of the way from the sketch's misfit to that of the target: a curve that has gone so far meets the target.
+constexpr double kMetShare = 0.9;
+
+/// Why a profile was not followed, or not to the end, with what can be done about it.
+struct ModificationNotes {
+  const char *nothingNearer, *addsExtrema, *outOfReach, *inPart, *toTolerance;
+};
+constexpr ModificationNotes kNotesOfTarget{
+    "Unchanged: no curve within the tolerance is closer to this target without added curvature extrema. Raise the "
+    "tolerance, split the profile, or use Smooth.",
+    "Unchanged: reaching this target adds curvature extrema. Choose another degree, split the profile, or use Smooth.",
+    "The profile is far out of reach for this curve. Split it, or mark the corners.",
+    "The profile was followed as far as possible without adding a curvature extremum.",
+    "The profile was followed as far as the tolerance allows."};
+constexpr ModificationNotes kNotesOfFilter{
+    "Unchanged: no curve within the tolerance is closer to the filtered curvature without added extrema. Raise the "
+    "tolerance, choose another wavelength, or use Smooth.",
+    "Unchanged: following the filtered curvature adds extrema. Choose another wavelength, or use Smooth.",
+    "The filtered curvature is far out of reach for this curve. Choose another wavelength, or mark the corners.",
+    "The filtered curvature was followed as far as possible without adding a curvature extremum.",
+    "The filtered curvature was followed as far as the tolerance allows."};
 
 /// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
 /// are tried, until a few extrema are left.
@@ -69,7 +84,8 @@ class ShapeModification {
         toleranceMm_(toleranceMm),
         context_(context),
         onlyIfMet_(effort.onlyIfMet),
-        asked_(effort.asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
+        notes_(effort.isFiltered ? kNotesOfFilter : kNotesOfTarget),
+        asked_(extremaAsked(*setup, objective)) {
     if (effort.asked == ExtremaAsked::UpToSketch)
       asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed, setup->check));
     if (onlyIfMet_) mostMm_ = kBeyondReach * toleranceMm;
@@ -97,11 +113,11 @@ class ShapeModification {
     best_.misfit = before->misfit;
     best_.extrema = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
     report_.objectiveBefore = std::sqrt(best_.misfit);
-    double nearest = std::numeric_limits<double>::max();
+    metMisfit_ = std::numeric_limits<double>::max();
     for (const Course& course : courses_) {
       const TargetStep& full = course.steps.all().front();
-      if (full.misfit < nearest) report_.neededMm = full.deviationMm;
-      nearest = std::min(nearest, full.misfit);
+      if (full.misfit < metMisfit_) report_.neededMm = full.deviationMm;
+      metMisfit_ = std::min(metMisfit_, full.misfit);
       for (const TargetStep& step : course.steps.all()) {
         if (isWithin(step)) take(step, &course);
       }
@@ -109,7 +125,8 @@ class ShapeModification {
     report_.withinTolerance = !courses_.front().steps.endsEarly() && report_.neededMm <= kTargetRoom * toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     for (const double tolerance : kRoundTolerances) {
-      if (tolerance <= toleranceMm_) useRound(tolerance);
+      const double left = tolerance - sketch_.claimedMm();
+      if (left > 0.0 && left <= toleranceMm_) useRound(left);
     }
     for (const Course& course : courses_) {
       if (!course_ || (course_ == &course && best_.weight > course.steps.all().front().weight)) useTolerance(course);
@@ -244,21 +261,30 @@ class ShapeModification {
     takeOfSameRank(step, &course);
   }
 
+  bool isFollowed() const {
+    const double way = report_.objectiveBefore - std::sqrt(metMisfit_);
+    return report_.objectiveBefore - report_.objectiveAfter >= kMetShare * way;
+  }
+
   void explain() {
     const auto adds = [this](const TargetStep& step) { return isWithin(step) && rank(step) > rank(best_); };
     const auto& own = courses_.front().steps;
     report_.why = course_ ? best_.why : Termination::FixedPoint;
     if (!course_ && (!report_.withinTolerance || std::any_of(own.all().begin(), own.all().end(), adds))) {
       report_.why = Termination::ToleranceLimited;
-      report_.note = report_.withinTolerance ? kTargetAddsExtrema : kNothingNearer;
+      report_.note = report_.withinTolerance ? notes_.addsExtrema : notes_.nothingNearer;
+      report_.withinTolerance = false;
+    } else if (report_.withinTolerance && !isFollowed()) {
+      // The tolerance would have allowed more.
+      report_.why = Termination::ToleranceLimited;
+      report_.note = notes_.inPart;
       report_.withinTolerance = false;
     } else if (!report_.withinTolerance) {
       report_.why = Termination::ToleranceLimited;
-      report_.note = "The profile was followed as far as the tolerance allows.";
+      report_.note = notes_.toTolerance;
       if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
       // The corridor had room left: it was not what stopped the curve.
-      report_.note = own.isRough() ? "The profile is far out of reach for this curve. Split it, or mark the corners."
-                                   : "The profile was followed as far as possible without adding a curvature extremum.";
+      report_.note = own.isRough() ? notes_.outOfReach : notes_.inPart;
     }
   }
 
@@ -283,7 +309,9 @@ class ShapeModification {
   std::vector<std::shared_ptr<const FairingSetup>> calm_;
   std::vector<Course> courses_;
   bool onlyIfMet_;
+  const ModificationNotes& notes_;
   int asked_;
+  double metMisfit_ = 0.0;  ///< Of the curve that meets the target.
   TargetStep best_;
   const Course* course_ = nullptr;  ///< To which the best one belongs; null: the sketch is the best.
   FairingReport report_;

@@ -22,14 +22,14 @@ Result<FairedCurve> modifyShape(const NurbsCurve&, bool closed, const TargetProf
 
 /// How many curvature extrema count as none too many, beside the nearness to the profile.
 enum class ExtremaAsked {
-  None,        ///< As few as can be.
   UpToSketch,  ///< Those of the profile, but no more than the sketch has.
   OfProfile,   ///< Those of the profile: the user has drawn it.
 };
 
 struct ModificationEffort {
   ExtremaAsked asked = ExtremaAsked::UpToSketch;
-  bool onlyIfMet = false;  ///< Where the tolerance does not allow the whole target, the sketch comes back at once.
+  bool onlyIfMet = false;   ///< Where the tolerance does not allow the whole target, the sketch comes back at once.
+  bool isFiltered = false;  ///< The profile is the curve's own curvature without short waves: notes advise so.
 };
 
 /// The same on a setup that several fairings share.

@@ -251,13 +251,17 @@ Result<FairedCurve> fairSpans(const NurbsCurve& curve, bool closed, const std::v
       addPart(result.report, stayed);
       continue;
     }
-    auto faired = modifyShape(*setup, profile, params.toleranceMm, context);
+    const double tolerance = params.toleranceMm - (*setup)->takenMm;
+    auto faired = tolerance > 0.0 ? modifyShape(*setup, profile, tolerance, context)
+                                  : Result<FairedCurve>(withoutTolerance(result.curve, closed, params, context));
     if (!faired) return faired;
+    if (faired->report.neededMm > 0.0) faired->report.neededMm += (*setup)->takenMm;
     addPart(result.report, faired->report);
     if (faired->report.maxDeviationMm > 0.0) result.curve = std::move(faired->curve);
   }
-  result.report.extremaBefore = countedExtrema(curve, closed);
-  result.report.extremaAfter = countedExtrema(result.curve, closed);
+  result.report.extremaBefore = countedExtrema(curve, closed, context);
+  result.report.extremaAfter = countedExtrema(result.curve, closed, context);
+  if (context.isCancelled()) return cancelled();
   return result;
 }
 

@@ -111,7 +111,7 @@ std::optional<Rounding> roundingOf(const BlendEnd& before, const BlendEnd& behin
 /// One corner between two curves.
 class RoundedSides {
  public:
-  RoundedSides(const Neighbours& at, RoundingJoint joint) : at_(at), joint_(joint) {
+  RoundedSides(const Neighbours& at, RoundingJoint joint, CancelCheck check) : at_(at), joint_(joint), check_(check) {
     const double room = std::min(ArcLength(at.before->faired).total(), ArcLength(at.behind->faired).total());
     // One curve from its corner back to it is cut at both ends.
     most_ = kLargestShare * room;
@@ -124,7 +124,7 @@ class RoundedSides {
     Rounding rounding;
   };
   std::optional<Sized> sized(double sizeMm) const {
-    if (!(sizeMm > 0.0)) return std::nullopt;
+    if (!(sizeMm > 0.0) || check_.isCancelled()) return std::nullopt;
     auto before = shortened(at_.before->faired, sizeMm, true);
     if (!before) return std::nullopt;
     auto behind = shortened(isOne() ? *before : at_.behind->faired, sizeMm, false);
@@ -206,11 +206,12 @@ class RoundedSides {
 
   const Neighbours& at_;
   RoundingJoint joint_;
+  CancelCheck check_;
   double most_ = 0.0;
 };
 
-bool roundOne(const Neighbours& at, const CornerMark& mark, std::string& note) {
-  const RoundedSides sides(at, mark.joint);
+bool roundOne(const Neighbours& at, const CornerMark& mark, std::string& note, CancelCheck check) {
+  const RoundedSides sides(at, mark.joint, check);
   const auto rounded =
       mark.roundBy == RoundingSize::Radius ? sides.byRadius(mark.roundMm, note) : sides.byDistance(mark.roundMm, note);
   return rounded && sides.apply(*rounded);
@@ -245,7 +246,8 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
       NurbsCurve& before = unrounded[static_cast<std::size_t>(curve->piece)];
       if (before.isEmpty()) before = curve->faired;
     }
-    const bool done = roundOne(at, recipe.cornerMarks[mark], note);
+    const bool done = roundOne(at, recipe.cornerMarks[mark], note, context);
+    if (context.isCancelled()) return;
     if (!done) note = kStaysSharp;
     if (note.empty()) continue;
     for (TracedCurve* curve : {at.before, at.behind}) addNote(curve->fairing.note, note);

@@ -10,6 +10,7 @@
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
+#include "core/pipeline/run/fairing_distance.h"
 #include "core/pipeline/run/pipeline.h"
 #include "core/pipeline/run/stage_items.h"
 
@@ -28,18 +29,31 @@ Result<TargetOutcomes> noMemory() {
               "There is not enough memory for the six targets. Close other programs and try again.");
 }
 
+/// The curve that the user sees counts, not what fairing starts from.
+void measureFromSeen(FairedCurve& faired, const TracedCurve& curve, int sketchedExtrema, const RunContext& context) {
+  FairingReport& report = faired.report;
+  report.extremaBefore = sketchedExtrema;
+  if (curve.dense.isEmpty()) return;
+  if (report.maxDeviationMm == 0.0 || faired.curve == curve.dense) {
+    faired.curve = curve.sketched;
+    report.extremaAfter = sketchedExtrema;
+  }
+  report.maxDeviationMm = movedMm(faired.curve, curve, context);
+}
+
 void moveControlPoints(const std::vector<Asked>& all, const RunContext& context) {
   std::vector<TargetsJob> jobs;
-  for (const Asked& asked : all)
+  for (const Asked& asked : all) {
     jobs.push_back({asked.curve->fairingStart(), asked.curve->closed, asked.curve->fairingUsed, asked.spanAt});
+    jobs.back().params.takenMm = startsOffMm(*asked.curve, context);
+  }
   auto outcomes = targetsBetweenCorners(jobs, context);
   for (std::size_t i = 0; i < all.size(); ++i) {
     *all[i].outcomes = std::move(outcomes[i]);
     if (!*all[i].outcomes) continue;
-    // The sketch that the user sees counts, not what fairing starts from.
-    const int sketched = countedExtrema(all[i].curve->sketched, all[i].curve->closed);
+    const int sketched = countedExtrema(all[i].curve->sketched, all[i].curve->closed, context);
     for (auto& faired : (*all[i].outcomes)->faired)
-      if (faired) faired->report.extremaBefore = sketched;
+      if (faired) measureFromSeen(*faired, *all[i].curve, sketched, context);
   }
 }
 

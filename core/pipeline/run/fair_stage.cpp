@@ -13,10 +13,12 @@
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
+#include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_line.h"
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/corner_rounding.h"
 #include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/fairing_distance.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/stage_items.h"
 
@@ -26,7 +28,10 @@ namespace {
 /// Share of the length below which a part of a split curve is none.
 constexpr double kLeastPart = 1e-3;
 
+constexpr const char* kLeavesTolerance = "Unchanged: fairing would leave the tolerance. Raise it.";
 constexpr const char* kHasMoreExtrema = "Unchanged: fairing would add curvature extrema. Raise the tolerance.";
+
+constexpr const char* kStayedDense = "Stayed dense: no lighter curve was found within the tolerance.";
 
 /// [px] A place farther than this from a curve lies on another part of the line whose choice it shares.
 constexpr double kPlaceReachPx = 24.0;
@@ -97,80 +102,87 @@ class LineFairing {
 
   Result<FairedCurve> run() const {
     FairingParams params = curve_.fairingUsed;
-    params.toleranceMm -= startsOff();
-    if (!(params.toleranceMm > 0.0)) {
-      return unchanged(curve_.sketched, curve_.closed, Termination::Degenerate,
-                       "Unchanged: the tolerance is too small. Raise it.");
-    }
+    if (!movesEdgeLengths(params)) params.takenMm = startsOffMm(curve_, context_);
     auto faired = fairedWithin(params);
     if (!faired || params.mode == FairingMode::None) return faired;
+    if (isStill(*faired)) return asSketched(std::move(*faired));
     if (!curve_.construct.light) return measured(std::move(*faired));
     if (auto light = madeLight(*faired)) return *light;
     // The light curve would have left the tolerance, all of which the fairing took: it leaves some of it to the light
     // one.
     FairingParams closer = params;
-    closer.toleranceMm -= light_.tolerance;
-    if (closer.toleranceMm < kFairingShare * params.toleranceMm || context_.isCancelled())
-      return measured(std::move(*faired));
+    closer.takenMm += light_.tolerance;
+    const double left = params.toleranceMm - params.takenMm;
+    if (params.toleranceMm - closer.takenMm < kFairingShare * left || context_.isCancelled())
+      return stayingDense(std::move(*faired));
     if (const auto again = fairedWithin(closer)) {
-      if (auto light = madeLight(*again)) return *light;
+      if (auto light = madeLight(*again)) {
+        if (light->report.withinTolerance) light->report.neededMm = faired->report.neededMm;
+        return *light;
+      }
     }
-    return measured(std::move(*faired));
+    return stayingDense(std::move(*faired));
   }
 
  private:
   static constexpr double kFairingShare = 0.5;  // of the tolerance, is left to the fairing
   static constexpr double kLightShare = 0.1;    // of the tolerance
 
-  /// How far what fairing starts from lies off what the deviation is measured from.
-  double startsOff() const {
-    return curve_.isSimplified() ? deviation(curve_.fairingStart(), curve_.sketched, context_).max : 0.0;
-  }
-
   Result<FairedCurve> fairedWithin(const FairingParams& params) const {
     return movesEdgeLengths(params) ? fairByEdgeLengths(curve_.sketched, curve_.closed, params, context_)
                                     : fairBetweenCorners(curve_.fairingStart(), curve_.closed, params, context_, line_);
   }
 
-  /// Counted against the curve that the user sees, where fairing started from another; what was simplified is also
-  /// measured from it.
-  FairedCurve measured(FairedCurve faired) const {
+  bool isStill(const FairedCurve& faired) const {
+    return faired.report.maxDeviationMm == 0.0 || faired.curve == curve_.fairingStart();
+  }
+
+  /// The curve that the user sees, with what the fairing that left it so has to say.
+  FairedCurve asSketched(FairedCurve faired) const {
+    faired.curve = curve_.sketched;
     faired.report.extremaBefore = countedExtrema(curve_.sketched, curve_.closed, context_);
-    const bool isStill = curve_.isSimplified() && faired.curve == curve_.fairingStart();
-    const bool addsExtrema = faired.report.extremaAfter > faired.report.extremaBefore;
-    if (isStill || addsExtrema) {
-      faired.curve = curve_.sketched;
-      faired.report.extremaAfter = faired.report.extremaBefore;
-      faired.report.maxDeviationMm = 0.0;
-      if (addsExtrema) faired.report.note = kHasMoreExtrema;
-      if (addsExtrema) faired.report.withinTolerance = false;
-      return faired;
-    }
-    if (curve_.isSimplified()) faired.report.maxDeviationMm = distanceFromSeen(faired.curve);
+    faired.report.extremaAfter = faired.report.extremaBefore;
+    faired.report.maxDeviationMm = 0.0;
     return faired;
   }
-  double distanceFromSeen(const NurbsCurve& curve) const {
-    return std::max(deviation(curve, curve_.measuredFrom(), context_).max,
-                    deviation(curve_.measuredFrom(), curve, context_).max);
+  FairedCurve refused(FairedCurve faired, const char* note) const {
+    faired.report.note = note;
+    faired.report.withinTolerance = false;
+    return asSketched(std::move(faired));
+  }
+
+  /// Counted and measured against the curve that the user sees, where fairing started from another.
+  FairedCurve measured(FairedCurve faired) const {
+    faired.report.extremaBefore = countedExtrema(curve_.sketched, curve_.closed, context_);
+    if (faired.report.extremaAfter > faired.report.extremaBefore) return refused(std::move(faired), kHasMoreExtrema);
+    if (curve_.dense.isEmpty()) return faired;
+    faired.report.maxDeviationMm = movedMm(faired.curve, curve_, context_);
+    const bool isWithin = faired.report.maxDeviationMm <= curve_.fairingUsed.toleranceMm;
+    return isWithin ? faired : refused(std::move(faired), kLeavesTolerance);
+  }
+
+  FairedCurve stayingDense(FairedCurve faired) const {
+    FairedCurve result = measured(std::move(faired));
+    if (result.curve.controlPointCount() > curve_.sketched.controlPointCount())
+      addSentence(result.report.note, kStayedDense);
+    return result;
   }
 
   /// The faired curve as a light one that holds the fairing's tolerance; none when there is none.
   std::optional<FairedCurve> madeLight(const FairedCurve& faired) const {
     auto light = lightBetweenCorners(faired.curve, curve_.closed, light_, context_);
     if (!light) return std::nullopt;
-    const double moved =
-        curve_.isSimplified() ? distanceFromSeen(*light) : deviation(*light, curve_.measuredFrom(), context_).max;
-    if (moved > std::max(curve_.fairingUsed.toleranceMm, faired.report.maxDeviationMm)) return std::nullopt;
-    const int extrema = countedExtrema(*light, curve_.closed, context_);
-    if (extrema > faired.report.extremaAfter) return std::nullopt;
     FairedCurve result{std::move(*light), faired.report};
     const NurbsCurve& start = curve_.fairingStart();
     if (curve_.closed && !result.curve.isRational() && !beginsAtCorner(result.curve))
       result.curve = startedNear(result.curve, start.point(start.start()));
-    result.report.extremaAfter = extrema;
-    result.report.maxDeviationMm = moved;
-    // What was simplified and has not moved is the curve that the user sees.
-    return curve_.isSimplified() && faired.curve == start ? measured(faired) : measured(std::move(result));
+    result.report.maxDeviationMm = movedMm(result.curve, curve_, context_);
+    if (result.report.maxDeviationMm > curve_.fairingUsed.toleranceMm) return std::nullopt;
+    result.report.extremaAfter = countedExtrema(result.curve, curve_.closed, context_);
+    if (result.report.extremaAfter > faired.report.extremaAfter) return std::nullopt;
+    result.report.extremaBefore = countedExtrema(curve_.sketched, curve_.closed, context_);
+    return result.report.extremaAfter <= result.report.extremaBefore ? result
+                                                                     : refused(std::move(result), kHasMoreExtrema);
   }
 
   const TracedCurve& curve_;
@@ -179,14 +191,25 @@ class LineFairing {
   const RunContext& context_;
 };
 
+/// The dense curve ends a little otherwise than the light one: where an end is held, it is that of the curve that the
+/// user sees, so fairing starts from it.
+void startFromSeenEnds(TracedCurve& curve, const LightOptions& light) {
+  const auto isHeld = [](const EndHold& hold) { return hold.tangent || hold.curvature; };
+  const FairingParams& params = curve.fairingUsed;
+  if (curve.closed || params.mode == FairingMode::None || !(isHeld(params.startHold) || isHeld(params.endHold))) return;
+  if (curve.dense.isEmpty() || !curve.construct.light || curve.isSimplified()) return;
+  curve.dense = fairingStartOf(curve.sketched, false, light);
+}
+
 void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Recipe& recipe, const PageFrame& frame,
              const RunContext& context) {
   curve.faired = curve.sketched;
   curve.fairedFigures = curve.sketchedFigures;
   if (!curve.included || curve.fairingUsed.mode == FairingMode::None) return;
   const bool isSimplified = curve.isSimplified();
-  // An arc is as fair as a curve can be; its note says so.
-  if (isSimplified && (curve.sketched.isRational() || curve.construct.isLine)) return;
+  // An arc is as fair as a curve can be; its note says so. Only a target may ask for another curve.
+  const bool isExact = curve.construct.light && (curve.sketched.isRational() || curve.construct.isLine);
+  if (isExact && (isSimplified || curve.fairingUsed.mode != FairingMode::Target)) return;
   const LightOptions light = lightOptions(recipe.construct, frame.mmPerPx);
   // What was simplified has left the points of the line behind.
   FairingLine line = isSimplified ? FairingLine{} : lineOf(piece, kind, frame);
@@ -198,8 +221,6 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Rec
   }
   curve.faired = result->curve;
   curve.fairing = std::move(result->report);
-  // Measured from the dense curve, of which a light sketched curve is a little off: what is as drawn has not moved.
-  if (curve.faired == curve.sketched) curve.fairing.maxDeviationMm = 0.0;
   curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame), context);
 }
 
@@ -215,6 +236,7 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& c
     const auto piece = static_cast<std::size_t>(curve.piece);
     curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
     curve.fairingUsed = paramsFor(choices[piece], recipe, pieces.pieces[piece], curve.fairingStart(), frame);
+    startFromSeenEnds(curve, lightOptions(recipe.construct, frame.mmPerPx));
     const ContourKind kind = contours.contours[curve.contour].kind;
     fairOne(curve, pieces.pieces[piece], kind, recipe, frame, inner);
   });

@@ -58,8 +58,6 @@ struct TracedCurve {
   const NurbsCurve& fairingStart() const { return dense.isEmpty() ? sketched : dense; }
   /// What the user sees is not the line but what was meant by it (construct.detail).
   bool isSimplified() const { return construct.light && construct.light->isSimplified; }
-  /// What a faired curve's distance is measured from.
-  const NurbsCurve& measuredFrom() const { return isSimplified() ? sketched : fairingStart(); }
 };
 
 struct ConstructedSet {

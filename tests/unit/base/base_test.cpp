@@ -4,10 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <fstream>
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "core/base/content_hash.h"
@@ -84,6 +87,42 @@ TEST(ParallelFor, DoesWithoutThreadsThatCannotBeStarted) {
   EXPECT_TRUE(WIFEXITED(status)) << "ended by a signal";
   EXPECT_EQ(WEXITSTATUS(status), 0);
 #endif
+}
+
+TEST(ParallelFor, KeepsItsThreads) {
+  static std::atomic<int> ended{0};
+  struct CountsItsEnd {
+    ~CountsItsEnd() { ++ended; }
+  };
+  RunContext context;
+  context.threads = 3;
+  std::atomic<int> blocks{0};
+  for (int round = 0; round < 50; ++round) {
+    parallelFor(context, 6, 1, [&](int, int) {
+      static thread_local CountsItsEnd one;
+      static_cast<void>(one);
+      ++blocks;
+      std::this_thread::sleep_for(std::chrono::microseconds(100));  // time for another thread to take a block
+    });
+  }
+  EXPECT_EQ(blocks, 300);
+  EXPECT_EQ(ended, 0);
+}
+
+TEST(ParallelFor, LoopsInsideLoopsAndOfSeveralThreadsAllEnd) {
+  RunContext context;
+  context.threads = 4;
+  std::atomic<int> sum{0};
+  const auto many = [&] {
+    for (int round = 0; round < 20; ++round)
+      parallelFor(context, 8, 1,
+                  [&](int, int) { parallelFor(context, 10, 1, [&](int begin, int end) { sum += end - begin; }); });
+  };
+  {
+    std::vector<std::jthread> callers;
+    for (int i = 0; i < 3; ++i) callers.emplace_back(many);
+  }
+  EXPECT_EQ(sum, 3 * 20 * 8 * 10);
 }
 
 TEST(ParallelFor, RethrowsAndHandlesNothingToDo) {

@@ -68,5 +68,28 @@ TEST(LightExtrema, AWobblyCircleHasNoMoreThanBefore) {
   EXPECT_GE(10 * light, 9 * wheels()) << "circles stay dense";
 }
 
+/// A line without deviations larger than the tolerance keeps its extrema: none may come in.
+TEST(LightExtrema, DetailAddsNone) {
+  for (int seed = 1; seed <= wheels() / 4; ++seed) {
+    const NurbsCurve dense = wobblyCircle(static_cast<unsigned>(seed));
+    for (const double detail : {0.1, 0.2, 0.3}) {
+      const ConstructedPiece made = lightPieceOf(dense, true, detail);
+      EXPECT_LE(countedExtrema(made.curve, true), countedExtrema(dense, true))
+          << "circle " << seed << ", detail " << detail;
+    }
+  }
+}
+
+TEST(LightNote, CountsControlPointsAsTheListDoes) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const NurbsCurve dense = wobblyCircle(seed);
+    for (const double detail : {0.0, 1.0}) {
+      const ConstructedPiece made = lightPieceOf(dense, true, detail);
+      EXPECT_EQ(made.report.light->points, made.curve.controlPointCount()) << "circle " << seed;
+      EXPECT_EQ(made.report.light->pointsBefore, dense.controlPointCount()) << "circle " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten

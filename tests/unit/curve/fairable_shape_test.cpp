@@ -10,6 +10,7 @@
 #include "core/curve/bezier_quintics.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/corners_inside.h"
+#include "core/curve/curvature.h"
 #include "core/curve/curvature_jump.h"
 #include "core/curve/knot_operations.h"
 
@@ -83,6 +84,14 @@ TEST(SmoothShape, LiesWithinTheToleranceAndHasNoJoints) {
       if (!closed) {
         EXPECT_LT((smooth->point(smooth->start()) - joined.point(joined.start())).norm(), 1e-12);
         EXPECT_LT((smooth->point(smooth->end()) - joined.point(joined.end())).norm(), 1e-12);
+        const auto directionAt = [](const NurbsCurve& c, double u) {
+          return Vec2(c.derivatives(u, 1)[1].normalized());
+        };
+        for (const bool atEnd : {false, true}) {
+          const double a = atEnd ? smooth->end() : smooth->start(), b = atEnd ? joined.end() : joined.start();
+          EXPECT_NEAR(cross(directionAt(*smooth, a), directionAt(joined, b)), 0.0, 1e-12);
+          EXPECT_NEAR(*curvature(*smooth, a), *curvature(joined, b), 1e-9);
+        }
       } else {
         const auto a = smooth->derivatives(smooth->start(), 3), b = smooth->derivatives(smooth->end(), 3);
         for (std::size_t d = 0; d <= 3; ++d) EXPECT_LT((a[d] - b[d]).norm(), 1e-6 * (1.0 + a[d].norm())) << d;

@@ -14,8 +14,11 @@
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/model/fairing_state.h"
 #include "core/fairing/model/line_blocks.h"
+#include "core/fairing/structure/fair_as_needed.h"
 #include "core/fairing/structure/monotone_search.h"
 #include "core/fairing/structure/structure_candidates.h"
+#include "core/fairing/structure/tolerance_fairing.h"
+#include "core/fairing/target/low_pass.h"
 
 namespace batten {
 namespace {
@@ -90,6 +93,33 @@ TEST_F(CancelledFairing, LooksForNoStructure) {
   EXPECT_TRUE(MonotoneSearch(*setup_, 0.01, context_).arcLength().empty());
   EXPECT_EQ(search.denseTurns(setup_->points), 0);
   EXPECT_FALSE(StructureCandidates(setup_, context_).isValid());
+}
+
+TEST_F(CancelledFairing, CountsNothingOnACurveThatStays) {
+  EXPECT_GT(unchanged(curve_, false, Termination::NotRun, {}, context_).report.extremaBefore, 10);
+  cancel();
+  EXPECT_EQ(unchanged(curve_, false, Termination::NotRun, {}, context_).report.extremaBefore, 0);
+}
+
+TEST_F(CancelledFairing, SmoothsNoSamples) {
+  std::vector<double> shaky;
+  for (int i = 0; i < 500; ++i) shaky.push_back(std::sin(1.9 * i));
+  EXPECT_NE(lowPass(shaky, 1.0, 40.0, false, context_), shaky);
+  EXPECT_TRUE(lowPassedProfile(curve_, false, {}, context_));
+  cancel();
+  EXPECT_EQ(lowPass(shaky, 1.0, 40.0, false, context_), shaky);
+  EXPECT_FALSE(lowPassedProfile(curve_, false, {}, context_));
+}
+
+TEST_F(CancelledFairing, IsNotTakenForACusp) {
+  cancel();
+  const FairingParams params;
+  const auto evenly = fairWithinTolerance(setup_, params, context_);
+  ASSERT_FALSE(evenly) << evenly->report.note;
+  EXPECT_EQ(evenly.error().code, ErrorCode::Cancelled);
+  const auto asNeeded = fairAsNeeded(setup_, params, {}, context_);
+  ASSERT_FALSE(asNeeded) << asNeeded->report.note;
+  EXPECT_EQ(asNeeded.error().code, ErrorCode::Cancelled);
 }
 
 TEST_F(CancelledFairing, FairsNothingInAnyMode) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
@@ -239,6 +240,64 @@ TEST(LowPassMode, KeepsItsShareOfEveryWaveAtAnyTolerance) {
       ASSERT_TRUE(faired);
       EXPECT_NEAR(amplitude(faired->curve) / amplitude(start), share, 0.05) << wave << ", tolerance " << tolerance;
     }
+  }
+}
+
+TEST(LowPassMode, AdvisesNothingThatOnlyTargetsHave) {
+  int noted = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    for (const double tolerance : {0.0005, 0.02, 0.5}) {
+      FairingParams params;
+      params.mode = FairingMode::LowPass;
+      params.toleranceMm = std::max(tolerance, 0.001);
+      params.lowPassMm = 20.0 * seed;
+      const auto faired = fair(test::noisy(test::wave(240, 18, 40), 0.3, seed), false, params, {});
+      ASSERT_TRUE(faired);
+      const std::string& note = faired->report.note;
+      noted += note.empty() ? 0 : 1;
+      for (const char* word : {"target", "degree", "plit", "rofile"})
+        EXPECT_EQ(note.find(word), std::string::npos) << note;
+    }
+  }
+  EXPECT_GT(noted, 0);
+}
+
+TEST(FairingModes, SayWhereAProfileThatIsMissingIsDrawn) {
+  FairingParams params;
+  params.mode = FairingMode::Target;
+  params.target = FairingTarget::Drawn;
+  const auto faired = fair(test::wave(240, 18, 40), false, params, {});
+  ASSERT_TRUE(faired);
+  EXPECT_EQ(faired->report.note, "No profile is drawn yet: drag its points in the plot, or set fairing.profile.");
+}
+
+/// What lies between the sketched curve and the one that fairing begins with is of the same tolerance.
+TEST(FairingModes, LeaveWhatIsTakenOfTheTolerance) {
+  const NurbsCurve start = test::noisy(test::ellipseQuarter(200, 120, 20), 0.3, 5);
+  for (const FairingMode mode :
+       {FairingMode::Target, FairingMode::Tolerance, FairingMode::Monotone, FairingMode::LowPass}) {
+    FairingParams params;
+    params.mode = mode;
+    params.toleranceMm = 0.5;
+    const auto whole = fair(start, false, params, {});
+    params.takenMm = 0.2;
+    const auto rest = fair(start, false, params, {});
+    ASSERT_TRUE(whole && rest);
+    EXPECT_LE(rest->report.maxDeviationMm, 0.3);
+    EXPECT_LE(deviation(rest->curve, start).max, 0.3);
+    EXPECT_GT(rest->report.maxDeviationMm, 0.0) << static_cast<int>(mode);
+    if (mode == FairingMode::Target && rest->report.targetDegree == whole->report.targetDegree) {
+      EXPECT_NEAR(rest->report.neededMm, whole->report.neededMm + 0.2, 1e-9);
+    }
+    if (mode == FairingMode::Target) {
+      EXPECT_EQ(rest->report.targetSplits, whole->report.targetSplits) << "spans go by the whole tolerance";
+    }
+    params.takenMm = 0.5;
+    const auto none = fair(start, false, params, {});
+    ASSERT_TRUE(none);
+    EXPECT_EQ(none->curve, start);
+    EXPECT_EQ(none->report.note, "Unchanged: the tolerance is too small. Raise it.");
+    EXPECT_FALSE(none->report.withinTolerance);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "core/fairing/model/curvature_rows.h"
 #include "core/fairing/model/fairing_model.h"
 #include "core/fairing/model/minimise.h"
+#include "core/fairing/model/target_steps.h"
 #include "core/fairing/target/shape_modification.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/fairing/fairing_curves.h"
@@ -184,6 +185,45 @@ TEST(ModifyShape, HoldsTangentAndCurvatureOfTheEnds) {
   EXPECT_NEAR(cross(a, b), 0.0, 1e-10);
   EXPECT_NEAR(*curvature(start, 1.0), *curvature(faired->curve, 1.0), 1e-10);
   EXPECT_GT(faired->report.maxDeviationMm, 0.05);
+}
+
+/// The tolerance allows the whole target, but the curves on the way to it turn back more often.
+TEST(ModifyShape, ATargetThatIsHardlyFollowedIsNotMet) {
+  int met = 0, hardly = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const NurbsCurve start = test::noisy(test::ellipseQuarter(200, 120, 14), 0.02, seed);
+    for (const int degree : {1, 3}) {
+      FairingParams params;
+      params.mode = FairingMode::Target;
+      params.target = targetOfDegree(degree);
+      params.toleranceMm = 20.0;
+      params.targets.spans = TargetSpans::Whole;
+      params.startHold.curvature = params.endHold.curvature = true;
+      const auto faired = fair(start, false, params, {});
+      ASSERT_TRUE(faired) << faired.error().message;
+      const auto setup = makeSetup(start, false, params);
+      ASSERT_TRUE(setup);
+      const auto objective =
+          targetObjective(**setup, fitTargets(start, params.targets, false).profiles[std::size_t(degree) - 1]);
+      ASSERT_TRUE(objective);
+      const TargetSteps steps(**setup, *objective, {});
+      ASSERT_FALSE(steps.all().empty());
+      const FairingReport& report = faired->report;
+      const double full = std::sqrt(steps.all().front().misfit);
+      const double left = (report.objectiveAfter - full) / (report.objectiveBefore - full);
+      SCOPED_TRACE(testing::Message() << "curve " << seed << ", degree " << degree << ", left " << left);
+      if (left > 0.2) {
+        ++hardly;
+        EXPECT_FALSE(report.withinTolerance);
+        EXPECT_FALSE(report.note.empty());
+      } else if (left < 0.05) {
+        ++met;
+        EXPECT_TRUE(report.withinTolerance) << report.note;
+      }
+    }
+  }
+  EXPECT_GT(hardly, 0);
+  EXPECT_GT(met, 0);
 }
 
 TEST(ModifyShape, ClosedCurvesStillMeetWithAllDerivatives) {

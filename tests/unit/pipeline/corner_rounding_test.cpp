@@ -51,6 +51,17 @@ struct Angle {
   }
 };
 
+TEST(RoundCorners, StaySharpOnceTheRunIsCancelled) {
+  Angle angle(5);
+  const NurbsCurve before = angle.set.curves[0].faired;
+  RunContext context;
+  context.cancel.cancel();
+  roundCorners(angle.set, angle.pieces, angle.recipe, {}, context);
+  EXPECT_EQ(angle.set.curves[0].faired, before);
+  roundCorners(angle.set, angle.pieces, angle.recipe, {});
+  EXPECT_NE(angle.set.curves[0].faired, before);
+}
+
 TEST(RoundCorners, SayHowFarTheyMovedTheCurveAndLeaveTheFiguresOfFairingAlone) {
   Angle angle(5);
   for (TracedCurve& curve : angle.set.curves) curve.fairing.maxDeviationMm = 0.07;

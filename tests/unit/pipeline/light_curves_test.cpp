@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/curve_targets.h"
+#include "core/pipeline/run/left_as_drawn.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/unit/pipeline/ellipse_scan.h"
@@ -31,6 +36,11 @@ double apart(const NurbsCurve& a, const NurbsCurve& b) {
   }
   return worst;
 }
+
+double apartBothWays(const NurbsCurve& a, const NurbsCurve& b) { return std::max(apart(a, b), apart(b, a)); }
+
+constexpr std::array kFairingModes = {FairingMode::Tolerance, FairingMode::Target, FairingMode::Monotone,
+                                      FairingMode::LowPass};
 
 TEST(LightCurves, StandForTheDenseOneThatFairingStartsFrom) {
   const auto dense = traced(false, FairingMode::None), light = traced(true, FairingMode::None);
@@ -68,13 +78,123 @@ TEST(LightCurves, KeepTheToleranceOfTheFairing) {
     const auto out = traced(true, mode, toleranceMm);
     ASSERT_FALSE(out.error);
     const TracedCurve& curve = out.faired->curves.front();
-    EXPECT_LE(apart(curve.faired, curve.fairingStart()), 1.001 * toleranceMm);
-    EXPECT_NEAR(apart(curve.faired, curve.fairingStart()), curve.fairing.maxDeviationMm, 0.02 * toleranceMm);
+    EXPECT_LE(apartBothWays(curve.faired, curve.sketched), 1.001 * toleranceMm);
+    EXPECT_NEAR(apartBothWays(curve.faired, curve.sketched), curve.fairing.maxDeviationMm, 0.02 * toleranceMm);
     const auto dense = traced(false, mode, toleranceMm);
     EXPECT_LE(curve.fairedFigures.extrema, dense.faired->curves.front().fairedFigures.extrema);
     // One more for the seam, which lies where the dense curve begins.
     EXPECT_LE(curve.faired.controlPointCount(), dense.faired->curves.front().faired.controlPointCount() + 1);
   }
+}
+
+/// A light curve may lie so far off the dense one that this counts.
+TEST(LightCurves, AreWhatTheMoveOfTheFairingIsMeasuredFrom) {
+  Recipe recipe;
+  recipe.construct.lightTolerancePx = 1.0;
+  StageCache cache;
+  for (const FairingMode mode : kFairingModes) {
+    for (const double toleranceMm : {0.002, 0.01, 0.1, 0.5}) {
+      SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << ", tolerance " << toleranceMm);
+      recipe.fairing.mode = mode;
+      recipe.fairing.toleranceMm = toleranceMm;
+      const auto out = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+      ASSERT_FALSE(out.error);
+      const TracedCurve& curve = out.faired->curves.front();
+      const double real = apartBothWays(curve.faired, curve.sketched);
+      EXPECT_LE(real, 1.001 * toleranceMm);
+      EXPECT_NEAR(curve.fairing.maxDeviationMm, real, 0.02 * toleranceMm + 1e-9);
+      if (real == 0.0) {
+        EXPECT_EQ(curve.faired, curve.sketched);
+        EXPECT_FALSE(leftAsDrawnReason(curve).empty());
+      }
+      EXPECT_LE(curve.fairing.extremaAfter, curve.fairing.extremaBefore);
+      EXPECT_EQ(curve.fairing.extremaBefore, curve.sketchedFigures.extrema);
+    }
+  }
+}
+
+TEST(LightCurves, AreWhatTheMoveOfTheTargetsIsMeasuredFrom) {
+  Recipe recipe;
+  recipe.construct.lightTolerancePx = 1.0;
+  recipe.fairing.mode = FairingMode::Target;
+  StageCache cache;
+  for (const double toleranceMm : {0.01, 0.1, 0.5}) {
+    recipe.fairing.toleranceMm = toleranceMm;
+    const auto out = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+    ASSERT_FALSE(out.error);
+    const TracedCurve& curve = out.faired->curves.front();
+    const auto outcomes = targetsFor(curve, {});
+    ASSERT_TRUE(outcomes) << outcomes.error().message;
+    for (const auto& faired : outcomes->faired) {
+      ASSERT_TRUE(faired);
+      const double real = apartBothWays(faired->curve, curve.sketched);
+      EXPECT_LE(real, 1.001 * toleranceMm);
+      EXPECT_NEAR(faired->report.maxDeviationMm, real, 0.02 * toleranceMm + 1e-9);
+    }
+  }
+}
+
+/// A disc, which comes out as an exact circle.
+const Scan& discScan() {
+  static const Scan scan = [] {
+    const auto shape = test::truthShape("circle", 400, 300);
+    return test::renderPage(test::fillCoverage(shape.outline(), 400, 300), 400, 300, test::cleanPage());
+  }();
+  return scan;
+}
+
+TEST(LightCurves, ThatAreExactStaySoAndSayWhy) {
+  StageCache cache;
+  for (const FairingMode mode : {FairingMode::Tolerance, FairingMode::Monotone, FairingMode::LowPass}) {
+    Recipe recipe;
+    recipe.fairing.mode = mode;
+    const auto out = runPipeline(discScan(), recipe, cache, {}, {});
+    ASSERT_FALSE(out.error);
+    const TracedCurve& curve = out.faired->curves.front();
+    ASSERT_TRUE(curve.sketched.isRational());
+    EXPECT_EQ(curve.faired, curve.sketched);
+    EXPECT_EQ(leftAsDrawnReason(curve), "Unchanged: exact circle.");
+  }
+}
+
+/// The outline of a log spiral: open lines between its corners.
+const Scan& spiralScan() {
+  static const Scan scan = [] {
+    const auto shape = test::truthShape("logspiral", 400, 300);
+    return test::renderPage(test::strokeCoverage(shape.outline(), false, 6.0, 400, 300), 400, 300,
+                            test::scannedPage(3));
+  }();
+  return scan;
+}
+
+TEST(LightCurves, KeepTheEndsThatFairingHolds) {
+  StageCache cache;
+  int held = 0;
+  for (const FairingMode mode : kFairingModes) {
+    for (const double lightPx : {0.05, 0.5}) {
+      SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << ", light within " << lightPx);
+      Recipe recipe;
+      recipe.construct.lightTolerancePx = lightPx;
+      recipe.fairing.mode = mode;
+      recipe.fairing.toleranceMm = 0.5;
+      recipe.fairing.startHold = {.tangent = true, .curvature = true};
+      recipe.fairing.endHold.tangent = true;
+      const auto out = runPipeline(spiralScan(), recipe, cache, {}, {});
+      ASSERT_FALSE(out.error);
+      for (const TracedCurve& curve : out.faired->curves) {
+        if (curve.closed || curve.faired == curve.sketched) continue;
+        ++held;
+        const auto directionAt = [](const NurbsCurve& one, double u) {
+          return Vec2(one.derivatives(u, 1)[1].normalized());
+        };
+        const NurbsCurve &was = curve.sketched, &is = curve.faired;
+        EXPECT_NEAR(cross(directionAt(was, was.start()), directionAt(is, is.start())), 0.0, 1e-6);
+        EXPECT_NEAR(cross(directionAt(was, was.end()), directionAt(is, is.end())), 0.0, 1e-6);
+        EXPECT_NEAR(*curvature(is, is.start()), *curvature(was, was.start()), 1e-6);
+      }
+    }
+  }
+  EXPECT_GE(held, 4);
 }
 
 TEST(LightCurves, AreOfTheTrueAndFairFitOnly) {

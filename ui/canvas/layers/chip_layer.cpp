@@ -51,7 +51,7 @@ QString curveText(const CanvasScene& scene) {
   const Judged judged = judgedIn(scene.view);
   const NurbsCurve& shown = judgedCurve(*curve, judged);
   const CurveFigures& figures = judgedFigures(*curve, judged);
-  QStringList parts{curveName(scene.session, scene.session.selectedCurve())};
+  QStringList parts{curveName(scene.session, *scene.session.selectedCurve())};
   if (const QString method = methodText(scene, *curve); !method.isEmpty()) parts << method;
   parts << chipText("%1 control points").arg(shown.controlPointCount())
         << chipText("%1 mm").arg(number(figures.lengthMm, 1));

@@ -147,7 +147,7 @@ CombScale combScale(const CanvasScene& scene) {
   // By the sketched curve, so that fairing does not change the scale under the eye.
   const auto curves = scene.session.curves();
   const auto at = static_cast<std::size_t>(reference->index);
-  const int extrema = reference->index >= 0 && at < curves.size() ? curves[at].sketchedFigures.extrema : 0;
+  const int extrema = at < curves.size() ? curves[at].sketchedFigures.extrema : 0;
   const double lengthPx = reference->lengthMm / scene.combs->source.frame.lengthToModel(1.0);
   const CombedCurve curve{reference->robustKappa, reference->extentPx, lengthPx, extrema};
   const double viewPx = std::min(view.width(), view.height()) * scene.transform.imagePerWidget();

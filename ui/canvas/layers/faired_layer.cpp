@@ -9,7 +9,7 @@ namespace batten {
 void paintFaired(QPainter& painter, const CanvasScene& scene) {
   if (!scene.isResultShown()) return;
   ImagePainter image(painter, scene);
-  const int selected = scene.session.selectedCurve();
+  const auto selected = scene.session.selectedCurve();
   for (std::size_t i = 0; i < scene.shapes->curves.size(); ++i) {
     const CurveShape& shape = scene.shapes->curves[i];
     if (!shape.isIncluded || !image.sees(shape.bounds)) continue;

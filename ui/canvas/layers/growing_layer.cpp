@@ -34,7 +34,8 @@ void paintJoint(QPainter& painter, const QPolygonF& line) {
 
 void paintGrowing(QPainter& painter, const CanvasScene& scene) {
   const GrowingPlayer& player = scene.session.growing();
-  if (!player.steps() || player.step() < 0) return;
+  if (!player.steps() || !player.step()) return;
+  const int shown = *player.step();
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setBrush(Qt::NoBrush);
@@ -44,14 +45,14 @@ void paintGrowing(QPainter& painter, const CanvasScene& scene) {
     painter.setPen(QPen(color, width, style, Qt::RoundCap, Qt::RoundJoin));
     painter.drawPolyline(line);
   };
-  for (int i = 0; i < player.step(); ++i) {
+  for (int i = 0; i < shown; ++i) {
     const GrowingStep& step = (*player.steps())[i];
     if (step.kind != GrowingStep::Kind::Kept) continue;
     const QPolygonF line = outlineOf(step.curve, scene);
     stroke(line, colors::accent(), 2.2, Qt::SolidLine);
     paintJoint(painter, line);
   }
-  const GrowingStep& now = (*player.steps())[player.step()];
+  const GrowingStep& now = (*player.steps())[shown];
   const QPolygonF line = outlineOf(now.curve, scene);
   switch (now.kind) {
     case GrowingStep::Kind::Seed:

@@ -16,7 +16,7 @@ const QColor kCasing(255, 255, 255, 185);
 void paintSketched(QPainter& painter, const CanvasScene& scene) {
   if (!scene.shapes) return;
   ImagePainter image(painter, scene);
-  const int selected = scene.session.selectedCurve();
+  const auto selected = scene.session.selectedCurve();
   for (std::size_t i = 0; i < scene.shapes->curves.size(); ++i) {
     const CurveShape& shape = scene.shapes->curves[i];
     if (!image.sees(shape.bounds)) continue;

@@ -6,8 +6,8 @@
 namespace batten {
 
 const CurveComb* CanvasScene::selectedComb() const {
-  if (!combs || combs->selected != session.selectedCurve() || combs->selected < 0) return nullptr;
-  return combs->of(combs->selected);
+  if (!combs || combs->selected != session.selectedCurve() || !combs->selected) return nullptr;
+  return combs->of(*combs->selected);
 }
 
 std::optional<int> CanvasScene::curveNear(const Vec2& px) const {

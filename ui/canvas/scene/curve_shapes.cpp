@@ -154,7 +154,7 @@ std::shared_ptr<const CurveShapes> buildShapes(const CurveSource& source, double
   return shapes;
 }
 
-std::shared_ptr<const CurveCombs> buildCombs(const CurveSource& source, int selected, Judged judged,
+std::shared_ptr<const CurveCombs> buildCombs(const CurveSource& source, std::optional<int> selected, Judged judged,
                                              const RunContext& context) {
   auto combs = std::make_shared<CurveCombs>();
   combs->source = source;

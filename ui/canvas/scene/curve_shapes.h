@@ -61,7 +61,7 @@ struct Whisker {
 };
 /// What is drawn and read along one curve: equal steps of arc length of the judged curve.
 struct CurveComb {
-  int index = -1;
+  int index = 0;  ///< Of the curve in its set.
   bool isFaired = false;
   double lengthMm = 0.0;
   double extentPx = 0.0;
@@ -74,13 +74,14 @@ struct CurveComb {
 };
 struct CurveCombs {
   CurveSource source;
-  int selected = -1;
+  std::optional<int> selected;
   Judged judged = Judged::Result;  ///< Whose combs they are.
   std::vector<CurveComb> combs;
   const CurveComb* of(int index) const;
 };
 /// Combs of the selected curve, or of all when there are few. Null when cancelled.
-std::shared_ptr<const CurveCombs> buildCombs(const CurveSource&, int selected, Judged, const RunContext&);
+std::shared_ptr<const CurveCombs> buildCombs(const CurveSource&, std::optional<int> selected, Judged,
+                                             const RunContext&);
 
 /// Nearest place of a polyline.
 struct NearPoint {

@@ -73,7 +73,7 @@ class CornerTool final : public PointTool {
   }
 
   /// A corner that was found without a mark is left out by a click, and stays out.
-  bool pressElse(const ToolEvent& event, int gesture) override {
+  bool pressElse(const ToolEvent& event, GestureId gesture) override {
     const Corner* found =
         event.modifiers.testFlag(Qt::AltModifier) ? nullptr : foundAt(event.px, scene_.reachImagePx());
     if (!found) return false;
@@ -107,10 +107,12 @@ class CornerTool final : public PointTool {
   }
 
   Index selected() const override {
-    const int mark = scene_.session.selectedCorner();
-    return mark < 0 ? std::nullopt : Index(static_cast<std::size_t>(mark));
+    const auto mark = scene_.session.selectedCorner();
+    return mark ? Index(static_cast<std::size_t>(*mark)) : std::nullopt;
   }
-  void select(Index mark) override { scene_.session.selectCorner(mark ? static_cast<int>(*mark) : -1); }
+  void select(Index mark) override {
+    scene_.session.selectCorner(mark ? std::optional(static_cast<int>(*mark)) : std::nullopt);
+  }
 
  private:
   const std::vector<CornerMark>& marks() const { return scene_.session.recipe().cornerMarks; }

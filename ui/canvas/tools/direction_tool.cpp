@@ -189,7 +189,7 @@ class DirectionTool final : public CanvasTool {
   const void* of_ = nullptr;
   std::optional<int> over_, overStart_, held_;
   Recipe before_;
-  int gesture_ = -1;
+  GestureId gesture_;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ std::optional<Vec2> arrowOf(const QKeyEvent* event) {
 
 }  // namespace
 
-void PointTool::change(const QString& what, Recipe after, int gesture) {
+void PointTool::change(const QString& what, Recipe after, GestureId gesture) {
   isChanging_ = true;
   scene_.session.change(what, std::move(after), gesture);
   isChanging_ = false;
@@ -40,7 +40,7 @@ void PointTool::press(const ToolEvent& event) {
   pressed_ = event.widget;
   held_ = markAt(event.px);
   isDragging_ = isNew_ = false;
-  nudgeGesture_ = -1;
+  nudgeGesture_.reset();
   gesture_ = scene_.session.newGesture();
   before_ = scene_.session.recipe();
   wasSelected_ = held_ && selected() == held_;
@@ -106,7 +106,7 @@ std::optional<bool> PointTool::tab(bool next) {
       now ? static_cast<std::ptrdiff_t>(*now) + (next ? 1 : -1) : (next ? std::ptrdiff_t{0} : last);
   const bool isInside = wanted >= 0 && wanted <= last;
   select(isInside ? Index(static_cast<std::size_t>(wanted)) : std::nullopt);
-  nudgeGesture_ = -1;
+  nudgeGesture_.reset();
   scene_.repaint();
   return isInside;
 }
@@ -125,14 +125,14 @@ void PointTool::reset() {
   held_.reset();
   before_.reset();
   select(std::nullopt);
-  nudgeGesture_ = -1;
+  nudgeGesture_.reset();
   isDragging_ = false;
 }
 
 void PointTool::recipeChanged() {
   // Undo and the panels move and remove marks under the mouse: what it is over is looked for anew.
   if (isChanging_ || isDragging_) return;
-  nudgeGesture_ = -1;
+  nudgeGesture_.reset();
   if (selected_ && *selected_ >= count()) selected_.reset();
   if (last_)
     update(*last_);
@@ -161,7 +161,7 @@ void PointTool::update(const ToolEvent& event) {
 bool PointTool::nudge(const Vec2& way) {
   const Index mark = selected();
   if (!mark || *mark >= count()) return false;
-  if (nudgeGesture_ < 0) nudgeGesture_ = scene_.session.newGesture();
+  if (!nudgeGesture_) nudgeGesture_ = scene_.session.newGesture();
   Recipe recipe = scene_.session.recipe();
   place(recipe, *mark, stored(*mark) + way);
   change(steps().move, std::move(recipe), nudgeGesture_);
@@ -174,7 +174,7 @@ void PointTool::remove(std::size_t mark) {
   erase(recipe, mark);
   hovered_.reset();
   select(std::nullopt);
-  change(steps().remove, std::move(recipe), -1);
+  change(steps().remove, std::move(recipe));
 }
 
 }  // namespace batten

@@ -40,7 +40,7 @@ class PointTool : public CanvasTool {
   virtual void place(Recipe&, std::size_t mark, const Vec2& px) const = 0;
   virtual void erase(Recipe&, std::size_t mark) const = 0;
   /// Lets a press beside all marks do something else, with the undo step that it is given; true: it did.
-  virtual bool pressElse(const ToolEvent&, int /*gesture*/) { return false; }
+  virtual bool pressElse(const ToolEvent&, GestureId /*gesture*/) { return false; }
   /// Where a press sets a mark, or none.
   virtual std::optional<Vec2> placeFor(const ToolEvent&) const = 0;
   virtual QString hintText() const = 0;
@@ -56,15 +56,15 @@ class PointTool : public CanvasTool {
   void update(const ToolEvent&);
   bool nudge(const Vec2& way);
   void remove(std::size_t mark);
-  void change(const QString& what, Recipe after, int gesture);
+  void change(const QString& what, Recipe after, GestureId gesture = {});
 
   std::optional<Vec2> snapped_;
   Index hovered_, held_, selected_;
   bool isDragging_ = false, isNew_ = false, wasSelected_ = false, isChanging_ = false;
   QPointF pressed_;
-  int gesture_ = -1, nudgeGesture_ = -1;  ///< Arrow presses in a row are one step.
-  std::optional<Recipe> before_;          ///< Of the gesture in progress.
-  std::optional<ToolEvent> last_;         ///< Where the mouse is, while it is over the drawing.
+  GestureId gesture_, nudgeGesture_;  ///< Arrow presses in a row are one step.
+  std::optional<Recipe> before_;      ///< Of the gesture in progress.
+  std::optional<ToolEvent> last_;     ///< Where the mouse is, while it is over the drawing.
 };
 
 }  // namespace batten

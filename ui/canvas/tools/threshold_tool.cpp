@@ -30,27 +30,27 @@ class ThresholdTool final : public CanvasTool {
   using CanvasTool::CanvasTool;
 
   void press(const ToolEvent& event) override {
-    const int region = regionAt(event.px);
-    if (region < 0) {
+    const auto region = regionAt(event.px);
+    if (!region) {
       scene_.flash(event.px);
       return;
     }
-    select(region, event.modifiers.testFlag(Qt::ShiftModifier));
+    select(*region, event.modifiers.testFlag(Qt::ShiftModifier));
     pressed_ = event.widget;
     isDragging_ = false;
     gesture_ = scene_.session.newGesture();
     base_ = levels();
     before_ = scene_.session.recipe();
-    wheelGesture_ = -1;
+    wheelGesture_.reset();
   }
 
   void move(const ToolEvent& event, bool isPressed) override {
-    const int region = regionAt(event.px);
+    const auto region = regionAt(event.px);
     if (region != hovered_) {
       hovered_ = region;
       scene_.repaint();
     }
-    scene_.hint(region < 0
+    scene_.hint(!region
                     ? QString()
                     : tr("Drag up or down, or turn the wheel, to change this threshold; double-click for automatic."));
     if (!isPressed || base_.empty()) return;
@@ -75,12 +75,11 @@ class ThresholdTool final : public CanvasTool {
 
   void recipeChanged() override {
     // After undo the wheel begins from what it finds.
-    if (!isChanging_) wheelGesture_ = -1;
+    if (!isChanging_) wheelGesture_.reset();
   }
 
   void doubleClick(const ToolEvent& event) override {
-    const int region = regionAt(event.px);
-    if (region < 0) return;
+    if (!regionAt(event.px)) return;
     Recipe recipe = scene_.session.recipe();
     for (const int r : chosen()) recipe.threshold.grid[r].reset();
     scene_.session.change(tr("Automatic threshold"), recipe);
@@ -88,13 +87,12 @@ class ThresholdTool final : public CanvasTool {
   }
 
   bool wheel(const ToolEvent& event, double steps) override {
-    const int region = regionAt(event.px);
-    if (region < 0 || event.modifiers.testFlag(Qt::ControlModifier)) return false;
+    const auto region = regionAt(event.px);
+    if (!region || event.modifiers.testFlag(Qt::ControlModifier)) return false;
     const auto set = chosen();
-    const bool inSet = std::find(set.begin(), set.end(), region) != set.end();
-    const bool continues =
-        inSet && wheelGesture_ >= 0 && sinceWheel_.isValid() && sinceWheel_.elapsed() < kWheelPauseMs;
-    if (!inSet) select(region, false);
+    const bool inSet = std::find(set.begin(), set.end(), *region) != set.end();
+    const bool continues = inSet && wheelGesture_ && sinceWheel_.isValid() && sinceWheel_.elapsed() < kWheelPauseMs;
+    if (!inSet) select(*region, false);
     if (!continues) {
       wheelGesture_ = scene_.session.newGesture();
       wheelBase_ = levels();
@@ -116,15 +114,15 @@ class ThresholdTool final : public CanvasTool {
   }
 
   void leave() override {
-    hovered_ = -1;
+    hovered_.reset();
     scene_.repaint();
   }
   void reset() override {
-    hovered_ = -1;
-    lastCorner_ = -1;
+    hovered_.reset();
+    lastCorner_.reset();
     base_.clear();
   }
-  Qt::CursorShape cursorShape() const override { return hovered_ >= 0 ? Qt::SizeVerCursor : Qt::ArrowCursor; }
+  Qt::CursorShape cursorShape() const override { return hovered_ ? Qt::SizeVerCursor : Qt::ArrowCursor; }
 
   void paint(QPainter& painter) override {
     const QSize size = scene_.transform.imageSize();
@@ -132,7 +130,7 @@ class ThresholdTool final : public CanvasTool {
     paintRegionGrid(painter, scene_);
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
-    if (hovered_ >= 0) painter.fillRect(rectOf(hovered_), QColor(11, 107, 203, 22));
+    if (hovered_) painter.fillRect(rectOf(*hovered_), QColor(11, 107, 203, 22));
     for (const int r : chosen()) {
       painter.setPen(QPen(colors::accent(), 1.6));
       painter.setBrush(Qt::NoBrush);
@@ -145,9 +143,10 @@ class ThresholdTool final : public CanvasTool {
  private:
   using Levels = std::vector<std::pair<int, double>>;
 
-  int regionAt(const Vec2& px) const {
+  std::optional<int> regionAt(const Vec2& px) const {
     const QSize size = scene_.transform.imageSize();
-    if (size.isEmpty() || px.x() < 0 || px.y() < 0 || px.x() >= size.width() || px.y() >= size.height()) return -1;
+    if (size.isEmpty() || px.x() < 0 || px.y() < 0 || px.x() >= size.width() || px.y() >= size.height())
+      return std::nullopt;
     // Bounds are floor(i * size / 8): the inverse is exact up to one, which the loop settles.
     const auto index = [](double at, int extent) {
       int i = std::clamp(static_cast<int>(at * kRegionsPerSide / extent), 0, kRegionsPerSide - 1);
@@ -176,9 +175,9 @@ class ThresholdTool final : public CanvasTool {
 
   /// The selected region, or the rectangle from it to where Shift was clicked.
   std::vector<int> chosen() const {
-    const int anchor = scene_.view.selectedRegion();
-    if (anchor < 0) return {};
-    const int other = lastCorner_ < 0 || anchor != rectangleAnchor_ ? anchor : lastCorner_;
+    const auto selected = scene_.view.selectedRegion();
+    if (!selected) return {};
+    const int anchor = *selected, other = anchor == rectangleAnchor_ ? lastCorner_.value_or(anchor) : anchor;
     const int c0 = anchor % kRegionsPerSide, c1 = other % kRegionsPerSide;
     const int r0 = anchor / kRegionsPerSide, r1 = other / kRegionsPerSide;
     std::vector<int> regions;
@@ -188,11 +187,11 @@ class ThresholdTool final : public CanvasTool {
   }
 
   void select(int region, bool extend) {
-    if (extend && scene_.view.selectedRegion() >= 0) {
+    if (extend && scene_.view.selectedRegion()) {
       rectangleAnchor_ = scene_.view.selectedRegion();
       lastCorner_ = region;
     } else {
-      lastCorner_ = -1;
+      lastCorner_.reset();
       scene_.view.setSelectedRegion(region);
     }
     scene_.repaint();
@@ -204,14 +203,14 @@ class ThresholdTool final : public CanvasTool {
     return all;
   }
 
-  void apply(const Levels& base, double levels, int gesture) {
+  void apply(const Levels& base, double levels, GestureId gesture) {
     Recipe recipe = scene_.session.recipe();
     for (const auto& [region, from] : base)
       recipe.threshold.grid[region] = std::clamp(std::round(2.0 * (from + levels)) / 2.0, 0.0, 255.0);
     change(std::move(recipe), gesture);
   }
 
-  void change(Recipe after, int gesture) {
+  void change(Recipe after, GestureId gesture) {
     isChanging_ = true;
     scene_.session.change(tr("Region threshold"), std::move(after), gesture);
     isChanging_ = false;
@@ -243,19 +242,19 @@ class ThresholdTool final : public CanvasTool {
       painter.setPen(isOwn ? colors::accent() : QColor(30, 30, 30, isCertain ? 210 : 110));
       painter.drawText(text, Qt::AlignCenter, number);
     }
-    if (hovered_ < 0) return;
-    const auto h = static_cast<std::size_t>(hovered_);
+    if (!hovered_) return;
+    const auto h = static_cast<std::size_t>(*hovered_);
     const QString kind = grid[h]                        ? tr("set by hand")
                          : found && !found->measured[h] ? tr("automatic, from neighbouring regions")
                                                         : tr("automatic");
-    paintLabel(painter, scene_, QString::number(scale.shown(level(hovered_)), 'f', 1) + QStringLiteral(" · ") + kind,
-               rectOf(hovered_).center());
+    paintLabel(painter, scene_, QString::number(scale.shown(level(*hovered_)), 'f', 1) + QStringLiteral(" · ") + kind,
+               rectOf(*hovered_).center());
   }
 
-  int hovered_ = -1, lastCorner_ = -1, rectangleAnchor_ = -1;
+  std::optional<int> hovered_, lastCorner_, rectangleAnchor_;
   QPointF pressed_;
   bool isDragging_ = false;
-  int gesture_ = -1, wheelGesture_ = -1;
+  GestureId gesture_, wheelGesture_;
   QElapsedTimer sinceWheel_;
   double wheelSteps_ = 0.0;
   Levels base_, wheelBase_;       ///< Regions and their thresholds when the gesture began.

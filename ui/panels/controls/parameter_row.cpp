@@ -95,7 +95,7 @@ void ParameterRow::buildBoolean() {
   layout->addWidget(check_);
   layout->addStretch();
   connect(check_, &QCheckBox::toggled, this,
-          [this](bool on) { give(on ? QStringLiteral("true") : QStringLiteral("false"), -1); });
+          [this](bool on) { give(on ? QStringLiteral("true") : QStringLiteral("false")); });
 }
 
 void ParameterRow::buildChoice() {
@@ -105,7 +105,7 @@ void ParameterRow::buildChoice() {
   layout->setSpacing(4);
   layout->addWidget(name_);
   const auto pick = [this, words](int index) {
-    if (index >= 0 && index < words.size()) give(words[index], -1);
+    if (index >= 0 && index < words.size()) give(words[index]);
   };
   if (labels.size() <= 4 && SegmentedControl::fits(labels, kInnerWidth)) {
     segments_ = new SegmentedControl(labels, this);
@@ -149,7 +149,7 @@ void ParameterRow::buildNumber() {
     giveNumber(fromTrack(position), track_->isSliderDown() ? gesture_ : gestureOfKeys());
   });
   connect(track_, &QSlider::sliderReleased, this, [this] {
-    gesture_ = -1;
+    gesture_.reset();
     sync();
   });
 }
@@ -181,7 +181,7 @@ void ParameterRow::buildText() {
   text_ = new QLineEdit(this);
   text_->setObjectName(text(parameter_.name));
   layout->addWidget(text_);
-  connect(text_, &QLineEdit::editingFinished, this, [this] { give(text_->text(), -1); });
+  connect(text_, &QLineEdit::editingFinished, this, [this] { give(text_->text()); });
 }
 
 void ParameterRow::setBinding(Binding binding) {
@@ -217,7 +217,7 @@ void ParameterRow::setSliderRange(double minimum, double maximum) {
   sync();
 }
 
-void ParameterRow::give(const QString& value, int gesture) {
+void ParameterRow::give(const QString& value, GestureId gesture) {
   Recipe after = session_.recipe();
   const auto done = binding_.set(after, value.toStdString());
   if (!done) {
@@ -227,16 +227,16 @@ void ParameterRow::give(const QString& value, int gesture) {
   if (!(after == session_.recipe())) session_.change(text(parameter_.label), std::move(after), gesture);
 }
 
-void ParameterRow::giveNumber(double value, int gesture) {
+void ParameterRow::giveNumber(double value, GestureId gesture) {
   value = std::clamp(value, parameter_.minimum, parameter_.maximum);
   if (parameter_.type == ParameterType::Integer) value = std::round(value);
   value = taken(parameter_, value, text(binding_.get(session_.recipe())).toDouble());
   give(QString::number(value, 'g', 17), gesture);
 }
 
-int ParameterRow::gestureOfKeys() {
+GestureId ParameterRow::gestureOfKeys() {
   // Arrow keys held or tapped in a row make one undo step.
-  if (gesture_ < 0 || !lastKey_.isValid() || lastKey_.elapsed() > 1000) gesture_ = session_.newGesture();
+  if (!gesture_ || !lastKey_.isValid() || lastKey_.elapsed() > 1000) gesture_ = session_.newGesture();
   lastKey_.start();
   return gesture_;
 }
@@ -285,7 +285,7 @@ void ParameterRow::sync() {
 
 bool ParameterRow::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::MouseButtonDblClick && (watched == name_)) {
-    give(text(defaultValue(parameter_)), -1);
+    give(text(defaultValue(parameter_)));
     return true;
   }
   return QWidget::eventFilter(watched, event);

@@ -51,9 +51,9 @@ class ParameterRow : public QWidget {
   void buildChoice();
   void buildNumber();
   void buildText();
-  void give(const QString& text, int gesture);
-  void giveNumber(double value, int gesture);
-  int gestureOfKeys();
+  void give(const QString& text, GestureId gesture = {});
+  void giveNumber(double value, GestureId gesture);
+  GestureId gestureOfKeys();
   double inOwnUnits(const QString& unit) const;
   void showOtherUnit(double value);
   double fromTrack(int position) const;
@@ -70,7 +70,7 @@ class ParameterRow : public QWidget {
   SliderTrack* track_ = nullptr;
   QLineEdit* text_ = nullptr;
   double low_ = 0.0, high_ = 1.0;
-  int gesture_ = -1;
+  GestureId gesture_;
   QElapsedTimer lastKey_;
 };
 

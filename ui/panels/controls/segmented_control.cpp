@@ -48,9 +48,10 @@ bool SegmentedControl::fits(const QStringList& labels, int widthPx) {
 
 int SegmentedControl::current() const { return group_->checkedId(); }
 
-void SegmentedControl::setCurrent(int index) {
-  if (index == group_->checkedId()) return;
-  if (auto* button = group_->button(index)) {
+void SegmentedControl::setCurrent(std::optional<int> index) {
+  const int id = index.value_or(-1);  // what Qt takes for none
+  if (id == group_->checkedId()) return;
+  if (auto* button = group_->button(id)) {
     button->setChecked(true);
     return;
   }

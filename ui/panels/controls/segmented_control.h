@@ -3,6 +3,7 @@
 
 #include <QFrame>
 #include <QStringList>
+#include <optional>
 
 class QButtonGroup;
 
@@ -14,8 +15,8 @@ class SegmentedControl : public QFrame {
  public:
   explicit SegmentedControl(const QStringList& labels, QWidget* parent = nullptr);
   int current() const;
-  /// Shows a choice (-1 = none); emits nothing.
-  void setCurrent(int index);
+  /// Shows a choice, or that none is made; emits nothing.
+  void setCurrent(std::optional<int> index);
   /// Names of the buttons for tests and screen readers: "<prefix>.<word>".
   void setNames(const QString& prefix, const QStringList& words);
   void setSegmentEnabled(int index, bool enabled);

@@ -160,7 +160,7 @@ void EdgesPanel::refreshChoice() {
       tools_->setCurrent(3);
       break;
     default:
-      tools_->setCurrent(-1);
+      tools_->setCurrent(std::nullopt);
       break;
   }
   const auto count = static_cast<qint64>(session_.recipe().regions.size());

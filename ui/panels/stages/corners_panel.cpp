@@ -115,7 +115,7 @@ void CornersPanel::buildMarks() {
   connect(removeAll_, &QPushButton::clicked, this, &CornersPanel::removeAll);
   connect(rounding_, &CornerRounding::changed, this, &CornersPanel::editSelected);
   connect(marks_, &QListWidget::currentRowChanged, this, [this](int row) {
-    if (!filling_) session_.selectCorner(row);
+    if (!filling_) session_.selectCorner(row < 0 ? std::nullopt : std::optional(row));
   });
 }
 
@@ -296,7 +296,7 @@ bool CornersPanel::isFound(const Vec2& positionPx) const {
 
 void CornersPanel::showSelected() {
   filling_ = true;
-  marks_->setCurrentRow(session_.selectedCorner());
+  marks_->setCurrentRow(session_.selectedCorner().value_or(-1));  // -1: none, as Qt counts
   filling_ = false;
   remove_->setEnabled(marks_->currentRow() >= 0);
   const int row = marks_->currentRow();

@@ -30,10 +30,10 @@ bool wasFaired(const TracedCurve& curve) {
 /// The polynomial target that the curve follows, or that of the span which is pointed at; none while it is not known.
 std::optional<int> shownDegree(const EditorSession& session, const TracedCurve& curve) {
   const auto targets = session.targets();
-  int degree = degreeOf(curve.fairingUsed.target).value_or(0);
-  if (targets && curve.fairingUsed.target == FairingTarget::Recommended) degree = targets->recommendedDegree;
-  if (session.pointedSpan()) degree = chosenSpanTarget(session);
-  return degree > 0 ? std::optional(degree) : std::nullopt;
+  if (session.pointedSpan()) return chosenSpanTarget(session);
+  if (targets && curve.fairingUsed.target == FairingTarget::Recommended && targets->recommendedDegree > 0)
+    return targets->recommendedDegree;
+  return degreeOf(curve.fairingUsed.target);
 }
 
 void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& session, const TracedCurve& curve) {

@@ -198,7 +198,7 @@ void FairingPanel::buildLinks() {
   connect(split_, &QPushButton::clicked, this, [this] { splitNaturally(session_); });
   connect(unsplit_, &QPushButton::clicked, this, [this] { joinAllSpans(session_); });
   connect(whole_, &QPushButton::clicked, this, [this] { session_.pointAtSpan({}); });
-  connect(draw_, &QPushButton::clicked, this, [this] { drawTarget(session_, profileToBeginWith(session_), -1); });
+  connect(draw_, &QPushButton::clicked, this, [this] { drawTarget(session_, profileToBeginWith(session_)); });
   connect(forget_, &QPushButton::clicked, this, [this] { forgetDrawnTarget(session_); });
 }
 
@@ -317,17 +317,17 @@ void FairingPanel::followAll() {
 }
 
 void FairingPanel::refresh() {
-  const int selected = session_.selectedCurve();
-  const bool own = selected >= 0 && hasOwnFairing(session_, selected);
+  const auto selected = session_.selectedCurve();
+  const bool own = hasOwnFairing(session_, selected);
   const bool several = session_.curves().size() > 1;
   // A curve that has its own choice shows it; otherwise the choice of scope stays as the user left it.
   if (own)
     oneCurve_ = true;
-  else if (selected != lastSelected_ || selected < 0)
+  else if (selected != lastSelected_ || !selected)
     oneCurve_ = false;
   lastSelected_ = selected;
   scope_->setVisible(several);
-  scope_->setSegmentEnabled(1, selected >= 0);
+  scope_->setSegmentEnabled(1, selected.has_value());
   scope_->setCurrent(oneCurve_ ? 1 : 0);
   const FairingParams params = shown(session_.recipe());
   mode_->setCurrent(segmentOf(params.mode));

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <functional>
+#include <optional>
 
 #include "ui/session/editor_session.h"
 
@@ -75,7 +76,7 @@ class FairingPanel : public QWidget {
   FigureTable* figures_;
   EndsTable* ends_;
   bool oneCurve_ = false;
-  int lastSelected_ = -2;
+  std::optional<int> lastSelected_;
 };
 
 }  // namespace batten

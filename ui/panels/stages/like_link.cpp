@@ -39,7 +39,7 @@ void saveProfile(EditorSession& session, QWidget* parent, const std::function<vo
   const auto shape = shapeOf(resultOf(*curve));
   bool isGiven = false;
   const QString name = QInputDialog::getText(parent, words("Save the profile"), words("Name"), QLineEdit::Normal,
-                                             curveName(session, session.selectedCurve()), &isGiven);
+                                             curveName(session, *session.selectedCurve()), &isGiven);
   if (!isGiven) return;
   if (const auto done = ProfileLibrary().save(name.trimmed(), shape); !done)
     QMessageBox::warning(parent, words("Profile"), QString::fromStdString(done.error().message));

@@ -43,7 +43,7 @@ LineTraceMode::LineTraceMode(EditorSession& session, QWidget* parent)
 void LineTraceMode::refresh() {
   // Between new lines and their curves all stays as it is.
   if (session_.isStale(StageId::Contours) != session_.isStale(StageId::Faired)) return;
-  const int curve = session_.selectedCurve();
+  const auto curve = session_.selectedCurve();
   const bool isTraced = tracedLineOf(session_, curve) != nullptr;
   ways_->setVisible(isTraced);
   hint_->setVisible(!isTraced);

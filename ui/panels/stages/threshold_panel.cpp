@@ -115,8 +115,8 @@ void ThresholdPanel::buildRegion() {
   connect(histogram_, &RegionHistogram::thresholdMoved, this,
           [this](double shown) { setRegion(view_.selectedRegion(), scale_.grey(shown), gesture_); });
   connect(level_, &NumberField::committed, this,
-          [this](double shown) { setRegion(view_.selectedRegion(), scale_.grey(shown), -1); });
-  connect(regionAuto_, &QPushButton::clicked, this, [this] { setRegion(view_.selectedRegion(), std::nullopt, -1); });
+          [this](double shown) { setRegion(view_.selectedRegion(), scale_.grey(shown)); });
+  connect(regionAuto_, &QPushButton::clicked, this, [this] { setRegion(view_.selectedRegion(), std::nullopt); });
   connect(allAuto_, &QPushButton::clicked, this, &ThresholdPanel::setAllAutomatic);
   connect(table_, &QTableWidget::itemChanged, this, &ThresholdPanel::readCell);
   connect(table_, &QTableWidget::currentCellChanged, this, [this](int row, int column) {
@@ -135,12 +135,12 @@ double ThresholdPanel::levelOf(int region) const {
   return session_.output().thresholds ? session_.output().thresholds->automatic[at] : 128.0;
 }
 
-void ThresholdPanel::setRegion(int region, std::optional<double> grey, int gesture) {
-  if (region < 0 || region >= kRegions) return;
+void ThresholdPanel::setRegion(std::optional<int> region, std::optional<double> grey, GestureId gesture) {
+  if (!region) return;
   Recipe after = session_.recipe();
-  after.threshold.grid[region] = grey;
+  after.threshold.grid[*region] = grey;
   const QString place =
-      tr("Threshold of region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1);
+      tr("Threshold of region %1, %2").arg(*region / kRegionsPerSide + 1).arg(*region % kRegionsPerSide + 1);
   session_.change(place, std::move(after), gesture);
 }
 
@@ -158,9 +158,9 @@ void ThresholdPanel::readCell(QTableWidgetItem* item) {
   const double shown = item->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.')).toDouble(&ok);
   const bool cleared = item->text().trimmed().isEmpty() || item->text().trimmed().startsWith(QLatin1Char('a'));
   if (ok)
-    setRegion(region, scale_.grey(shown), -1);
+    setRegion(region, scale_.grey(shown));
   else if (cleared)
-    setRegion(region, std::nullopt, -1);
+    setRegion(region, std::nullopt);
   refreshTable();
 }
 
@@ -173,7 +173,7 @@ bool ThresholdPanel::eventFilter(QObject* watched, QEvent* event) {
   if (watched == table_ && event->type() == QEvent::KeyPress) {
     const int pressed = static_cast<QKeyEvent*>(event)->key();
     if ((pressed == Qt::Key_Delete || pressed == Qt::Key_Backspace) && table_->currentItem()) {
-      setRegion(table_->currentRow() * kRegionsPerSide + table_->currentColumn(), std::nullopt, -1);
+      setRegion(table_->currentRow() * kRegionsPerSide + table_->currentColumn(), std::nullopt);
       return true;
     }
   }
@@ -208,16 +208,17 @@ void ThresholdPanel::showEvent(QShowEvent* event) {
 
 void ThresholdPanel::refreshRegion() {
   scale_ = GreyScale(session_, view_);
-  const int region = view_.selectedRegion();
-  const bool has = region >= 0 && session_.hasScan();
+  const auto selected = view_.selectedRegion();
+  const bool has = selected && session_.hasScan();
   level_->setEnabled(has);
-  regionAuto_->setEnabled(has && session_.recipe().threshold.grid[std::max(region, 0)].has_value());
+  regionAuto_->setEnabled(has && session_.recipe().threshold.grid[*selected].has_value());
   if (!has) {
     regionName_->setText(tr("Click a region").toUpper());
     level_->setEmpty(QStringLiteral("–"));
     histogram_->clear();
     return;
   }
+  const int region = *selected;
   regionName_->setText(
       tr("Region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1).toUpper());
   level_->setValue(scale_.shown(levelOf(region)));
@@ -254,8 +255,8 @@ void ThresholdPanel::refreshTable() {
     font.setBold(own);
     item->setFont(font);
   }
-  if (const int region = view_.selectedRegion(); region >= 0)
-    table_->setCurrentCell(region / kRegionsPerSide, region % kRegionsPerSide);
+  if (const auto region = view_.selectedRegion())
+    table_->setCurrentCell(*region / kRegionsPerSide, *region % kRegionsPerSide);
   filling_ = false;
 }
 

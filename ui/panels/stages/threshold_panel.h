@@ -37,7 +37,7 @@ class ThresholdPanel : public QWidget {
   void refresh();
   void refreshRegion();
   void refreshTable();
-  void setRegion(int region, std::optional<double> grey, int gesture);
+  void setRegion(std::optional<int> region, std::optional<double> grey, GestureId gesture = {});
   void setAllAutomatic();
   void readCell(QTableWidgetItem* item);
   double levelOf(int region) const;
@@ -56,9 +56,9 @@ class ThresholdPanel : public QWidget {
   QCheckBox* showRegions_;
   QLabel* note_;
   std::weak_ptr<const Scan> countedIn_;  ///< What counts_ were counted in.
-  int countedRegion_ = -1;
+  std::optional<int> countedRegion_;
   std::array<std::uint32_t, 256> counts_{};
-  int gesture_ = -1;
+  GestureId gesture_;
   bool filling_ = false;
 };
 

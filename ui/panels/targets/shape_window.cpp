@@ -141,7 +141,7 @@ void ShapeWindow::refill() {
   const auto first = chosen(first_), second = chosen(second_);
   entries_ = entries();
   const auto targets = session_.targets();
-  const Entry selected{Entry::Kind::Sketched, std::max(0, session_.selectedCurve())};
+  const Entry selected{Entry::Kind::Sketched, session_.selectedCurve().value_or(0)};
   const Entry recommended{Entry::Kind::Target, targets ? targets->recommendedDegree : 0};
   const auto fill = [this](QComboBox* box, const std::optional<Entry>& kept, const Entry& otherwise) {
     const QSignalBlocker quiet(box);

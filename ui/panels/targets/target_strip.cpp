@@ -7,6 +7,7 @@
 #include <QPainterPath>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/fairing/fairing.h"
@@ -122,7 +123,9 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     if (!faired.report.withinTolerance && faired.report.neededMm > toleranceMm)
       tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(faired.report.neededMm));
     else if (!faired.report.withinTolerance)
-      tip += tr("\nReaching it would add curvature extrema; the curve is unchanged.");
+      tip += faired.report.maxDeviationMm > 0.0
+                 ? tr("\nReaching it would add curvature extrema; the curve follows it in part.")
+                 : tr("\nReaching it would add curvature extrema; the curve is unchanged.");
     if (!profile.isMonotone) tip += tr("\nThis profile is not monotone within a span.");
     if (outcomes_->span)
       tip += tr("\nFor the span you clicked; the rest of the curve is unchanged.");
@@ -320,7 +323,7 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
       emit hint(tr("Hover a target to see its curve; click to apply it."));
     });
     connect(tile, &TargetTile::left, this, [this] {
-      session_.hoverTarget(0);
+      session_.hoverTarget(std::nullopt);
       emit hint({});
     });
   }
@@ -342,7 +345,7 @@ void TargetStrip::setLow(bool low) {
 void TargetStrip::refresh() {
   const TracedCurve* curve = session_.selected();
   const auto targets = session_.targets();
-  int chosen = 0;
+  std::optional<int> chosen;
   double tolerance = session_.recipe().fairing.toleranceMm;
   if (curve) {
     const FairingParams used = fairingAsked(session_);

@@ -11,11 +11,11 @@ namespace {
 
 QString directionText(const char* text) { return QCoreApplication::translate("DirectionEdits", text); }
 
-std::optional<std::size_t> pieceNumber(const EditorSession& session, int curve) {
-  const auto curves = session.curves();
+std::optional<std::size_t> pieceNumber(const EditorSession& session, std::optional<int> curve) {
+  const TracedCurve* of = session.curveAt(curve);
   const auto& pieces = session.output().pieces;
-  if (!pieces || curve < 0 || curve >= std::ssize(curves)) return std::nullopt;
-  const int piece = curves[curve].piece;
+  if (!pieces || !of) return std::nullopt;
+  const int piece = of->piece;
   if (piece < 0 || piece >= std::ssize(pieces->pieces)) return std::nullopt;
   return static_cast<std::size_t>(piece);
 }
@@ -42,7 +42,7 @@ std::vector<CurveCourse> curveCourses(const EditorSession& session) {
   return courses;
 }
 
-void turnCurve(EditorSession& session, int curve) {
+void turnCurve(EditorSession& session, std::optional<int> curve) {
   const auto piece = pieceNumber(session, curve);
   if (!piece) return;
   Recipe after = session.recipe();
@@ -50,7 +50,7 @@ void turnCurve(EditorSession& session, int curve) {
   session.change(directionText("Reverse direction"), std::move(after));
 }
 
-void startCurveAt(EditorSession& session, int curve, const Vec2& px, int gesture) {
+void startCurveAt(EditorSession& session, int curve, const Vec2& px, GestureId gesture) {
   const auto piece = pieceNumber(session, curve);
   if (!piece) return;
   Recipe after = session.recipe();

@@ -16,9 +16,9 @@ struct CurveCourse {
 /// The courses of all curves, in their order. Empty while there are no outputs.
 std::vector<CurveCourse> curveCourses(const EditorSession&);
 
-/// Exports a curve the other way round, as an undoable step.
-void turnCurve(EditorSession&, int curve);
+/// Exports a curve the other way round, as an undoable step; none: nothing happens.
+void turnCurve(EditorSession&, std::optional<int> curve);
 /// Begins the closed line of a curve at a place. Changes with one gesture are one step.
-void startCurveAt(EditorSession&, int curve, const Vec2& px, int gesture);
+void startCurveAt(EditorSession&, int curve, const Vec2& px, GestureId gesture);
 
 }  // namespace batten

@@ -36,7 +36,8 @@ Vec2 placeAt(const EditorSession& session, double fraction) {
   return session.output().frame.pointToImage(curve.point(arc.parameter(fraction * arc.total())));
 }
 
-void edit(EditorSession& session, const QString& what, int gesture, const std::function<void(PieceChoice&)>& change) {
+void edit(EditorSession& session, const QString& what, GestureId gesture,
+          const std::function<void(PieceChoice&)>& change) {
   Recipe after = withChoice(session, session.selectedCurve(), change);
   std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
   session.change(what, std::move(after), gesture);
@@ -80,17 +81,17 @@ std::vector<double> keptOf(const EditorSession& session) { return fractionsOf(se
 void keepExtremum(EditorSession& session, double fraction) {
   if (!isUsable(session)) return;
   const Vec2 place = placeAt(session, std::clamp(fraction, 0.0, 1.0));
-  edit(session, tr("Keep an extremum"), -1, [&](PieceChoice& choice) { choice.keepPx.push_back(place); });
+  edit(session, tr("Keep an extremum"), {}, [&](PieceChoice& choice) { choice.keepPx.push_back(place); });
 }
 
 void keepByNumber(EditorSession& session) {
-  edit(session, tr("Keep extrema by number"), -1, [](PieceChoice& choice) { choice.keepPx.clear(); });
+  edit(session, tr("Keep extrema by number"), {}, [](PieceChoice& choice) { choice.keepPx.clear(); });
 }
 
 namespace {
 
 /// Edits the splits as places; natural ones become the user's.
-void editSplits(EditorSession& session, const QString& what, int gesture,
+void editSplits(EditorSession& session, const QString& what, GestureId gesture,
                 const std::function<void(std::vector<Vec2>&)>& change) {
   if (!isUsable(session)) return;
   std::vector<Vec2> places;
@@ -113,10 +114,10 @@ void editSplits(EditorSession& session, const QString& what, int gesture,
 void addSplit(EditorSession& session, double fraction) {
   if (!isUsable(session) || fraction < kLeastPart || fraction > 1.0 - kLeastPart) return;
   const Vec2 place = placeAt(session, fraction);
-  editSplits(session, tr("Split the target"), -1, [&](std::vector<Vec2>& places) { places.push_back(place); });
+  editSplits(session, tr("Split the target"), {}, [&](std::vector<Vec2>& places) { places.push_back(place); });
 }
 
-void moveSplit(EditorSession& session, int index, double fraction, int gesture) {
+void moveSplit(EditorSession& session, int index, double fraction, GestureId gesture) {
   if (!isUsable(session)) return;
   const Vec2 place = placeAt(session, std::clamp(fraction, kLeastPart, 1.0 - kLeastPart));
   editSplits(session, tr("Move a split"), gesture, [&](std::vector<Vec2>& places) {
@@ -125,14 +126,14 @@ void moveSplit(EditorSession& session, int index, double fraction, int gesture) 
 }
 
 void joinAtSplit(EditorSession& session, int index) {
-  editSplits(session, tr("Join two spans"), -1, [&](std::vector<Vec2>& places) {
+  editSplits(session, tr("Join two spans"), {}, [&](std::vector<Vec2>& places) {
     if (index >= 0 && index < std::ssize(places)) places.erase(places.begin() + index);
   });
 }
 
 void joinAllSpans(EditorSession& session) {
   session.pointAtSpan({});
-  edit(session, tr("Join all spans"), -1, [](PieceChoice& choice) {
+  edit(session, tr("Join all spans"), {}, [](PieceChoice& choice) {
     choice.splitsPx.clear();
     choice.spanTargets.clear();
     choice.spans = TargetSpans::Whole;
@@ -141,7 +142,7 @@ void joinAllSpans(EditorSession& session) {
 
 void splitNaturally(EditorSession& session) {
   const bool isCommon = session.recipe().fairing.targets.spans == TargetSpans::Natural;
-  edit(session, tr("Natural spans"), -1, [isCommon](PieceChoice& choice) {
+  edit(session, tr("Natural spans"), {}, [isCommon](PieceChoice& choice) {
     choice.splitsPx.clear();
     choice.spans = isCommon ? std::nullopt : std::optional(TargetSpans::Natural);
   });
@@ -193,7 +194,7 @@ void chooseSpanTarget(EditorSession& session, int degree) {
       others.push_back({placeAt(session, at > 1.0 ? at - 1.0 : at), *whole});
     }
   }
-  edit(session, tr("Target %1 of a span").arg(degree), -1, [&](PieceChoice& choice) {
+  edit(session, tr("Target %1 of a span").arg(degree), {}, [&](PieceChoice& choice) {
     choice.mode = FairingMode::Target;
     if (choice.spanTargets.empty()) choice.spanTargets = others;
     if (choice.target == FairingTarget::Drawn || session.recipe().fairing.target == FairingTarget::Drawn)
@@ -203,13 +204,13 @@ void chooseSpanTarget(EditorSession& session, int degree) {
   });
 }
 
-int chosenSpanTarget(const EditorSession& session) {
+std::optional<int> chosenSpanTarget(const EditorSession& session) {
   const TracedCurve* curve = session.selected();
-  if (!curve || !session.pointedSpan() || fairingAsked(session).mode != FairingMode::Target) return 0;
+  if (!curve || !session.pointedSpan() || fairingAsked(session).mode != FairingMode::Target) return std::nullopt;
   std::vector<double> splits = splitsOf(session);
   std::sort(splits.begin(), splits.end());
   const ProfileSpan span = spanBetween(splits, *session.pointedSpan(), curve->closed);
-  int degree = 0;
+  std::optional<int> degree;
   for (const SpanTarget& one : curve->fairingUsed.spanTargets)
     if (spanBetween(splits, one.at, curve->closed) == span) degree = one.degree;
   return degree;
@@ -273,7 +274,7 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   return points;
 }
 
-void drawTarget(EditorSession& session, std::vector<ProfilePoint> profile, int gesture) {
+void drawTarget(EditorSession& session, std::vector<ProfilePoint> profile, GestureId gesture) {
   if (!isUsable(session) || validateProfile(profile) || profile.empty()) return;
   edit(session, tr("Draw the target"), gesture, [&](PieceChoice& choice) {
     choice.mode = FairingMode::Target;
@@ -284,7 +285,7 @@ void drawTarget(EditorSession& session, std::vector<ProfilePoint> profile, int g
 
 void forgetDrawnTarget(EditorSession& session) {
   const bool isCommon = session.recipe().fairing.target == FairingTarget::Drawn;
-  edit(session, tr("Forget the drawn target"), -1, [isCommon](PieceChoice& choice) {
+  edit(session, tr("Forget the drawn target"), {}, [isCommon](PieceChoice& choice) {
     choice.profile.clear();
     if (isCommon || choice.target == FairingTarget::Drawn) choice.target = FairingTarget::Recommended;
   });

@@ -19,7 +19,7 @@ std::vector<double> splitsOf(const EditorSession& session);
 /// Where natural spans are edited, they become splits of the user's first.
 void addSplit(EditorSession& session, double fraction);
 /// Moves a split of the list of splitsOf.
-void moveSplit(EditorSession& session, int index, double fraction, int gesture);
+void moveSplit(EditorSession& session, int index, double fraction, GestureId gesture);
 /// Joins the spans on both sides of a split of the list of splitsOf.
 void joinAtSplit(EditorSession& session, int index);
 /// One polynomial for the whole curve.
@@ -33,8 +33,8 @@ bool hasNaturalSpans(const EditorSession& session);
 void pointAtSpanNear(EditorSession& session, const Vec2& px);
 /// The target of the span that is pointed at. The rest of the curve stays, but for spans with a target of their own.
 void chooseSpanTarget(EditorSession& session, int degree);
-/// The target that the span that is pointed at has now; 0: none.
-int chosenSpanTarget(const EditorSession& session);
+/// The target that the span that is pointed at has now, none while it has none of its own.
+std::optional<int> chosenSpanTarget(const EditorSession& session);
 
 /// Monotone: places of the extrema that the user chose to keep, as shares of the length. Empty: by number.
 std::vector<double> keptOf(const EditorSession& session);
@@ -48,7 +48,7 @@ bool isTargetDrawn(const EditorSession& session);
 /// curvature.
 std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session);
 /// The selected curve follows this profile from now on.
-void drawTarget(EditorSession& session, std::vector<ProfilePoint> profile, int gesture);
+void drawTarget(EditorSession& session, std::vector<ProfilePoint> profile, GestureId gesture = {});
 /// Back to the recommended target; the drawn one is forgotten.
 void forgetDrawnTarget(EditorSession& session);
 

@@ -9,7 +9,7 @@ namespace batten {
 
 void followShape(EditorSession& session, const std::vector<ProfilePoint>& shape) {
   if (const TracedCurve* curve = session.selected())
-    drawTarget(session, profileLike(shape, curve->sketched, curve->closed), -1);
+    drawTarget(session, profileLike(shape, curve->sketched, curve->closed));
 }
 
 Result<void> followSavedProfile(EditorSession& session, const QString& name) {

@@ -48,12 +48,11 @@ void removeAllStrokes(EditorSession& session) {
   session.change(penText("Remove all strokes"), std::move(after));
 }
 
-std::optional<std::size_t> strokeOf(const EditorSession& session, int curve) {
+std::optional<std::size_t> strokeOf(const EditorSession& session, std::optional<int> curve) {
   const auto first = firstPenContour(session);
-  const auto curves = session.curves();
-  if (!first || session.isStale(StageId::Curves) || curve < 0 || static_cast<std::size_t>(curve) >= curves.size())
-    return std::nullopt;
-  const auto contour = static_cast<std::size_t>(curves[curve].contour);
+  const TracedCurve* of = session.curveAt(curve);
+  if (!first || session.isStale(StageId::Curves) || !of) return std::nullopt;
+  const auto contour = static_cast<std::size_t>(of->contour);
   if (contour < *first) return std::nullopt;
   return contour - *first;
 }

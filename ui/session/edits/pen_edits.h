@@ -14,7 +14,7 @@ bool addStroke(EditorSession& session, PenStroke stroke);
 void removeStroke(EditorSession& session, std::size_t stroke);
 void removeAllStrokes(EditorSession& session);
 /// The stroke a curve was made of, or none when it was found on the scan or the strokes have changed since.
-std::optional<std::size_t> strokeOf(const EditorSession& session, int curve);
+std::optional<std::size_t> strokeOf(const EditorSession& session, std::optional<int> curve);
 /// The first curve of a stroke, or none.
 std::optional<int> curveOfStroke(const EditorSession& session, std::size_t stroke);
 /// The stroke within `reachPx` of a place, the nearest; none otherwise.

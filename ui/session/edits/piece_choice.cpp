@@ -11,11 +11,11 @@ namespace batten {
 namespace {
 
 /// The curve's piece, index into the piece set.
-std::optional<std::size_t> pieceOf(const EditorSession& session, int curve) {
-  const auto curves = session.curves();
+std::optional<std::size_t> pieceOf(const EditorSession& session, std::optional<int> curve) {
+  const TracedCurve* of = session.curveAt(curve);
   const auto& pieces = session.output().pieces;
-  if (!pieces || curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return std::nullopt;
-  const int piece = curves[curve].piece;
+  if (!pieces || !of) return std::nullopt;
+  const int piece = of->piece;
   if (piece < 0 || static_cast<std::size_t>(piece) >= pieces->pieces.size()) return std::nullopt;
   return static_cast<std::size_t>(piece);
 }
@@ -24,25 +24,26 @@ QString choiceText(const char* text) { return QCoreApplication::translate("Piece
 
 }  // namespace
 
-const PieceChoice* choiceOf(const EditorSession& session, int curve) {
+const PieceChoice* choiceOf(const EditorSession& session, std::optional<int> curve) {
   const auto piece = pieceOf(session, curve);
   if (!piece) return nullptr;
   const auto index = session.choiceOwners().ofPiece[*piece];
   return index ? &session.recipe().choices[*index] : nullptr;
 }
 
-std::optional<PieceChoice> choiceAlong(const EditorSession& session, int curve) {
+std::optional<PieceChoice> choiceAlong(const EditorSession& session, std::optional<int> curve) {
   const PieceChoice* choice = choiceOf(session, curve);
   if (!choice) return std::nullopt;
   return alongPiece(*choice, session.output().pieces->pieces[*pieceOf(session, curve)]);
 }
 
-bool hasOwnFairing(const EditorSession& session, int curve) {
+bool hasOwnFairing(const EditorSession& session, std::optional<int> curve) {
   const PieceChoice* choice = choiceOf(session, curve);
   return choice && choice->hasFairing();
 }
 
-Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit) {
+Recipe withChoice(const EditorSession& session, std::optional<int> curve,
+                  const std::function<void(PieceChoice&)>& edit) {
   Recipe after = session.recipe();
   if (const auto piece = pieceOf(session, curve))
     edit(after.choices[makeOwnChoice(after.choices, *session.output().pieces, *piece)]);
@@ -50,8 +51,7 @@ Recipe withChoice(const EditorSession& session, int curve, const std::function<v
 }
 
 bool choosesForOneCurve(const EditorSession& session) {
-  return session.selectedCurve() >= 0 && session.curves().size() > 1 &&
-         pieceOf(session, session.selectedCurve()).has_value();
+  return session.curves().size() > 1 && pieceOf(session, session.selectedCurve()).has_value();
 }
 
 void chooseTarget(EditorSession& session, FairingTarget target) {

@@ -11,14 +11,15 @@ namespace batten {
 /// Edits of the choices that belong to single curves (Recipe::choices).
 
 /// The own choice of a curve, or null when it follows the recipe.
-const PieceChoice* choiceOf(const EditorSession& session, int curve);
+const PieceChoice* choiceOf(const EditorSession& session, std::optional<int> curve);
 /// The same as the curve has it: turned to its direction (see alongPiece); none when it follows the recipe.
-std::optional<PieceChoice> choiceAlong(const EditorSession& session, int curve);
+std::optional<PieceChoice> choiceAlong(const EditorSession& session, std::optional<int> curve);
 /// True when the curve has a fairing choice of its own.
-bool hasOwnFairing(const EditorSession& session, int curve);
+bool hasOwnFairing(const EditorSession& session, std::optional<int> curve);
 /// The recipe with the curve's own choice edited; one is added where there was none, or where the curve shares one with
-/// other parts of its line.
-Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit);
+/// other parts of its line. Without a curve it stays as it is.
+Recipe withChoice(const EditorSession& session, std::optional<int> curve,
+                  const std::function<void(PieceChoice&)>& edit);
 
 /// Chooses a target: for the span that is pointed at, else for the selected curve alone when the drawing has several,
 /// else for all.

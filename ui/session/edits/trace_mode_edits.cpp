@@ -13,19 +13,19 @@ Vec2 placeOf(const Contour& line) { return line.traceMode ? line.traceMode->posi
 
 }  // namespace
 
-const Contour* tracedLineOf(const EditorSession& session, int curve) {
-  const auto curves = session.curves();
+const Contour* tracedLineOf(const EditorSession& session, std::optional<int> curve) {
+  const TracedCurve* of = session.curveAt(curve);
   const auto& set = session.output().contours;
   // New lines come before their curves.
   if (!set || session.isStale(StageId::Contours) != session.isStale(StageId::Faired)) return nullptr;
-  if (curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
-  const int contour = curves[curve].contour;
+  if (!of) return nullptr;
+  const int contour = of->contour;
   if (contour < 0 || static_cast<std::size_t>(contour) >= set->contours.size()) return nullptr;
   const Contour& line = set->contours[contour];
   return isDrawn(line.kind) || line.points.empty() ? nullptr : &line;
 }
 
-EdgeMode traceModeOf(const EditorSession& session, int curve) {
+EdgeMode traceModeOf(const EditorSession& session, std::optional<int> curve) {
   const Contour* line = tracedLineOf(session, curve);
   if (!line) return EdgeMode::Automatic;
   // The recipe's, which the shown line may not follow yet.
@@ -35,7 +35,7 @@ EdgeMode traceModeOf(const EditorSession& session, int curve) {
   return last == choices.rend() ? EdgeMode::Automatic : last->mode;
 }
 
-void chooseTraceMode(EditorSession& session, int curve, EdgeMode mode) {
+void chooseTraceMode(EditorSession& session, std::optional<int> curve, EdgeMode mode) {
   const Contour* line = tracedLineOf(session, curve);
   if (!line || traceModeOf(session, curve) == mode) return;
   Recipe after = session.recipe();

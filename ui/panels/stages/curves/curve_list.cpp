@@ -25,6 +25,7 @@ constexpr int kEyeWidth = 26;
 constexpr int kIconSize = 14;
 constexpr int kApart = 8;  ///< Between a name, which may be cut, and its figures.
 constexpr int kTellEveryMs = 200;
+constexpr int kNoRow = -1;  ///< What Qt takes for none.
 constexpr int kBadgeWidth = 44, kBadgeHeight = 18, kBadgeGap = 6;
 enum Role {
   IncludedRole = Qt::UserRole,
@@ -167,7 +168,7 @@ void CurveList::refresh() {
     item(i)->setData(OwnTextRole,
                      (QStringList{name + QStringLiteral(", ") + spoken} + said).join(QStringLiteral(". ")));
   }
-  setCurrentRow(session_.selectedCurve());
+  setCurrentRow(session_.selectedCurve().value_or(kNoRow));
   showFairness();
   filling_ = false;
   judge();
@@ -246,7 +247,7 @@ void CurveList::judge() {
   const auto wanted = wantedJudgements();
   if (!wanted) return;
   asked_ = wanted;
-  const auto first = static_cast<std::size_t>(std::max(0, session_.selectedCurve()));
+  const auto first = static_cast<std::size_t>(session_.selectedCurve().value_or(0));
   worker_->start([wanted, before = known_, first, list = QPointer<CurveList>(this)](const CancelToken& token) {
     const auto post = [&](const std::function<void(CurveList&)>& act) {
       if (token.isCancelled() || !list) return;

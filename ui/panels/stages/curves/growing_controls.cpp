@@ -68,11 +68,11 @@ GrowingControls::GrowingControls(GrowingPlayer& player, QWidget* parent)
   connect(open_, &QPushButton::clicked, this, [this](bool on) { on ? player_.open() : player_.close(); });
   connect(previous_, &QPushButton::clicked, this, [this] {
     player_.setPlaying(false);
-    player_.setStep(player_.step() - 1);
+    player_.stepBy(-1);
   });
   connect(next_, &QPushButton::clicked, this, [this] {
     player_.setPlaying(false);
-    player_.setStep(player_.step() + 1);
+    player_.stepBy(1);
   });
   connect(play_, &QPushButton::clicked, this, [this] { player_.setPlaying(!player_.isPlaying()); });
   connect(track_, &QSlider::valueChanged, this, [this](int step) { player_.setStep(step); });
@@ -86,20 +86,21 @@ void GrowingControls::hideEvent(QHideEvent* event) {
 }
 
 void GrowingControls::refresh() {
-  const int count = player_.stepCount(), at = player_.step();
+  const int count = player_.stepCount();
+  const auto at = player_.step();
   open_->setChecked(player_.isOpen());
   open_->setText(player_.isOpen() ? tr("Hide growing steps") : tr("Show growing steps"));
   steps_->setVisible(count > 0);
   const QSignalBlocker quiet(track_);
   track_->setRange(0, std::max(count - 1, 0));
-  track_->setValue(std::max(at, 0));
+  track_->setValue(at.value_or(0));
   track_->update();
-  previous_->setEnabled(at > 0);
-  next_->setEnabled(at + 1 < count);
+  previous_->setEnabled(at && *at > 0);
+  next_->setEnabled(at && *at + 1 < count);
   play_->setText(player_.isPlaying() ? tr("Pause") : tr("Play"));
   QString text = player_.problem();
   if (player_.isComputing()) text = tr("Growing…");
-  if (at >= 0 && at < count) text = tr("%1 of %2. ").arg(at + 1).arg(count) + textOf((*player_.steps())[at]);
+  if (at) text = tr("%1 of %2. ").arg(*at + 1).arg(count) + textOf((*player_.steps())[*at]);
   text_->setText(text);
   text_->setVisible(!text.isEmpty());
 }

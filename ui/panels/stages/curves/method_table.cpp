@@ -210,7 +210,7 @@ bool MethodTable::actsOnAll() const {
 }
 
 void MethodTable::choose(ConstructMethod method) {
-  const int curve = session_.selectedCurve();
+  const auto curve = session_.selectedCurve();
   Recipe after = session_.recipe();
   if (actsOnAll()) {
     after.construct.method = method;
@@ -237,7 +237,8 @@ void MethodTable::refresh() {
   scope_->setVisible(several);
   scope_->setSegmentEnabled(0, isSelected);
   whose_->setVisible(several && isSelected);
-  whose_->setText(tr("The figures are those of %1.").arg(curveName(session_, session_.selectedCurve())));
+  if (isSelected)
+    whose_->setText(tr("The figures are those of %1.").arg(curveName(session_, *session_.selectedCurve())));
   if (isVisible()) compute();
 }
 

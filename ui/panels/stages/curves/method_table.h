@@ -59,7 +59,7 @@ class MethodTable : public QWidget {
     ConstructParams params;
     std::vector<SegmentPoint> segmentPoints;
     std::vector<ExtremumChoice> extremumChoices;
-    int contour = -1, piece = -1;
+    int contour = 0, piece = 0;  ///< Of the selected curve.
     double mmPerPx = 0.0;
     std::optional<ConstructMethod> alongside{};  ///< The common method, when the curve gets one of its own.
     bool operator==(const Source&) const = default;

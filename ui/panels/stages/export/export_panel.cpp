@@ -229,7 +229,7 @@ void ExportPanel::refresh() {
   export_->setEnabled(isReady() && options_->obstacle().isEmpty() && size.curves > 0 &&
                       !path_->text().trimmed().isEmpty());
   report_->setReady(isReady() && size.curves > 0);
-  turn_->setEnabled(session_.selectedCurve() >= 0);
+  turn_->setEnabled(session_.selectedCurve().has_value());
   held_->setText(summary(size));
   const bool exists = confirmReplace_ && isOfOthers(path_->text());
   export_->setText(running_ ? tr("Writing…") : exists ? tr("Replace the file") : tr("Export"));

@@ -95,7 +95,7 @@ class ExportPanel : public QWidget {
   /// A file as it was right after this window wrote it.
   struct Written {
     QString path;
-    qint64 bytes = -1;
+    std::optional<qint64> bytes;
     QDateTime changed;
   };
   Written lastWritten_;
