@@ -119,7 +119,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!hasLine[pieces.piece[i]]) setBits(rest, pieces.runs[i]);
   }
-  return rest;
+  return withoutMargins(std::move(rest), context);
 }
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {

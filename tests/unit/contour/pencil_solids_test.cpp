@@ -174,5 +174,18 @@ TEST(PencilSolids, GoOnWhereNoLineExplainsTheInkBesideThem) {
   for (int x = 140; x < 170; ++x) EXPECT_FALSE(found.at(x, 50)) << "a tone has no border";
 }
 
+TEST(PencilSolids, TheMarginOfThePageIsNoMark) {
+  InkSplit split;
+  split.shapes = BitImage(200, 100);
+  split.strokes = BitImage(200, 100);
+  fill(split.strokes, 120, 0, 196, 12);
+  fill(split.strokes, 40, 40, 56, 56);
+  split.pencil = split.pencilBody = split.strokes;
+  split.penPx = split.pencilPx = 5.0;
+  const BitImage found = findBlots(split, {}, 3.0, {});
+  EXPECT_TRUE(found.at(48, 48));
+  EXPECT_FALSE(found.at(160, 5));
+}
+
 }  // namespace
 }  // namespace batten
