@@ -31,12 +31,74 @@ BitImage coveredBy(const ContourSet& lines, const BitImage& like, const Reach& r
   return cover;
 }
 
+// [px] by which ink shrinks to nothing unless it is wider than its strokes.
+int stepsOfWide(double penPx) {
+  constexpr double kWiderThanPen = 1.5;  // two strokes that cross at a right angle hold a disc of 1.41
+  return std::max(1, static_cast<int>(std::lround(0.5 * kWiderThanPen * penPx)));
+}
+
+// What a pencil drew along a middle, its grain closed; and the pieces of it, of which most was ink before.
+BitImage pencilStrokes(const InkSplit& split) { return without(split.pencilBody, split.shapes); }
+
+BitImage mostlyInk(const BitImage& closed, const BitImage& ink, const RunContext& context) {
+  constexpr double kMostly = 0.8;
+  const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
+  std::vector<std::int64_t> area(pieces.runs.size()), inked(pieces.runs.size());
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
+    inked[pieces.piece[i]] += countBits(ink, pieces.runs[i]);
+  }
+  BitImage kept(closed.width, closed.height);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const int piece = pieces.piece[i];
+    if (static_cast<double>(inked[piece]) >= kMostly * static_cast<double>(area[piece])) setBits(kept, pieces.runs[i]);
+  }
+  return kept;
+}
+
+// Places of ink wider than its strokes that the lines with their widths leave out, up to the strokes.
+BitImage leftBeside(const BitImage& ink, double penPx, const ContourSet& lines, const RunContext& context) {
+  constexpr double kExplainedReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
+  BitImage none(ink.width, ink.height);
+  if (penPx <= 0.0 || ink.count() == 0) return none;
+  const int half = stepsOfWide(penPx);
+  BitImage wide = shrunken(ink, half, context);
+  if (wide.count() == 0 || context.isCancelled()) return none;
+  wide = without(std::move(wide), coveredBy(
+                                      lines, wide, [&](double r) { return std::max(kExplainedReachPx, r); }, context));
+  if (wide.count() == 0 || context.isCancelled()) return none;
+  const BitImage strokes = coveredBy(
+      lines, wide, [](double) { return 0.0; }, context);
+  if (context.isCancelled()) return none;
+  return without(both(grown(wide, half + 1, context), ink), strokes);
+}
+
+// What strokes of a pen enclose and fill.
+BitImage penFillings(const BitImage& ink, double penPx, const ContourSet& lines, const RunContext& context) {
+  constexpr double kLeastArea = 3.0;   // [squared pen widths] a dot of two pens across
+  constexpr double kBodyWidths = 2.5;  // strokes that cross at any angle hold no larger disc, and a pixel
+  BitImage fillings = leftBeside(ink, penPx, lines, context);
+  if (fillings.count() == 0) return fillings;
+  const int half = stepsOfWide(penPx);
+  const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * penPx + 1.0))));
+  const BitImage bodies = grown(shrunken(ink, body, context), body + 1, context);
+  const int leastArea = static_cast<int>(std::lround(kLeastArea * penPx * penPx));
+  return withoutMargins(keepPieces(fillings, {.minArea = leastArea, .seeds = &bodies}, context), context);
+}
+
 }  // namespace
 
 BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
   constexpr double kBlotWidths = 3.0;  // [stroke widths] shorter ink has no direction
   constexpr double kBesideLinePx = 1.5;
-  const RunPieces pieces = findPieces(split.strokes, Connectivity::Eight, context);
+  BitImage ink = split.strokes, grainy;
+  if (split.pencil.width > 0) {
+    const BitImage body = pencilStrokes(split);
+    const BitImage wide = shrunken(body, stepsOfWide(split.pencilPx), context);
+    grainy = without(body, mostlyInk(keepPieces(body, {.seeds = &wide}, context), split.strokes, context));
+    ink = either(std::move(ink), body);
+  }
+  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
   BitImage rest(split.strokes.width, split.strokes.height);
   BitImage beside(split.strokes.width, split.strokes.height);
   for (const Contour& line : lines.contours) {
@@ -48,8 +110,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
   std::vector<Run> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const Run& run = pieces.runs[i];
-    if (countBits(beside, run) > 0 || (split.pencil.width > 0 && countBits(split.pencil, run) > 0))
-      hasLine[pieces.piece[i]] = true;
+    if (countBits(beside, run) > 0 || (grainy.width > 0 && countBits(grainy, run) > 0)) hasLine[pieces.piece[i]] = true;
     Run& b = box[pieces.piece[i]];
     b = pieces.piece[i] == static_cast<int>(i) ? run : Run{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
     const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);
@@ -58,32 +119,16 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!hasLine[pieces.piece[i]]) setBits(rest, pieces.runs[i]);
   }
-  return rest;
+  return withoutMargins(std::move(rest), context);
 }
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
-  constexpr double kWiderThanPen = 1.5;      // two strokes that cross at a right angle hold a disc of 1.41
-  constexpr double kExplainedReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
-  constexpr double kLeastArea = 3.0;         // [squared pen widths] a dot of two pens across
-  constexpr double kBodyWidths = 2.5;        // strokes that cross at any angle hold no larger disc, and a pixel
-  BitImage none(split.strokes.width, split.strokes.height);
-  if (split.penPx <= 0.0 || split.strokes.count() == 0) return none;
-  const int half = std::max(1, static_cast<int>(std::lround(0.5 * kWiderThanPen * split.penPx)));
-  BitImage wide = shrunken(split.strokes, half, context);
-  if (split.pencil.width > 0) wide = without(std::move(wide), split.pencil);
-  if (wide.count() == 0 || context.isCancelled()) return none;
-  wide = without(std::move(wide), coveredBy(
-                                      lines, wide, [&](double r) { return std::max(kExplainedReachPx, r); }, context));
-  if (wide.count() == 0 || context.isCancelled()) return none;
-  const BitImage strokes = coveredBy(
-      lines, wide, [](double) { return 0.0; }, context);
-  BitImage fillings = without(both(grown(wide, half + 1, context), split.strokes), strokes);
-  if (context.isCancelled()) return none;
-  const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * split.penPx + 1.0))));
-  const BitImage bodies = grown(shrunken(split.strokes, body, context), body + 1, context);
-  if (context.isCancelled()) return none;
-  const int leastArea = static_cast<int>(std::lround(kLeastArea * split.penPx * split.penPx));
-  return withoutMargins(keepPieces(fillings, {.minArea = leastArea, .seeds = &bodies}, context), context);
+  if (split.pencil.width == 0) return penFillings(split.strokes, split.penPx, lines, context);
+  // Tones of a pencil have no border; solids have, which lies where the strokes beside them do.
+  const BitImage besideSolid = grown(split.shapes, 1, context);
+  BitImage tones = mostlyInk(leftBeside(pencilStrokes(split), split.pencilPx, lines, context), split.strokes, context);
+  tones = withoutMargins(keepPieces(tones, {.seeds = &besideSolid}, context), context);
+  return either(penFillings(without(split.strokes, split.pencil), split.penPx, lines, context), tones);
 }
 
 }  // namespace batten

@@ -8,14 +8,14 @@
 
 namespace batten {
 
-/// Pieces of stroke ink that no line follows. A pencil leaves specks that are none, and what the user wants to be
-/// longer is a short line.
+/// Pieces of stroke ink that no line follows. What a pencil drew is one only where it is wider than its strokes: the
+/// rest are specks. What the user wants to be longer is a short line.
 /// @param minWidths ContourParams::minWidths.
 BitImage findBlots(const InkSplit&, const ContourSet& lines, double minWidths, const RunContext&);
 
 /// Places of pen strokes that are wider than the pen, and that the lines with their widths leave out: what strokes
 /// enclose and fill, knots, scribbles. Ink that two strokes across each other could hold is none. Up to the strokes,
-/// which stay strokes.
+/// which stay strokes. Of what a pencil drew, only places where a solid goes on.
 BitImage findFillings(const InkSplit&, const ContourSet& lines, const RunContext&);
 
 }  // namespace batten

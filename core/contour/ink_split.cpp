@@ -85,17 +85,18 @@ RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunCo
   return regions;
 }
 
-// The solids of a pencil, with their grain closed; small ones are grain themselves, or strokes that cross.
-Result<BitImage> pencilSolids(const BitImage& pencil, double widthPx, double mergeWidths, const RunContext& context) {
-  constexpr double kSolidWidths = 5.0;   // strokes side by side that have run together are narrower
-  constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke
-  BitImage body;
+Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx) {
   try {
-    body = closeInk(pencil, grainClosing(widthPx));
+    return closeInk(pencil, grainClosing(widthPx));
   } catch (const cv::Exception& e) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.", e.what());
   }
-  if (context.isCancelled()) return cancelled();
+}
+
+// The solids of a pencil whose grain is closed; small ones are grain themselves, or strokes that cross.
+Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double mergeWidths, const RunContext& context) {
+  constexpr double kSolidWidths = 5.0;   // strokes side by side that have run together are narrower
+  constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke
   Result<InkLabels> labels = labelInk(body, context, mergeWidths);
   if (!labels) return fail(labels.error());
   const double pen = std::max(labels->penPx, widthPx);
@@ -138,10 +139,15 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   }
   const StrokesOfInk& known = *split.known;
   const double widthPx = medianWidth(known.paths, [&](int i) { return known.grain.isPencil(i); });
-  Result<BitImage> solids = pencilSolids(both(split.strokes, split.pencil), widthPx, params.mergeWidths, context);
+  Result<BitImage> body = withGrainClosed(both(split.strokes, split.pencil), widthPx);
+  if (!body) return fail(body.error());
+  if (context.isCancelled()) return cancelled();
+  Result<BitImage> solids = pencilSolids(*body, widthPx, params.mergeWidths, context);
   if (!solids) return fail(solids.error());
   split.strokes = without(std::move(split.strokes), *solids);
   split.shapes = either(std::move(split.shapes), *solids);
+  split.pencilPx = std::max(split.penPx, widthPx);
+  split.pencilBody = std::move(*body);
   return {};
 }
 
@@ -149,7 +155,8 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
 
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
                           const RunContext& context) {
-  InkSplit split{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), {}, {}, {}, 0.0};
+  InkSplit split;
+  split.strokes = split.shapes = BitImage(ink.width, ink.height);
   if (params.mode == EdgeMode::Outline) {
     split.shapes = ink;
   } else if (params.mode == EdgeMode::Centreline) {

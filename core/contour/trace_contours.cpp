@@ -226,14 +226,14 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   if (context.isCancelled()) return cancelled();
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
+  const BitImage grainy = split->pencil.width > 0 ? without(std::move(split->pencil), found.blots) : BitImage();
   int texture = 0;
   if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
     EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);
     split->shapes = without(std::move(even.ink), split->strokes);
     texture = even.filled;
   }
-  Result<ContourSet> borders =
-      bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &split->pencil, context);
+  Result<ContourSet> borders = bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &grainy, context);
   if (!borders) return fail(borders.error());
   borders->report.droppedHoles += texture;
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);

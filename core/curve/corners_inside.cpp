@@ -26,12 +26,12 @@ std::vector<double> cornersInside(const NurbsCurve& curve) {
   const int degree = curve.degree(), count = static_cast<int>(knots.size());
   for (int i = 0; i < count;) {
     int j = i;
-    while (j < count && knots[static_cast<std::size_t>(j)] == knots[static_cast<std::size_t>(i)]) ++j;
-    const double u = knots[static_cast<std::size_t>(i)];
+    while (j < count && knots[j] == knots[i]) ++j;
+    const double u = knots[i];
     // The curve passes through the control point before the last of `degree` equal knots.
     const int at = j - 1 - degree;
     if (j - i >= degree && u > curve.start() && u < curve.end() && at > 0 && at + 1 < curve.controlPointCount()) {
-      const auto p = [&](int k) { return points[static_cast<std::size_t>(k)]; };
+      const auto p = [&](int k) { return points[k]; };
       if (isBroken(p(at) - p(at - 1), p(at + 1) - p(at))) found.push_back(u);
     }
     i = j;

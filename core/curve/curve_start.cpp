@@ -28,7 +28,7 @@ std::optional<NurbsCurve> withoutKnot(const NurbsCurve& curve, double u, double 
   const int last = static_cast<int>(behind - knots.begin()) - 1;
   const int repeated = static_cast<int>(behind - std::lower_bound(knots.begin(), knots.end(), u));
   if (repeated == 0) return std::nullopt;
-  const auto at = [](auto& list, int i) -> auto& { return list[static_cast<std::size_t>(i)]; };
+  const auto at = [](auto& list, int i) -> auto& { return list[i]; };
   int i = last - p, j = last - repeated;
   Vec2 left = at(points, i - 1), right = at(points, j + 1);
   std::vector<Vec2> fresh = points;

@@ -13,9 +13,9 @@ namespace batten {
 NurbsCurve fairableShape(const NurbsCurve&);
 
 /// A quintic with simple knots (C4) that lies within `tolerance` of a curve without corners, by least squares at equal
-/// arc length; open curves keep the place, direction and curvature of their ends exactly. For curves of pieces that meet
-/// with one tangent or curvature only: moved freely, their control points would part them there. Also for arcs. None
-/// where no 256 spans are enough, and for curves without length.
+/// arc length; open curves keep the place, direction and curvature of their ends exactly. For curves of pieces that
+/// meet with one tangent or curvature only: moved freely, their control points would part them there. Also for arcs.
+/// None where no 256 spans are enough, and for curves without length.
 std::optional<NurbsCurve> smoothShape(const NurbsCurve&, bool closed, double tolerance);
 
 }  // namespace batten

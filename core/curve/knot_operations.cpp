@@ -221,6 +221,24 @@ Result<NurbsCurve> joinAtCorners(std::span<const NurbsCurve> pieces, double tole
   return assemble(std::move(joined));
 }
 
+void removeExactKnot(int degree, std::vector<double>& knots, std::vector<Vec2>& points, KnotRun run) {
+  const int r = run.last, s = run.multiplicity;
+  const double u = knots[r];
+  int i = r - degree, j = r - s;
+  Vec2 left = points[i - 1], right = points[j + 1];
+  while (j > i) {
+    const double a = (u - knots[i]) / (knots[i + degree + 1] - knots[i]);
+    const double b = (u - knots[j]) / (knots[j + degree + 1] - knots[j]);
+    left = (points[i] - (1.0 - a) * left) / a;
+    right = (points[j] - b * right) / (1.0 - b);
+    points[i++] = left;
+    points[j--] = right;
+  }
+  if (j < i && s == degree - 1) points[r - degree] = points[r - s] = 0.5 * (points[r - degree] + points[r - s]);
+  points.erase(points.begin() + (2 * r - s - degree) / 2);
+  knots.erase(knots.begin() + r);
+}
+
 Result<NurbsCurve> elevated(const NurbsCurve& curve, int degree) {
   if (degree < curve.degree() || degree > 7) {
     return fail(ErrorCode::BadParameter, "The degree of a curve can only be raised, up to 7.");

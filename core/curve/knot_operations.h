@@ -24,6 +24,13 @@ Result<SplitCurve> split(const NurbsCurve&, double u);
 /// Joins clamped curves of one degree end to start into one B-spline; at every joint a knot of multiplicity = degree
 /// (C0, exact), the joint's control point once. Ends may differ by at most `tolerance` (the mean is taken).
 Result<NurbsCurve> joinAtCorners(std::span<const NurbsCurve> pieces, double tolerance);
+/// A knot of a knot vector: the index of the last of its run, and how often it is repeated.
+struct KnotRun {
+  int last = 0, multiplicity = 0;
+};
+/// Takes one knot of a run out of a curve without weights that does not need it (Piegl & Tiller, The NURBS Book, A5.8
+/// without its test).
+void removeExactKnot(int degree, std::vector<double>& knots, std::vector<Vec2>& points, KnotRun run);
 /// Raises the degree by one or more without changing the shape.
 Result<NurbsCurve> elevated(const NurbsCurve&, int degree);
 /// The curve run through backwards over the same domain.

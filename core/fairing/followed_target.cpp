@@ -20,7 +20,7 @@ constexpr int kNodesBetweenCorners = 120;
 
 std::optional<TargetProfile> ofDegree(const TargetSet& targets, int degree) {
   if (degree < 1 || degree > std::ssize(targets.profiles)) return std::nullopt;
-  const TargetProfile& profile = targets.profiles[static_cast<std::size_t>(degree) - 1];
+  const TargetProfile& profile = targets.profiles[degree - 1];
   return profile.valid ? std::optional(profile) : std::nullopt;
 }
 

@@ -24,7 +24,7 @@ bool isWithinTolerance(const TargetOutcomes& outcomes, int degree, double tolera
 }
 
 bool addsExtrema(const TargetOutcomes& outcomes, int degree) {
-  const auto& faired = outcomes.faired[static_cast<std::size_t>(degree - 1)];
+  const auto& faired = outcomes.faired[degree - 1];
   return faired && faired->report.extremaAfter > faired->report.extremaBefore;
 }
 

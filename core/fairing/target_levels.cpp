@@ -58,7 +58,7 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
     // No fewer than the extrema between the spans are looked for.
     const auto fewest = static_cast<int>(levels.front().splits.size());
     if (best && best->faired.report.extremaAfter <= fewest) break;
-    const TargetProfile& profile = levels[i].targets.profiles[static_cast<std::size_t>(degree) - 1];
+    const TargetProfile& profile = levels[i].targets.profiles[degree - 1];
     auto faired = modifyShape(setup, profile, toleranceMm, context, {ExtremaAsked::UpToSketch, onlyIfMet});
     if (!faired && best) break;
     if (!faired) return fail(faired.error());
@@ -77,7 +77,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
   if (first.recommendedDegree == 0)
     return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
   if (const auto asked = degreeOf(params.target)) {
-    const TargetProfile& profile = first.profiles[static_cast<std::size_t>(*asked) - 1];
+    const TargetProfile& profile = first.profiles[*asked - 1];
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
   return withSetup(
@@ -101,12 +101,12 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
             if (!outcome) return fail(outcome.error());
             all[at] = followed(std::move(*outcome), tried);
           }
-          if (const auto best = mostSimilar(all)) return std::move(*all[static_cast<std::size_t>(*best) - 1]);
+          if (const auto best = mostSimilar(all)) return std::move(*all[*best - 1]);
           const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
           if (any != all.end()) return std::move(**any);
         }
         for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
-          if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
+          if (!first.profiles[tried - 1].valid) continue;
           auto outcome = toDegree(tried, std::span(levels).first(1), true);
           if (!outcome) return fail(outcome.error());
           if (outcome->isMet()) return followed(std::move(*outcome), tried);

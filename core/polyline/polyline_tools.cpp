@@ -12,7 +12,7 @@ namespace {
 
 std::vector<double> gaussianKernel(double sigma) {
   const int half = std::max(1, static_cast<int>(std::ceil(3.0 * sigma)));
-  std::vector<double> kernel(static_cast<std::size_t>(half) + 1);
+  std::vector<double> kernel(half + 1);
   double sum = 0.0;
   for (int i = 0; i <= half; ++i) {
     kernel[i] = std::exp(-0.5 * (i / sigma) * (i / sigma));

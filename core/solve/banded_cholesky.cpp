@@ -127,7 +127,7 @@ bool BandedCholesky::factor(const BandedMatrix& matrix, double leastPivot) {
   cyclic_ = matrix.isCyclic();
   band_ = cyclic_ ? 2 * halfWidth_ : halfWidth_;
   const auto width = static_cast<std::ptrdiff_t>(band_) + 1;
-  lower_.assign(static_cast<std::size_t>(size_ * width), 0.0);
+  lower_.assign(size_ * width, 0.0);
   for (int i = 0; i < size_; ++i) {
     for (int k = 0; k <= halfWidth_; ++k) {
       if (!cyclic_ && i + k >= size_) break;

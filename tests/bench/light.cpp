@@ -45,7 +45,7 @@ using namespace batten::test;
 
 namespace {
 
-constexpr int kPointsOfArc = 3;  // an arc or circle counts as what it takes to draw it
+constexpr int kArcCountsAs = 3;  // an arc or circle counts as what it takes to draw it
 
 std::optional<NurbsCurve> denseCurve(const TruthPiece& piece, bool closed) {
   std::vector<double> t(1, 0.0);
@@ -319,7 +319,7 @@ void printDetails(const std::filesystem::path& path) {
     double tolerance = 0.0, moved = 0.0;
     for (const TracedCurve& curve : out.constructed->curves) {
       extrema += curve.sketchedFigures.extrema;
-      points += curve.sketched.isRational() ? kPointsOfArc : curve.sketchedFigures.controlPoints;
+      points += curve.sketched.isRational() ? kArcCountsAs : curve.sketchedFigures.controlPoints;
       if (!curve.construct.light) continue;
       corners += curve.construct.light->corners;
       dense += curve.construct.light->found ? 0 : 1;

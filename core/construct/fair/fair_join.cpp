@@ -138,28 +138,6 @@ class TightProblem {
   std::vector<BandRow> rows_;
 };
 
-/// Takes one knot of the run that ends at index r and has multiplicity s out of a quintic that allows it (Piegl &
-/// Tiller, The NURBS Book, A5.8 without the test).
-void removeKnot(std::vector<double>& knots, std::vector<Vec2>& points, int r, int s) {
-  constexpr int kDegree = 5;
-  const auto knot = [&](int i) { return knots[i]; };
-  const auto point = [&](int i) -> Vec2& { return points[i]; };
-  const double u = knot(r);
-  int i = r - kDegree, j = r - s;
-  Vec2 left = point(i - 1), right = point(j + 1);
-  while (j > i) {
-    const double a = (u - knot(i)) / (knot(i + kDegree + 1) - knot(i));
-    const double b = (u - knot(j)) / (knot(j + kDegree + 1) - knot(j));
-    left = (point(i) - (1.0 - a) * left) / a;
-    right = (point(j) - b * right) / (1.0 - b);
-    point(i++) = left;
-    point(j--) = right;
-  }
-  if (j < i && s == kDegree - 1) point(r - kDegree) = point(r - s) = 0.5 * (point(r - kDegree) + point(r - s));
-  points.erase(points.begin() + (2 * r - s - kDegree) / 2);
-  knots.erase(knots.begin() + r);
-}
-
 }  // namespace
 
 CurveEnd startOf(const NurbsCurve& curve) {
@@ -255,8 +233,8 @@ Result<NurbsCurve> joinSmoothly(std::span<const NurbsCurve> parts) {
     } else {
       points.insert(points.end(), own.begin() + 1, own.end());
       knots.erase(knots.begin() + joint);
-      removeKnot(knots, points, joint - 1, 5);
-      removeKnot(knots, points, joint - 2, 4);
+      removeExactKnot(5, knots, points, {joint - 1, 5});
+      removeExactKnot(5, knots, points, {joint - 2, 4});
     }
     end = knots.back();
   }

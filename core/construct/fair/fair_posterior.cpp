@@ -23,7 +23,7 @@ double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::nu
 std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bool closed) {
   const int n = static_cast<int>(v.size());
   const int radius = std::min(static_cast<int>(std::ceil(3.0 * sigma)), closed ? (n - 1) / 2 : n - 1);
-  std::vector<double> kernel(static_cast<std::size_t>(radius) + 1);
+  std::vector<double> kernel(radius + 1);
   for (int k = 0; k <= radius; ++k) kernel[k] = std::exp(-0.5 * k * k / (sigma * sigma));
   std::vector<double> out(v.size());
   for (int i = 0; i < n; ++i) {

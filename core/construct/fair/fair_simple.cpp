@@ -2,12 +2,14 @@
 #include "core/construct/fair/fair_simple.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <utility>
 
+#include "core/polyline/circle_fit.h"
 #include "core/solve/dense_solve.h"
 
 namespace batten {
@@ -79,26 +81,12 @@ WeightedPoints blockMeans(const FairFrame& frame) {
 }
 
 std::optional<CircleFit> fitCircle(const WeightedPoints& data) {
-  Vec2 mean = Vec2::Zero();
-  double total = 0.0;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    mean += data.weights[i] * data.points[i];
-    total += data.weights[i];
-  }
-  if (data.points.size() < 3 || !(total > 0.0)) return std::nullopt;
-  mean /= total;
-  // Kasa: |p|^2 = 2 c.p + (r^2 - |c|^2), a linear problem; a good start since the points surround the centre.
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const Vec2 p = data.points[i] - mean;
-    const Eigen::Vector3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
-    normal += data.weights[i] * row * row.transpose();
-    right += data.weights[i] * row * p.squaredNorm();
-  }
-  const Eigen::Vector3d algebraic = normal.fullPivLu().solve(right);
-  CircleFit fit{mean + algebraic.head<2>(), std::sqrt(std::max(0.0, algebraic[2] + algebraic.head<2>().squaredNorm())),
-                0.0};
+  // A good start, since the points surround the centre.
+  const auto start = algebraicCircle(data.points, data.weights);
+  if (!start) return std::nullopt;
+  CircleFit fit{start->centre, start->radius, 0.0};
+  Eigen::Matrix3d normal;
+  Eigen::Vector3d right;
   for (int round = 0; round < 8; ++round) {
     normal.setZero();
     right.setZero();

@@ -84,7 +84,7 @@ std::vector<Vec2> pointsOf(const Stretch& stretch, const EvenLine& line, double 
   std::vector<Vec2> points;
   if (stretch.from) points.push_back(*stretch.from);
   const int first = stretch.first + (stretch.from ? away : 0), last = stretch.last - (stretch.to ? away : 0);
-  for (int i = first; i <= last; ++i) points.push_back(line.points[static_cast<std::size_t>(i % line.size())]);
+  for (int i = first; i <= last; ++i) points.push_back(line.points[i % line.size()]);
   if (stretch.to) points.push_back(*stretch.to);
   return points;
 }
@@ -199,7 +199,7 @@ std::optional<std::vector<std::vector<LightCurve>>> fitsOfAll(const NurbsCurve& 
     std::atomic<bool> isHopeless = false;
     parallelFor(context, static_cast<int>(fits.size()), 1, [&](int begin, int end) {
       for (int i = begin; i < end && !context.isCancelled(); ++i) {
-        const std::size_t at = order[static_cast<std::size_t>(std::ssize(order) - 1 - i)];
+        const std::size_t at = order[std::ssize(order) - 1 - i];
         auto& own = fits[at];
         own.resize(1);
         if (isHopeless) continue;
@@ -227,7 +227,7 @@ std::optional<std::vector<std::vector<LightCurve>>> fitsOfAll(const NurbsCurve& 
 double farthest(const EvenLine& line, const NurbsCurve& curve, const RunContext& context) {
   double worst = 0.0;
   for (int i = 0; i < line.size() && !context.isCancelled(); i += kMeasuredEvery) {
-    worst = std::max(worst, closestPoint(curve, line.points[static_cast<std::size_t>(i)]).distance);
+    worst = std::max(worst, closestPoint(curve, line.points[i]).distance);
   }
   return worst;
 }

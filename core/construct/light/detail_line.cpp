@@ -74,12 +74,12 @@ class CornerSearch {
     const int n = line_.size();
     return line_.closed ? (i % n + n) % n : std::clamp(i, 0, n - 1);
   }
-  const Vec2& at(int i) const { return smooth_[static_cast<std::size_t>(wrapped(i))]; }
+  const Vec2& at(int i) const { return smooth_[wrapped(i)]; }
   double directionAt(int i) const {
     const int n = line_.size();
-    if (!line_.closed) return direction_[static_cast<std::size_t>(wrapped(i))];
+    if (!line_.closed) return direction_[wrapped(i)];
     const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
-    return direction_[static_cast<std::size_t>(i - turns * n)] + turns * round_;
+    return direction_[i - turns * n] + turns * round_;
   }
   double turnAt(int i) const { return directionAt(i + places(kHalfTurn)) - directionAt(i - places(kHalfTurn)); }
   int apart(int a, int b) const {
@@ -111,7 +111,7 @@ class CornerSearch {
 
   /// Where the tangents at both ends of the turn meet, if that is near the line; for tips the tip itself.
   std::optional<Vec2> vertexAt(int i, double turn) const {
-    const Vec2& tip = line_.points[static_cast<std::size_t>(wrapped(i))];
+    const Vec2& tip = line_.points[wrapped(i)];
     if (std::abs(turn) >= kTip) return tip;
     const int half = places(kHalfTurn);
     const double a = directionAt(i - half), b = directionAt(i + half);
@@ -123,7 +123,7 @@ class CornerSearch {
     double nearest = std::numeric_limits<double>::infinity();
     Vec2 place = tip;
     for (int k = -half; k <= half; ++k) {
-      const Vec2& p = line_.points[static_cast<std::size_t>(wrapped(i + k))];
+      const Vec2& p = line_.points[wrapped(i + k)];
       const double distance = (p - meet).norm();
       if (distance < nearest) {
         nearest = distance;
@@ -192,7 +192,7 @@ int cutNecks(EvenLine& line, double scale, const RunContext& context) {
     Neck found{i, 0};
     for (int length = static_cast<int>(2.0 * scale / line.step); length <= longest; ++length) {
       if (!line.closed && i + length >= n) break;
-      const double mouth = (line.points[static_cast<std::size_t>((i + length) % n)] - line.points[i]).norm();
+      const double mouth = (line.points[(i + length) % n] - line.points[i]).norm();
       if (mouth < kMouth * scale && length * line.step > 3.0 * mouth + 2.0 * scale) found.length = length;
     }
     if (found.length > 0) necks.push_back(found);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/construct/light/exact_shape.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
+
+#include "core/polyline/circle_fit.h"
 
 namespace batten {
 namespace {
@@ -14,30 +15,6 @@ namespace {
 constexpr double kToleranceShare = 0.5;                           // of the tolerance that an exact shape may take
 constexpr double kLargestSegment = 2.0 * std::numbers::pi / 3.0;  // [rad] of a rational quadratic: weights from 1/2 up
 constexpr double kAlike = 0.7;                                    // cosine: the directions of reference and shape
-
-struct Circle {
-  Vec2 centre = Vec2::Zero();
-  double radius = 0.0;
-};
-
-/// Kasa's circle: |p|^2 = 2 c.p + (r^2 - |c|^2) by least squares, about the mean of the points.
-std::optional<Circle> algebraicCircle(const std::vector<LightSample>& samples) {
-  Vec2 mean = Vec2::Zero();
-  for (const LightSample& sample : samples) mean += sample.point;
-  mean /= static_cast<double>(samples.size());
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const LightSample& sample : samples) {
-    const Vec2 p = sample.point - mean;
-    const Eigen::Vector3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
-    normal += row * row.transpose();
-    right += row * p.squaredNorm();
-  }
-  const Eigen::Vector3d solved = normal.fullPivLu().solve(right);
-  const double squared = solved[2] + solved.head<2>().squaredNorm();
-  if (!solved.allFinite() || !(squared > 0.0)) return std::nullopt;
-  return Circle{mean + solved.head<2>(), std::sqrt(squared)};
-}
 
 bool liesOn(const LightReference& reference, const Circle& circle, bool left, double most) {
   for (const LightSample& sample : reference.samples()) {
@@ -87,7 +64,9 @@ std::optional<NurbsCurve> exactLine(const LightReference& reference, double tole
 }
 
 std::optional<NurbsCurve> exactArc(const LightReference& reference, double tolerance) {
-  const auto fitted = algebraicCircle(reference.samples());
+  std::vector<Vec2> points;
+  for (const LightSample& sample : reference.samples()) points.push_back(sample.point);
+  const auto fitted = algebraicCircle(points);
   if (!fitted) return std::nullopt;
   Circle circle = *fitted;
   const Vec2 first = reference.samples().front().point, last = reference.samples().back().point;

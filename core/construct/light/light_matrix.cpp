@@ -33,7 +33,7 @@ LightMatrix::LightMatrix(const LightShape& shape, bool lengths)
 
 void LightMatrix::orderUnknowns(const LightShape& shape, bool lengths) {
   const int points = static_cast<int>(shape.points.size()), spans = lengths ? shape.spans() : 0;
-  place_.resize(static_cast<std::size_t>(unknowns_));
+  place_.resize(unknowns_);
   int next = 0;
   for (int point = 0; point < points; ++point) {
     place_[2 * point] = next++;

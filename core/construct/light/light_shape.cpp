@@ -21,7 +21,7 @@ constexpr int kStartSamplesPerSpan = 24;  // of the reference, at the most
 /// Density of breaks at the samples of the reference: fifth root of the second derivative of the curvature, smoothed.
 std::vector<double> breakDensity(const LightReference& reference) {
   const int n = reference.size(), half = std::max(1, static_cast<int>(kBreakWindow * n));
-  std::vector<double> density(static_cast<std::size_t>(n));
+  std::vector<double> density(n);
   double mean = 0.0;
   for (int i = 0; i < n; ++i) {
     int before = i - half, after = i + half;
@@ -224,7 +224,7 @@ std::optional<NurbsCurve> LightShape::toNurbs(double length) const {
     }
     for (int j = 0; j < degree; ++j) all.push_back(points[static_cast<std::size_t>(j) % points.size()]);
   } else {
-    knots.assign(static_cast<std::size_t>(degree), 0.0);
+    knots.assign(degree, 0.0);
     knots.insert(knots.end(), breaks.begin(), breaks.end());
     knots.insert(knots.end(), degree, length);
   }
@@ -237,8 +237,8 @@ std::optional<LightShape> startShape(const LightReference& reference, int degree
   LightShape shape;
   shape.degree = degree;
   shape.closed = reference.isClosed();
-  shape.logLengths = breaks == BreakStart::ByShape && spans > 1 ? logLengthsByShape(reference, spans)
-                                                                : std::vector<double>(static_cast<std::size_t>(spans));
+  shape.logLengths =
+      breaks == BreakStart::ByShape && spans > 1 ? logLengthsByShape(reference, spans) : std::vector<double>(spans);
   const auto count = static_cast<std::size_t>(shape.closed ? spans : spans + degree);
   shape.points.assign(count, Vec2::Zero());
   const Normal normal = normalOf(shape, reference);

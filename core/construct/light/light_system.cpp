@@ -30,7 +30,7 @@ LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, c
   places_.resize(spans * perSpan_);
   rising_.resize(places_.size());
   falling_.resize(places_.size());
-  beziers_.resize(static_cast<std::size_t>(spans));
+  beziers_.resize(spans);
   firstLength_ = 2 * static_cast<Eigen::Index>(start.points.size());
   unknowns_ = firstLength_ + (spans > 1 ? spans : 0);
   // Starts lie where equal shares of the length and the domain meet.
@@ -48,7 +48,7 @@ LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, c
 }
 
 void LightSystem::placesOf(const LightShape& shape, int span) {
-  std::array<Vec2, kSpanPoints>& bezier = beziers_[static_cast<std::size_t>(span)];
+  std::array<Vec2, kSpanPoints>& bezier = beziers_[span];
   const auto points = shape.pointsOf(span);
   bezierOfSpan(shape.degree, shape.knotsOf(span, lengths_), points, bezier);
   const double length = lengths_[span];
@@ -289,7 +289,7 @@ void LightSystem::differentiateByLengths(const LightShape& shape, int span) {
     if (other == span) local_.ownLength = at;
     local_.lengthIndex[at] = other;
   }
-  const std::array<Vec2, kSpanPoints>& here = beziers_[static_cast<std::size_t>(span)];
+  const std::array<Vec2, kSpanPoints>& here = beziers_[span];
   bezierOfLanes(degree, lanes, shape.pointsOf(span), by.xByLength, by.yByLength);
   for (int j = 0; j <= degree; ++j) {
     for (double& x : by.xByLength[j]) x = (x - here[j].x()) / kDifferenceStep;

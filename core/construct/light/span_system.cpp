@@ -44,7 +44,7 @@ void SpanSystem::carryGradient() {
       sum +=
           dependence.xByLength[k][i] * local_.gradient[2 * k] + dependence.yByLength[k][i] * local_.gradient[2 * k + 1];
     }
-    gradient_[static_cast<std::size_t>(2 * kXLanes + i)] = sum;
+    gradient_[2 * kXLanes + i] = sum;
   }
 }
 

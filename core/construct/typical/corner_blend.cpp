@@ -40,7 +40,7 @@ std::array<Vec2, 4> derivativesOf(const BlendEnd& end, const std::array<double, 
 /// Control points from the derivatives at both ends: the first half from the start's, the second from the end's.
 std::vector<Vec2> controlPointsOf(const BlendEnd& before, const BlendEnd& behind, const FreeLengths& free, int degree) {
   const int each = (degree + 1) / 2;
-  std::vector<Vec2> points(static_cast<std::size_t>(degree) + 1);
+  std::vector<Vec2> points(degree + 1);
   for (const bool atEnd : {false, true}) {
     std::array<Vec2, 4> d = derivativesOf(atEnd ? behind : before, atEnd ? free.end : free.start);
     // Run through backwards, the odd derivatives change their sign.
@@ -56,7 +56,7 @@ std::vector<Vec2> controlPointsOf(const BlendEnd& before, const BlendEnd& behind
     for (int i = 0; i < each; ++i) {
       Vec2 point = Vec2::Zero();
       for (int k = 0; k <= i; ++k) point += kBinomial[i][k] * difference[k];
-      points[static_cast<std::size_t>(atEnd ? degree - i : i)] = point;
+      points[atEnd ? degree - i : i] = point;
     }
   }
   return points;

@@ -7,6 +7,7 @@
 
 #include "core/construct/typical/typical_path_geometry.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/foot_step.h"
 
 namespace batten {
 namespace {
@@ -125,9 +126,9 @@ class Tiling {
       const Vec2 p = at(k).state.point;
       double t = (at(k).s - at(i).s) / (at(j).s - at(i).s);
       for (int round = 0; round < 4; ++round) {
-        const auto d = geometry.at(t, 1);
+        const auto d = geometry.at(t, 2);
         if (!(d[1].squaredNorm() > 0.0)) return false;
-        t = std::clamp(t - (d[0] - p).dot(d[1]) / d[1].squaredNorm(), 0.0, 1.0);
+        t = std::clamp(t + footStep(d[0] - p, d[1], d[2]), 0.0, 1.0);
       }
       if ((geometry.at(t, 0)[0] - p).norm() > most) return false;
     }

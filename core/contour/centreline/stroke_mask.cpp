@@ -73,7 +73,7 @@ void fillNarrowHoles(cv::Mat& ink, double limitPx) {
 
 // Area and fat area of every component (keyed by its first run).
 struct Bulk {
-  std::int64_t area = 0, longRuns = 0, fat = 0, nearlyFat = 0;
+  std::int64_t area = 0, longRuns = 0, fat = 0;
 };
 
 // The fat parts of a page at a coarse scale: cells that an opening by the disc leaves.
@@ -135,9 +135,6 @@ int heightAt(const BitImage& ink, int x, int y, int most) {
   return height;
 }
 
-// A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where a quarter of
-// the ink lies in shapes and three quarters near the limit, the latter are shapes as well.
-constexpr double kNearLimit = 0.6;
 constexpr double kLongChord = 0.7;       // of the diameter of a disc
 constexpr double kLeastLongRuns = 0.35;  // of the area of a piece: with less it cannot be half a disc's chords
 
@@ -150,28 +147,19 @@ std::vector<bool> shapesByWidth(const BitImage& ink, const RunPieces& pieces, do
     Bulk& b = bulk[pieces.piece[i]];
     b.area += r.x1 - r.x0;
     // The chords of a disc that are longer than .7 diameters make up 4/5 of it.
-    const int chord = static_cast<int>(kLongChord * kNearLimit * limitPx);
+    const int chord = static_cast<int>(kLongChord * limitPx);
     if (r.x1 - r.x0 >= chord && heightAt(ink, (r.x0 + r.x1) / 2, r.y, chord) >= chord) b.longRuns += r.x1 - r.x0;
   }
   for (const Bulk& b : bulk)
     anyThick = anyThick || (b.area > 0 && b.longRuns >= kLeastLongRuns * static_cast<double>(b.area));
   if (!anyThick) return shapes;
-  const FatCells fat = fatCells(ink, limitPx), nearly = fatCells(ink, kNearLimit * limitPx);
+  const FatCells fat = fatCells(ink, limitPx);
   for (int i = 0; i < std::ssize(pieces.runs); ++i) {
-    Bulk& b = bulk[pieces.piece[i]];
-    b.fat += fatPart(pieces.runs[i], fat);
-    b.nearlyFat += fatPart(pieces.runs[i], nearly);
+    bulk[pieces.piece[i]].fat += fatPart(pieces.runs[i], fat);
   }
-  std::int64_t all = 0, inShapes = 0, nearShapes = 0;
-  for (const Bulk& b : bulk) {
-    all += b.area;
-    if (2 * b.fat > b.area) inShapes += b.area;
-    if (2 * b.nearlyFat > b.area) nearShapes += b.area;
-  }
-  const bool vote = 4 * inShapes > all && 4 * nearShapes > 3 * all;
   for (int i = 0; i < std::ssize(pieces.runs); ++i) {
     const Bulk& b = bulk[pieces.piece[i]];
-    shapes[i] = 2 * (vote ? b.nearlyFat : b.fat) > b.area;
+    shapes[i] = 2 * b.fat > b.area;
   }
   return shapes;
 }

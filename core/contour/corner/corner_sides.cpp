@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/statistics.h"
+#include "core/polyline/circle_fit.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -177,24 +178,20 @@ class CircleBase {
  public:
   CircleBase() = default;
   explicit CircleBase(std::span<const SideBlock> blocks) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    const double x0 = blocks.front().x, y0 = blocks.front().y;
+    std::vector<Vec2> points;
+    std::vector<double> weights;
     for (const SideBlock& b : blocks) {
-      const double x = b.x - x0, y = b.y - y0;
-      const Eigen::Vector3d row(2.0 * x, 2.0 * y, 1.0);
-      normal += b.weight * row * row.transpose();
-      right += b.weight * (x * x + y * y) * row;
+      points.emplace_back(b.x, b.y);
+      weights.push_back(b.weight);
     }
-    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
-    if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0.0)) return;
-    const Eigen::Vector3d c = solver.solve(right);
-    const double radius = std::sqrt(c[2] + c[0] * c[0] + c[1] * c[1]);
-    centreX_ = c[0] + x0;
-    centreY_ = c[1] + y0;
+    const auto circle = algebraicCircle(points, weights);
+    if (!circle) return;
+    centreX_ = circle->centre.x();
+    centreY_ = circle->centre.y();
+    const double radius = circle->radius;
     const double far = std::max(std::abs(blocks.front().x - centreX_), std::abs(blocks.back().x - centreX_));
     if (!std::isfinite(radius) || radius > kFlattestPx || far > kWidestPart * radius) return;
-    radius_ = centreY_ > y0 ? -radius : radius;
+    radius_ = centreY_ > blocks.front().y ? -radius : radius;
   }
   // Height and its derivatives 1 to 3 with respect to x; 0 where there is no circle.
   State at(double x) const {

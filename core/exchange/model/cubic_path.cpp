@@ -9,6 +9,7 @@
 
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
+#include "core/curve/foot_step.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -40,6 +41,10 @@ Vec2 slope(const Cubic& c, double t) {
   return 3 * s * s * (c[1] - c[0]) + 6 * s * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
 }
 
+Vec2 bend(const Cubic& c, double t) {
+  return 6 * (1.0 - t) * (c[2] - 2.0 * c[1] + c[0]) + 6 * t * (c[3] - 2.0 * c[2] + c[1]);
+}
+
 /// Curvatures at both ends of a cubic; absent where a handle has no length.
 using EndCurvatures = std::array<std::optional<double>, 2>;
 EndCurvatures endCurvatures(const Cubic& c) {
@@ -51,13 +56,10 @@ EndCurvatures endCurvatures(const Cubic& c) {
   return kappa;
 }
 
-/// Distance of p from the cubic near t; improves t. Gauss-Newton on the foot point, which is enough near the curve.
+/// Distance of p from the cubic near t; improves t.
 double footDistance(const Cubic& c, const Vec2& p, double& t) {
   for (int i = 0; i < 8; ++i) {
-    const Vec2 d = slope(c, t);
-    const double square = d.squaredNorm();
-    if (square == 0.0) break;
-    const double next = std::clamp(t + (p - at(c, t)).dot(d) / square, 0.0, 1.0);
+    const double next = std::clamp(t + footStep(at(c, t) - p, slope(c, t), bend(c, t)), 0.0, 1.0);
     const bool settled = std::abs(next - t) < 1e-12;
     t = next;
     if (settled) break;

@@ -88,12 +88,12 @@ Unknowns::Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold
 
 /// An end's points share their unknowns: they are free together or not at all.
 void Unknowns::hold(const std::vector<bool>& held) {
-  std::vector<bool> isHeld(static_cast<std::size_t>(count_), false);
+  std::vector<bool> isHeld(count_, false);
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {
     if (!held[i / 2]) continue;
     for (const Part& part : coordinates_[i]) isHeld[part.index] = true;
   }
-  std::vector<int> place(static_cast<std::size_t>(count_), 0);
+  std::vector<int> place(count_, 0);
   int count = 0;
   for (std::size_t i = 0; i < place.size(); ++i)
     if (!isHeld[i]) place[i] = count++;

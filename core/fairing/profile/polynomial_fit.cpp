@@ -110,7 +110,7 @@ std::vector<double> fitMonotonePolynomial(std::span<const double> f, std::span<c
   if (s.values.size() == 0) return {};
   const double low = s.values.minCoeff(), high = s.values.maxCoeff();
   const double scale = std::max(std::abs(low), std::abs(high));
-  if (!(scale > 0.0)) return std::vector<double>(static_cast<std::size_t>(degree) + 1, 0.0);
+  if (!(scale > 0.0)) return std::vector<double>(degree + 1, 0.0);
   const double sign = increasing ? 1.0 : -1.0;
   Eigen::MatrixXd g(kMonotoneGrid + 1, degree + 1);
   Eigen::VectorXd h = Eigen::VectorXd::Zero(kMonotoneGrid + 1);
@@ -142,13 +142,13 @@ std::vector<double> fitMonotoneBernstein(std::span<const double> f, std::span<co
   const Samples s = collect(f, values, degree);
   if (s.values.size() == 0) return {};
   const double scale = s.values.cwiseAbs().maxCoeff();
-  if (!(scale > 0.0)) return std::vector<double>(static_cast<std::size_t>(degree) + 1, 0.0);
+  if (!(scale > 0.0)) return std::vector<double>(degree + 1, 0.0);
   // Unknowns: the first coefficient as a difference of two non-negative numbers, then the steps between coefficients.
   const Eigen::Index count = s.values.size();
   Eigen::MatrixXd e(count, degree + 2);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double x = f[i];
-    std::vector<double> b(static_cast<std::size_t>(degree) + 1, 0.0);
+    std::vector<double> b(degree + 1, 0.0);
     b[0] = 1.0;
     for (int d = 1; d <= degree; ++d) {
       for (int k = d; k >= 0; --k) {

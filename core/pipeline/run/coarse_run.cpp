@@ -84,7 +84,7 @@ Scan coarsePage(const Scan& scan, int factor, const RunContext& context) {
   if (!scan.colour.isEmpty()) coarse.colour = coarseColours(scan.colour, coarse.grey, factor, context);
   const auto area = static_cast<std::uint32_t>(factor * factor);
   parallelFor(context, coarse.grey.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<std::uint32_t> sums(static_cast<std::size_t>(coarse.grey.width));
+    std::vector<std::uint32_t> sums(coarse.grey.width);
     for (int y = begin; y < end; ++y) {
       std::fill(sums.begin(), sums.end(), 0u);
       for (int dy = 0; dy < factor; ++dy) {

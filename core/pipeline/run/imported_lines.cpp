@@ -69,8 +69,7 @@ Contour contourOfCurves(const ImportedLine& line, const PageFrame& frame, double
   Contour contour;
   const std::vector<ImportedSample> samples = samplesOf(line, frame, stepPx);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Vec2 at =
-        frame.pointToImage(line.curves[static_cast<std::size_t>(samples[i].curve)].curve.point(samples[i].u));
+    const Vec2 at = frame.pointToImage(line.curves[samples[i].curve].curve.point(samples[i].u));
     contour.points.push_back({.at = at, .unrefined = at, .refined = true});
     const bool begins = i > 0 ? samples[i].curve != samples[i - 1].curve
                               : line.closed && (line.curves.size() > 1 || !isSmoothSeam(line));
@@ -134,15 +133,15 @@ std::optional<NurbsCurve> curveBetween(const ImportedLine& line, std::span<const
                                        int last) {
   const int count = static_cast<int>(samples.size());
   if (first < 0 || first >= count || last <= first) return std::nullopt;
-  const ImportedSample& from = samples[static_cast<std::size_t>(first)];
-  const NurbsCurve& curve = line.curves[static_cast<std::size_t>(from.curve)].curve;
+  const ImportedSample& from = samples[first];
+  const NurbsCurve& curve = line.curves[from.curve].curve;
   if (last >= count) {
     // Behind the last sample of a closed line comes its first.
     if (!line.closed || from.curve + 1 != std::ssize(line.curves)) return std::nullopt;
     auto head = partOf(curve, from.u, curve.end());
     const int rest = last - count;
     if (rest == 0 || !head) return head;
-    const ImportedSample& to = samples[static_cast<std::size_t>(rest)];
+    const ImportedSample& to = samples[rest];
     if (rest >= count || to.curve != 0 || line.curves.size() != 1) return std::nullopt;
     const auto tail = partOf(curve, curve.start(), to.u);
     if (!tail) return std::nullopt;
@@ -150,10 +149,9 @@ std::optional<NurbsCurve> curveBetween(const ImportedLine& line, std::span<const
     auto joined = joinAtCorners(both, kSeamGap * extent(curve));
     return joined ? std::optional(std::move(*joined)) : std::nullopt;
   }
-  const ImportedSample& to = samples[static_cast<std::size_t>(last)];
+  const ImportedSample& to = samples[last];
   if (to.curve == from.curve) return partOf(curve, from.u, to.u);
-  const bool isNext =
-      to.curve == from.curve + 1 && (last == 0 || samples[static_cast<std::size_t>(last) - 1].curve == from.curve);
+  const bool isNext = to.curve == from.curve + 1 && (last == 0 || samples[last - 1].curve == from.curve);
   return isNext ? partOf(curve, from.u, curve.end()) : std::nullopt;
 }
 
@@ -199,7 +197,7 @@ const ImportedLine* importedLineOf(const Contour& contour, std::span<const Impor
   if (!contour.imported) return nullptr;
   int index = *contour.imported;
   for (const ImportedFile& file : imports) {
-    if (index < std::ssize(file.lines)) return &file.lines[static_cast<std::size_t>(index)];
+    if (index < std::ssize(file.lines)) return &file.lines[index];
     index -= static_cast<int>(file.lines.size());
   }
   return nullptr;
@@ -209,12 +207,12 @@ std::string importedNameOf(const PieceSet& pieces, std::size_t piece, const Cont
                            std::span<const ImportedFile> imports) {
   const int line = pieces.pieces[piece].contour;
   if (line < 0 || line >= std::ssize(contours.contours)) return {};
-  const Contour& contour = contours.contours[static_cast<std::size_t>(line)];
+  const Contour& contour = contours.contours[line];
   const ImportedLine* imported = importedLineOf(contour, imports);
   if (imported == nullptr) return {};
   const int curve = curveOfPiece(*imported, contour, pieces.pieces[piece]);
-  const bool isNamed = curve >= 0 && !imported->curves[static_cast<std::size_t>(curve)].name.empty();
-  const std::string& name = isNamed ? imported->curves[static_cast<std::size_t>(curve)].name : imported->name;
+  const bool isNamed = curve >= 0 && !imported->curves[curve].name.empty();
+  const std::string& name = isNamed ? imported->curves[curve].name : imported->name;
   if (name.empty() || isMadeName(name)) return {};
   // The pieces of a line stand side by side.
   const auto isAlike = [&](std::size_t other) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "core/curve/curvature.h"
 #include "tests/unit/curve/curve_samples.h"
 
@@ -41,6 +44,24 @@ TEST_P(KnotOperations, InsertionLeavesTheShape) {
     expectSameShape(curve, *finer, "insert");
     EXPECT_FALSE(insertKnot(curve, u, curve.degree() + 1));
     EXPECT_FALSE(insertKnot(curve, curve.end() + 1.0, 1));
+  }
+}
+
+TEST_P(KnotOperations, AKnotThatWasPutInIsTakenOutAgain) {
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto curve = test::randomCurve(random_, GetParam(), true, false);
+    const int times = 1 + trial % curve.degree();
+    const double u = inside(curve);
+    const auto finer = insertKnot(curve, u, times);
+    ASSERT_TRUE(finer) << finer.error().message;
+    std::vector<double> knots(finer->knots().begin(), finer->knots().end());
+    std::vector<Vec2> points(finer->controlPoints().begin(), finer->controlPoints().end());
+    const int last = static_cast<int>(std::upper_bound(knots.begin(), knots.end(), u) - knots.begin()) - 1;
+    for (int k = 0; k < times; ++k) removeExactKnot(curve.degree(), knots, points, {last - k, times - k});
+    ASSERT_EQ(points.size(), curve.controlPoints().size());
+    EXPECT_TRUE(std::equal(knots.begin(), knots.end(), curve.knots().begin(), curve.knots().end()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      EXPECT_LT((points[i] - curve.controlPoints()[i]).norm(), 1e-7 * extent(curve)) << "point " << i;
   }
 }
 
