@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contour/centreline/stroke_mask.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/page_margins.h"
@@ -14,6 +15,7 @@
 namespace batten {
 namespace {
 
+constexpr double kInkShare = 0.8;            // of a mark or a solid with its grain closed
 constexpr int kExplainedDiscsPerLook = 256;  // between two looks at the cancel token
 
 // What lines with their widths cover, and `reach(half width)` px around them.
@@ -37,24 +39,8 @@ int stepsOfWide(double penPx) {
   return std::max(1, static_cast<int>(std::lround(0.5 * kWiderThanPen * penPx)));
 }
 
-// What a pencil drew along a middle, its grain closed; and the pieces of it, of which most was ink before.
+// What a pencil drew along a middle, its grain closed.
 BitImage pencilStrokes(const InkSplit& split) { return without(split.pencilBody, split.shapes); }
-
-BitImage mostlyInk(const BitImage& closed, const BitImage& ink, const RunContext& context) {
-  constexpr double kMostly = 0.8;
-  const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
-  std::vector<std::int64_t> area(pieces.runs.size()), inked(pieces.runs.size());
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
-    inked[pieces.piece[i]] += countBits(ink, pieces.runs[i]);
-  }
-  BitImage kept(closed.width, closed.height);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const int piece = pieces.piece[i];
-    if (static_cast<double>(inked[piece]) >= kMostly * static_cast<double>(area[piece])) setBits(kept, pieces.runs[i]);
-  }
-  return kept;
-}
 
 // Places of ink wider than its strokes that the lines with their widths leave out, up to the strokes.
 BitImage leftBeside(const BitImage& ink, double penPx, const ContourSet& lines, const RunContext& context) {
@@ -95,7 +81,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
   if (split.pencil.width > 0) {
     const BitImage body = pencilStrokes(split);
     const BitImage wide = shrunken(body, stepsOfWide(split.pencilPx), context);
-    grainy = without(body, mostlyInk(keepPieces(body, {.seeds = &wide}, context), split.strokes, context));
+    grainy = without(body, mostlyInk(keepPieces(body, {.seeds = &wide}, context), split.strokes, kInkShare, context));
     ink = either(std::move(ink), body);
   }
   const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
@@ -126,7 +112,8 @@ BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunC
   if (split.pencil.width == 0) return penFillings(split.strokes, split.penPx, lines, context);
   // Tones of a pencil have no border; solids have, which lies where the strokes beside them do.
   const BitImage besideSolid = grown(split.shapes, 1, context);
-  BitImage tones = mostlyInk(leftBeside(pencilStrokes(split), split.pencilPx, lines, context), split.strokes, context);
+  BitImage tones =
+      mostlyInk(leftBeside(pencilStrokes(split), split.pencilPx, lines, context), split.strokes, kInkShare, context);
   tones = withoutMargins(keepPieces(tones, {.seeds = &besideSolid}, context), context);
   return either(penFillings(without(split.strokes, split.pencil), split.penPx, lines, context), tones);
 }

@@ -88,15 +88,18 @@ BitImage coverOf(const BitImage& like, const std::vector<StrokePath>& paths, con
   return cover;
 }
 
-// Of what was taken out of bodies, the holes of their grain: the rest encloses them, and they are shorter than paper
-// between two lines runs.
-BitImage grainHoles(const BitImage& taken, const BitImage& rest, double widthPx, const RunContext& context) {
+// Of what was taken out of bodies, the holes of their grain: ink that the rest encloses, and shorter than paper between
+// two lines runs. What was paper before the bodies were closed is the inside of a loop.
+BitImage grainHoles(const BitImage& taken, const BitImage& rest, const BitImage& strokes, double widthPx,
+                    const RunContext& context) {
+  constexpr double kLeastInkShare = 0.25;  // of a hole of grain; that of a loop has none but at its rim
   constexpr double kLeastGapWidths =
       4.0;  // the means that tell lines from paper are as long: half of it at either side
   const BitImage body = either(taken, rest);
   const BitImage brief = without(taken, keepPieces(taken, {.minDiagonal = kLeastGapWidths * widthPx}, context));
   const BitImage besidePaper = grown(without(grown(body, 1, context), body), 1, context);
-  return without(brief, keepPieces(brief, {.seeds = &besidePaper}, context));
+  const BitImage enclosed = without(brief, keepPieces(brief, {.seeds = &besidePaper}, context));
+  return mostlyInk(enclosed, strokes, kLeastInkShare, context);
 }
 
 // The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
@@ -117,7 +120,7 @@ BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vec
   if (context.isCancelled()) return strokes;
   const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context);
   const BitImage carved = either(without(body, found.gaps), without(found.lines, ownPens));
-  return either(carved, grainHoles(without(std::move(body), carved), carved, width, context));
+  return either(carved, grainHoles(without(std::move(body), carved), carved, strokes, width, context));
 }
 
 // Every stroke path is placed by the rule that suits it.

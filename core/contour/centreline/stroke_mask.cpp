@@ -210,6 +210,21 @@ double grainClosing(double widthPx) {
   return kClosingWidths * widthPx + 1.0;
 }
 
+BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, const RunContext& context) {
+  const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
+  std::vector<std::int64_t> area(pieces.runs.size()), inked(pieces.runs.size());
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
+    inked[pieces.piece[i]] += countBits(ink, pieces.runs[i]);
+  }
+  BitImage kept(closed.width, closed.height);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const int piece = pieces.piece[i];
+    if (static_cast<double>(inked[piece]) >= share * static_cast<double>(area[piece])) setBits(kept, pieces.runs[i]);
+  }
+  return kept;
+}
+
 Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
   if (ink.width <= 0 || ink.height <= 0) return StrokeSplit{ink, ink};
   if (context.isCancelled()) return cancelled();

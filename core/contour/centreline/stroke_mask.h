@@ -13,4 +13,7 @@ BitImage closeInk(const BitImage& ink, double diameterPx);
 /// [px] Diameter that closes the grain of pencil strokes of this width [px].
 double grainClosing(double widthPx);
 
+/// The pieces of `closed` of which at least `share` (0..1) is `ink`.
+BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, const RunContext& context);
+
 }  // namespace batten
