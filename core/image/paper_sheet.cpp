@@ -4,125 +4,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/push_pull.h"
+#include "core/image/sheet_cells.h"
 
 namespace batten {
 namespace {
 
-constexpr int kSheetCells = 400;          // along the longer side of the picture
-constexpr double kPaperRankOfCell = 0.7;  // of the pixels of a cell by grey: ink is darker
-constexpr int kSamplesAcross = 4;         // of a cell
-constexpr float kMostStep = 7.0f;         // [grey] from cell to cell of one sheet, in brightness and in colour
-constexpr double kMostRoughness = 9.0;    // [grey] between neighbours within a cell: carpet, wood, cloth
+constexpr float kMostStep = 7.0f;       // [grey] from cell to cell of one sheet, in brightness and in colour
+constexpr double kMostRoughness = 9.0;  // [grey] between neighbours within a cell: carpet, wood, cloth
 constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
 constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
-constexpr double kLeastPatch = 0.004;     // of the picture: smaller patches at the border are ink that runs off it
-constexpr double kLeastAlongSide = 0.2;   // of a side of the picture that a patch beside the sheet takes
-constexpr double kSheetContrast = 12.0;   // [grey] of the patch against the sheet beside it
-constexpr double kSheetRimShare = 0.006;  // of the diagonal: the sheet's edge and its shadow
-constexpr double kNeckShare = 0.01;       // of the diagonal: narrower parts of the sheet are torn edges and ring holes
-
-struct SheetCells {
-  int sizePx = 1, columns = 0, rows = 0;
-  cv::Mat3f colour;  ///< Grey, red less grey, blue less grey; without ink.
-  cv::Mat1f rough;   ///< Mean difference of neighbours.
-};
-
-/// Values so few that counting those below each of them beats sorting. Behind them lie ones that none exceeds.
-struct FewValues {
-  static constexpr int kMost = 64, kHalf = kMost / 2;
-  std::array<std::int16_t, kMost> values;  ///< Less 32768.
-  int count = 0;
-
-  void clear() {
-    values.fill(std::numeric_limits<std::int16_t>::max());
-    count = 0;
-  }
-  void add(int value) { values[count++] = static_cast<std::int16_t>(value - 32768); }
-};
-
-/// The value that has `rank` smaller ones before it when sorted: the largest of those with no more than `rank` below.
-BATTEN_HOT_LOOP int valueOfRank(const FewValues& few, int rank) {
-  std::array<std::int16_t, FewValues::kMost> below{};
-  const int lanes = few.count <= FewValues::kHalf ? FewValues::kHalf : FewValues::kMost;
-  for (int j = 0; j < few.count; ++j) {
-    const std::int16_t value = few.values[j];
-    for (int i = 0; i < lanes; ++i) below[i] = static_cast<std::int16_t>(below[i] + (value < few.values[i] ? 1 : 0));
-  }
-  const auto most = static_cast<std::int16_t>(rank);
-  std::int16_t found = std::numeric_limits<std::int16_t>::min();
-  for (int i = 0; i < lanes; ++i) {
-    const std::int16_t value = below[i] <= most ? few.values[i] : std::numeric_limits<std::int16_t>::min();
-    found = value > found ? value : found;
-  }
-  return found + 32768;
-}
-
-/// Some pixels of a cell, and their differences from their neighbours at the right.
-class CellSamples {
- public:
-  void take(const GreyImage& grey, const ColourImage& colour, const cv::Rect& cell, int stride) {
-    levels_.clear();
-    steps_.clear();
-    coloured_.clear();
-    for (int y = cell.y; y < cell.y + cell.height; y += stride) {
-      const std::uint16_t* row = grey.row(y);
-      for (int x = cell.x; x < cell.x + cell.width; x += stride) {
-        levels_.add(row[x]);
-        if (!colour.isEmpty()) coloured_.emplace_back(row[x], colour.row(y)[x]);
-        if (x + 1 < grey.width) steps_.add(std::abs(row[x + 1] - row[x]));
-      }
-    }
-  }
-
-  /// Grey, red less grey and blue less grey of the paper.
-  cv::Vec3f paper() {
-    const int rank = static_cast<int>(kPaperRankOfCell * (levels_.count - 1.0));
-    if (coloured_.empty()) return {static_cast<float>(valueOfRank(levels_, rank) / GreyImage::kGreyUnit), 0.0f, 0.0f};
-    std::nth_element(coloured_.begin(), coloured_.begin() + rank, coloured_.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    const auto& [grey, colour] = coloured_[rank];
-    const auto level = static_cast<float>(grey / GreyImage::kGreyUnit);
-    return {level, static_cast<float>(colour.red) - level, static_cast<float>(colour.blue) - level};
-  }
-
-  /// [grey]
-  float roughness() const { return static_cast<float>(valueOfRank(steps_, steps_.count / 2) / GreyImage::kGreyUnit); }
-
- private:
-  FewValues levels_, steps_;
-  std::vector<std::pair<std::uint16_t, Rgb8>> coloured_;
-};
-
-SheetCells measureCellsOf(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
-  SheetCells cells;
-  cells.sizePx = std::max(2, (std::max(grey.width, grey.height) + kSheetCells - 1) / kSheetCells);
-  cells.columns = grey.width / cells.sizePx;
-  cells.rows = grey.height / cells.sizePx;
-  cells.colour.create(cells.rows, cells.columns);
-  cells.rough.create(cells.rows, cells.columns);
-  const int stride = std::max(1, cells.sizePx / kSamplesAcross);
-  static_assert(2 * kSamplesAcross * 2 * kSamplesAcross <= FewValues::kMost);  // 2 kSamplesAcross - 1 at the most
-  parallelFor(context, cells.rows, 8, [&](int begin, int end) {
-    CellSamples samples;
-    for (int j = begin; j < end; ++j) {
-      for (int i = 0; i < cells.columns; ++i) {
-        samples.take(grey, colour, cv::Rect(i * cells.sizePx, j * cells.sizePx, cells.sizePx, cells.sizePx), stride);
-        cells.colour(j, i) = samples.paper();
-        cells.rough(j, i) = samples.roughness();
-      }
-    }
-  });
-  cv::medianBlur(cells.colour, cells.colour, 3);
-  return cells;
-}
+constexpr double kLeastPatch = 0.004;    // of the picture: smaller patches at the border are ink that runs off it
+constexpr double kLeastAlongSide = 0.2;  // of a side of the picture that a patch beside the sheet takes
+constexpr double kSheetContrast = 12.0;  // [grey] of the patch against the sheet beside it
+constexpr double kDarkestOnSheet = 0.6;  // of its brightness: behind a fold or in a shadow paper is no darker
+constexpr double kSameGrain = 1.25;      // times the sheet's roughness
+constexpr double kLeastGrain = 1.5, kEqualGrain = 0.05;  // [grey] and its share: grain so much alike is of one paper
+constexpr double kLeastDrawn = 0.003, kLeastDrawnOfSheet = 0.25;  // of a patch, and of what the sheet has drawn on it
+constexpr double kLeastInkDepth = 2.0;                            // [grey]
+constexpr double kInkSigmas = 4.0;                                // of the noise
+constexpr int kLeastLineCells = 8;                                // noise makes no line of so many cells
+constexpr int kEdgeCells = 7;                                     // the sheet's edge and its shadow are of neither side
+constexpr double kSheetRimShare = 0.006;                          // of the diagonal: the sheet's edge and its shadow
+constexpr double kNeckShare = 0.01;  // of the diagonal: narrower parts of the sheet are torn edges and ring holes
 
 bool isOneSheet(const cv::Vec3f& a, const cv::Vec3f& b) {
   return std::fabs(a[0] - b[0]) <= kMostStep && std::fabs(a[1] - b[1]) <= kMostStep &&
@@ -180,9 +89,66 @@ bool isBeside(const BorderPatch& patch, const cv::Size& size) {
   return std::max(across, down) >= kLeastAlongSide;
 }
 
+/// Thin lines that are darker than what is around them, by cells.
+cv::Mat1b drawnCells(const SheetCells& cells) {
+  cv::Mat1f around;
+  cv::medianBlur(cells.dark, around, 5);
+  const cv::Mat1f depth = around - cells.dark;
+  std::vector<float> noise;
+  for (const float d : depth) noise.push_back(std::fabs(d));
+  const double least = std::max(kLeastInkDepth, kInkSigmas * kSigmaPerMad * static_cast<double>(upperMedian(noise)));
+  const cv::Mat1b dark = depth > least;
+  cv::Mat1i labels;
+  cv::Mat stats, centres;
+  cv::connectedComponentsWithStats(dark, labels, stats, centres, 8, CV_32S);
+  cv::Mat1b drawn(dark.size(), 0);
+  for (int j = 0; j < dark.rows; ++j) {
+    for (int i = 0; i < dark.cols; ++i)
+      drawn(j, i) = labels(j, i) > 0 && stats.at<int>(labels(j, i), cv::CC_STAT_AREA) >= kLeastLineCells ? 255 : 0;
+  }
+  return drawn;
+}
+
+double shareOf(const cv::Mat1b& drawn, const cv::Mat1b& within) {
+  const int all = cv::countNonZero(within);
+  return all > 0 ? static_cast<double>(cv::countNonZero(drawn & within)) / all : 0.0;
+}
+
+/// What tells the sheet itself in shade, behind a fold or in a shadow, from a table: it has the sheet's colour and
+/// grain, is not much darker, and either its grain is exactly the same or the drawing goes on upon it.
+class ShadedPaper {
+ public:
+  ShadedPaper(const cv::Mat1b& sheet, const SheetCells& cells)
+      : cells_(cells),
+        drawn_(drawnCells(cells)),
+        mean_(cv::mean(cells.colour, sheet)),
+        rough_(cv::mean(cells.rough, sheet)[0]),
+        drawnOnSheet_(shareOf(drawn_, sheet)) {
+    cv::dilate(sheet, near_, cv::getStructuringElement(cv::MORPH_RECT, {kEdgeCells, kEdgeCells}));
+  }
+  bool isOne(const cv::Mat1b& patch) const {
+    const cv::Scalar mean = cv::mean(cells_.colour, patch);
+    if (mean[0] > mean_[0] || mean[0] < kDarkestOnSheet * mean_[0]) return false;
+    for (const int k : {1, 2})
+      if (std::fabs(mean[k] - mean_[k]) > kMostStep) return false;
+    const double grain = cv::mean(cells_.rough, patch)[0] / std::max(rough_, kLeastGrain);
+    if (rough_ >= kLeastGrain && std::fabs(grain - 1.0) <= kEqualGrain) return true;
+    if (grain > kSameGrain) return false;
+    // The edge itself is of neither.
+    return shareOf(drawn_, patch & (near_ == 0)) >= std::max(kLeastDrawn, kLeastDrawnOfSheet * drawnOnSheet_);
+  }
+
+ private:
+  const SheetCells& cells_;
+  cv::Mat1b drawn_, near_;
+  cv::Scalar mean_;
+  double rough_ = 0.0, drawnOnSheet_ = 0.0;
+};
+
 /// Cells beside the sheet: patches outside it that reach a corner of the picture and run along its border. The rest
 /// outside it is ink that runs off the page, and stays.
 cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
+  std::optional<ShadedPaper> shaded;  // asked for by few pictures
   cv::Mat1i labels;
   const cv::Mat1b outside = sheet == 0;
   const int count = cv::connectedComponents(outside, labels, 8, CV_32S);
@@ -211,6 +177,8 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     // Even paper that is brighter than what it encloses: that is a drawn solid, and no dark sheet on a table.
     const bool isPaper = mean[0] >= level + kSheetContrast && roughness <= kMostRoughness;
     if (isPaper) continue;
+    if (!shaded) shaded.emplace(sheet, cells);
+    if (shaded->isOne(patch)) continue;
     const double apart =
         std::max({std::fabs(mean[0] - level), std::fabs(mean[1] - sheetMean[1]), std::fabs(mean[2] - sheetMean[2])});
     if (apart >= kSheetContrast || roughness > kMostRoughness) beside.setTo(255, patch);
@@ -269,7 +237,7 @@ constexpr double kGrainMean = 510.0, kGrainSigma = 147.8;  // of four bytes adde
 std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
   constexpr int kFewestCells = 40, kLeastCellPx = 2;
   if (std::min(grey.width, grey.height) < kFewestCells * kLeastCellPx) return std::nullopt;
-  const SheetCells cells = measureCellsOf(grey, colour, context);
+  const SheetCells cells = sheetCellsOf(grey, colour, context);
   if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
   const cv::Mat1i labels = joinCells(cells);
   std::vector<int> areas;

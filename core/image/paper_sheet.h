@@ -24,7 +24,8 @@ struct PaperSheet {
 
 /// Finds the sheet: the largest even, bright area, if what lies beside it is of another brightness, colour or texture,
 /// reaches the border of the picture at a corner of it, and leaves the sheet about convex. Absent where the paper fills
-/// the picture, and where that is doubtful: a drawing with a dark ground is no table.
+/// the picture, and where that is doubtful: a drawing with a dark ground is no table, nor is paper behind a fold or in a
+/// shadow, which is darker but has the sheet's colour and grain.
 std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
 
 /// The page with all that lies beside the sheet painted over: the paper goes on, with its grain.

@@ -10,6 +10,7 @@
 
 #include "core/image/page_preparation.h"
 #include "tests/support/colour_page.h"
+#include "tests/support/stress_page.h"
 
 namespace batten {
 namespace {
@@ -101,6 +102,15 @@ TEST(PaperSheet, ADarkSolidOnPaperIsNone) {
     return {std::pow(u, 4.0) + std::pow(v, 4.0) < 1.0 ? 40.0 : 235.0, 1.5};
   });
   EXPECT_FALSE(sheetOf(solid).has_value());
+}
+
+TEST(PaperSheet, AFoldThatDarkensPartOfADrawingIsNoEdge) {
+  for (const auto& paper : test::stressPapers(kPhotoWidth, kPhotoHeight)) {
+    for (const auto& scene : test::stressScenes(kPhotoWidth, kPhotoHeight)) {
+      const Scan scan = test::renderStress(scene.coverage, kPhotoWidth, kPhotoHeight, paper.grey, {20.0, 4.0, 0.8}, 3);
+      EXPECT_FALSE(sheetOf(scan).has_value()) << scene.name << " on " << paper.name;
+    }
+  }
 }
 
 TEST(PaperSheet, TinyPicturesHaveNone) {
