@@ -17,13 +17,16 @@ constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexpl
 constexpr double kHairWidths = 0.5;
 constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib
 constexpr int kLeastVoters = 5;
+// Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
+// them.
+constexpr double kOneLineShare = 0.75;
 
 // What the vote looks at in one piece.
 struct Voter {
   std::size_t piece = 0;
   int widthBin = 0, sizeBin = 0, meanBin = 0;  // half octaves: of the largest disc, of the piece, of the mean width
   double area = 0.0, uneven = 0.0, penPx = 0.0, widthsLong = 0.0;
-  bool isMostlyShape = false;
+  bool isMostlyShape = false, isOneLine = false;
 };
 
 // Area that one width, the pen's, leaves unexplained in the whole piece, of all.
@@ -52,12 +55,16 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
   v.area = static_cast<double>(piece.areaPx);
   v.penPx = piece.mainPenPx;
   double pathsPx = 0.0;
+  int lines = 0;
   for (const int number : piece.paths) {
     pathsPx += graph.paths()[number].lengthPx;
     // Hairs of a brush and of rough borders are no lines of a letter.
     const InkPath& s = graph.paths()[number];
-    if (s.widthPx && *s.widthPx >= kHairWidths * piece.mainPenPx) v.widthsLong += s.lengthPx / piece.mainPenPx;
+    if (!s.widthPx || *s.widthPx < kHairWidths * piece.mainPenPx) continue;
+    v.widthsLong += s.lengthPx / piece.mainPenPx;
+    ++lines;
   }
+  v.isOneLine = lines == 1;
   v.meanBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, v.area / std::max(1.0, pathsPx)))));
   // Of joined letters, what one letter has.
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
@@ -65,11 +72,12 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
 }
 
 struct Tally {
-  int voters = 0;
+  int voters = 0, oneLine = 0;
   double area = 0.0, pen = 0.0, shape = 0.0;
   std::vector<std::pair<double, double>> uneven;  // and the area
   void add(const Voter& v) {
     ++voters;
+    oneLine += v.isOneLine ? 1 : 0;
     area += v.area;
     uneven.emplace_back(v.uneven, v.area);
     pen += v.area * v.penPx;
@@ -77,6 +85,7 @@ struct Tally {
   }
   void add(const Tally& t) {
     voters += t.voters;
+    oneLine += t.oneLine;
     area += t.area;
     uneven.insert(uneven.end(), t.uneven.begin(), t.uneven.end());
     pen += t.pen;
@@ -88,7 +97,8 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
   if (t.voters < kLeastVoters || t.area <= 0.0) return {};
   // A pixel of every width counts as even (unevennessOf).
   const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
-  if (weightedMedian(t.uneven) >= limit && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
+  const bool mayBeLetters = t.oneLine < kOneLineShare * t.voters;
+  if (mayBeLetters && weightedMedian(t.uneven) >= limit && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   if (t.shape < 0.4 * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
   return {};

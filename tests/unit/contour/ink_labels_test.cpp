@@ -77,6 +77,21 @@ TEST(InkLabels, ATaperedStrokeIsAStroke) {
   EXPECT_LT(shareOfShapes(labelsOf(page.ink(3))), 0.001);
 }
 
+// Brush strokes that thin out at both ends are as uneven as letters of a broad nib, but they are no alphabet.
+TEST(InkLabels, AGroupOfTaperedStrokesIsOfStrokes) {
+  for (const double width : {5.0, 8.0}) {
+    test::LabelPage page(1000, 700);
+    page.begin(false);
+    for (int i = 0; i < 12; ++i) {
+      const auto at = [&](double widths) { return Vec2(60.0 + 75.0 * i + widths, 40.0 + widths * width); };
+      page.line(segment(at(0), at(8)), 1.0, width);
+      page.line(segment(at(8), at(16)), width);
+      page.line(segment(at(16), at(24)), width, 1.0);
+    }
+    EXPECT_LT(shareOfShapes(labelsOf(page.ink(6))), 0.001) << width;
+  }
+}
+
 TEST(InkLabels, DotsBesideLinesAreShapes) {
   test::LabelPage page(400, 200);
   page.begin(false);
