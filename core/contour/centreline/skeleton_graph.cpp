@@ -13,6 +13,9 @@ namespace batten {
 namespace {
 
 constexpr double kSharedWidth = 1.1;       // of a single stroke
+constexpr double kTwoStrokesWidth = 1.4;   // of a single stroke: between 1 where two cross and 2 where they part
+constexpr double kTouchingShare = 1.5;     // how much longer than lines that cross do those that touch lie together
+constexpr double kCrossingLegs = 1.5;      // of what they share: shorter legs are those of a bundle
 constexpr double kFatCorner = 1.15;        // of the usual radius: the ink inside an acute corner is fatter
 constexpr double kCornerSpur = 5.0 / 3.0;  // of a spur: so much longer is the branch to the tip of an acute corner
 constexpr double kWidestTip = 2.5;         // of the usual radius: two strokes side by side, and no blot
@@ -312,12 +315,21 @@ double SkeletonGraph::meanRadius(int edge) const {
 // link is no such place.
 double SkeletonGraph::sharedLength(int link) const {
   const SkeletonEdge& l = edges_[link];
-  const double width = 2.0 * medianRadius_;
   double angle = 0.0, others = 0.0;
+  bool isFree = true;
   for (int side = 0; side < 2; ++side) {
     const SkeletonNode& n = nodes_[*l.node[side]];
     if (n.ends.size() != 3) return 0.0;
-    for (const int end : n.ends) others += end / 2 == link ? 0.0 : 0.25 * meanRadius(end / 2);
+    for (const int end : n.ends) {
+      if (end / 2 == link) continue;
+      others += 0.25 * meanRadius(end / 2);
+      isFree = isFree && edges_[end / 2].length >= kCrossingLegs * l.length;
+    }
+  }
+  // Of strokes that cross alone, from border to border: the middle of an even number of pixels lies half a pixel off.
+  const double width = isFree ? 2.0 * others + 1.0 : 2.0 * medianRadius_;
+  for (int side = 0; side < 2; ++side) {
+    const SkeletonNode& n = nodes_[*l.node[side]];
     const double reach = kLeavingWidths * width + n.radius;
     Vec2 inward = Vec2::Zero(), out[2];
     int k = 0;
@@ -335,7 +347,8 @@ double SkeletonGraph::sharedLength(int link) const {
   // Two strokes that part on either side are wider than one; a line between two things that hang on it is not.
   if (meanRadius(link) < kSharedWidth * others) return 0.0;
   constexpr double kLeast = 0.2, kMost = 1.05;  // 12 and 60 degrees
-  return angle > kMost ? 0.0 : 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
+  const double touching = isFree && meanRadius(link) >= kTwoStrokesWidth * others ? kTouchingShare : 1.0;
+  return angle > kMost ? 0.0 : touching * 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
 }
 
 // Whether one disc not much larger than theirs holds these nodes: else they are a small drawing and no crossing.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/statistics.h"
+#include "core/contour/centreline/junction_pairing.h"
 #include "core/contour/centreline/skeleton_graph.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
@@ -13,32 +14,15 @@
 namespace batten {
 namespace {
 
-constexpr double kTrimRadii = 1.1;         // [radii of the junction] beyond its disc a stroke has its own middle
-constexpr double kTangentRadii = 8.0;      // [half stroke widths] over which the direction of an end is taken,
-constexpr double kLeastTangentPx = 8.0;    // and of thin strokes
-constexpr double kMissPerWidthDeg = 20.0;  // what a stroke that goes on a width aside costs, against a bend
-constexpr double kLeastLastStepPx = 0.3;   // a shorter last step is left out
-constexpr double kForwardCos = 0.2;        // 78 degrees: a direction that points away by more looks back
-
-// How one end of an edge meets its node.
-struct MeetingEnd {
-  int first = 0;  ///< Index from that end of the first point outside the junction's disc.
-  Vec2 at = Vec2::Zero();
-  Vec2 out = Vec2::Zero();     ///< Unit direction away from the node there.
-  std::optional<int> partner;  ///< The end this one goes on with.
-};
+constexpr double kLeastLastStepPx = 0.3;  // a shorter last step is left out
+constexpr double kForwardCos = 0.2;       // 78 degrees: a direction that points away by more looks back
 
 class StrokePathMaker {
  public:
   StrokePathMaker(const SkeletonGraph& graph, double maxBendDeg)
-      : graph_(graph), maxBendDeg_(maxBendDeg), ends_(2 * graph.edges().size()) {}
+      : graph_(graph), maxBendDeg_(maxBendDeg), ends_(2 * graph.edges().size()), partner_(2 * graph.edges().size()) {}
 
   std::vector<StrokePath> make() {
-    for (const SkeletonNode& node : graph_.nodes()) {
-      for (const int end : node.ends) {
-        if (node.ends.size() > 1) measure(end, node);
-      }
-    }
     for (const SkeletonNode& node : graph_.nodes()) pair(node);
     std::vector<StrokePath> paths;
     std::vector<bool> used(graph_.edges().size(), false);
@@ -47,7 +31,7 @@ class StrokePathMaker {
         if (!graph_.edges()[edge].alive || used[edge]) continue;
         for (int side = 0; side < 2; ++side) {
           // First the stroke paths that begin somewhere, then the closed ones.
-          if (used[edge] || (pass == 0 && (edge_(edge).ring || ends_[2 * edge + side].partner))) continue;
+          if (used[edge] || (pass == 0 && (edge_(edge).ring || partner_[2 * edge + side]))) continue;
           paths.push_back(follow(2 * edge + side, used));
         }
       }
@@ -62,57 +46,18 @@ class StrokePathMaker {
     return p[end % 2 == 0 ? k : std::ssize(p) - 1 - k];
   }
 
-  void measure(int end, const SkeletonNode& node) {
-    MeetingEnd& e = ends_[end];
-    const int n = static_cast<int>(edge_(end / 2).points.size());
-    const double trim = kTrimRadii * node.radius;
-    const double reach = std::max(kLeastTangentPx, kTangentRadii * graph_.medianRadius());
-    while (e.first < n - 1 && (point(end, e.first).at - node.centre).norm() < trim) ++e.first;
-    // An edge that hardly leaves the disc keeps its far half.
-    if (e.first == n - 1) e.first = n / 2;
-    std::vector<double> s;
-    std::vector<Vec2> at;
-    double arc = 0.0;
-    for (int k = e.first; k < n && arc <= reach; ++k) {
-      if (k > e.first) arc += (point(end, k).at - point(end, k - 1).at).norm();
-      s.push_back(arc);
-      at.push_back(point(end, k).at);
-    }
-    const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, arc >= 0.5 * reach ? 2 : 1);
-    Vec2 out = fit.order >= 1 ? fit.r1 : Vec2(point(end, e.first).at - node.centre);
-    if (!(out.norm() > 0.0)) out = Vec2::UnitX();
-    e.out = out / out.norm();
-    e.at = fit.order >= 1 ? fit.r0 : point(end, e.first).at;
-  }
-
-  // [deg] Of going from one end to another; nothing where a stroke does not.
-  std::optional<double> cost(int a, int b, double radius) const {
-    const MeetingEnd &p = ends_[a], &q = ends_[b];
-    const double bend = turnDeg(-p.out, q.out);
-    if (bend > maxBendDeg_) return std::nullopt;
-    const Vec2 d = q.at - p.at;
-    const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
-    return bend + kMissPerWidthDeg * miss / std::max({2.0 * graph_.medianRadius(), 2.0 * radius, 1.0});
-  }
-
   void pair(const SkeletonNode& node) {
     if (node.ends.size() < 2) return;
-    struct Option {
-      double cost;
-      int a, b;
-    };
-    std::vector<Option> options;
-    for (int i = 0; i < std::ssize(node.ends); ++i) {
-      for (int j = i + 1; j < std::ssize(node.ends); ++j) {
-        if (const auto c = cost(node.ends[i], node.ends[j], node.radius))
-          options.push_back({*c, node.ends[i], node.ends[j]});
-      }
+    std::vector<EndPoints> points;
+    for (const int end : node.ends) {
+      points.push_back(edge_(end / 2).points);
+      if (end % 2 == 1) std::reverse(points.back().begin(), points.back().end());
     }
-    std::stable_sort(options.begin(), options.end(), [](const Option& x, const Option& y) { return x.cost < y.cost; });
-    for (const Option& o : options) {
-      if (ends_[o.a].partner || ends_[o.b].partner) continue;
-      ends_[o.a].partner = o.b;
-      ends_[o.b].partner = o.a;
+    const std::vector<MeetingEnd> meeting = measureEnds(points, node, graph_.medianRadius());
+    for (int i = 0; i < std::ssize(meeting); ++i) ends_[node.ends[i]] = meeting[i];
+    for (const auto& [a, b] : pairEnds(meeting, node.radius, graph_.medianRadius(), maxBendDeg_)) {
+      partner_[node.ends[a]] = node.ends[b];
+      partner_[node.ends[b]] = node.ends[a];
     }
   }
 
@@ -168,7 +113,7 @@ class StrokePathMaker {
       path.points = edge_(start / 2).points;
       return path;
     }
-    if (!ends_[start].partner && junctionAt(start)) {
+    if (!partner_[start] && junctionAt(start)) {
       path.tip[0] = false;
       StrokePath lead;
       lead.points.push_back(point(start, ends_[start].first));
@@ -179,7 +124,7 @@ class StrokePathMaker {
       used[end / 2] = true;
       appendEdge(end, path);
       const int far = end ^ 1;
-      const std::optional<int> next = ends_[far].partner;
+      const std::optional<int> next = partner_[far];
       if (!next) {
         path.tip[1] = junctionAt(far) == nullptr;
         if (!path.tip[1]) appendThrough(far, std::nullopt, path);
@@ -196,7 +141,8 @@ class StrokePathMaker {
 
   const SkeletonGraph& graph_;
   double maxBendDeg_;
-  std::vector<MeetingEnd> ends_;
+  std::vector<MeetingEnd> ends_;             // per end of an edge
+  std::vector<std::optional<int>> partner_;  // the end that an end goes on with
 };
 
 }  // namespace

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/junction_pairing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/base/statistics.h"
+#include "core/contour/merge/stroke_lines.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kTrimRadii = 1.1;           // [radii of the junction] beyond its disc a stroke has its own middle
+constexpr double kTangentRadii = 8.0;        // [half stroke widths] over which the direction of an end is taken,
+constexpr double kLeastTangentPx = 8.0;      // and of thin strokes
+constexpr double kForkCos = 0.64;            // 50 degrees: two ends side by side
+constexpr double kFatRadius = 1.15;          // of the usual half-width of the edge, and a quarter of a pixel
+constexpr double kFatReach = 6.0;            // [half-widths] that two strokes share at most: they part at 20 degrees
+constexpr double kMissPerWidthDeg = 20.0;    // what a stroke that goes on a width aside costs, against a bend
+constexpr double kWidthPerOctaveDeg = 40.0;  // and one whose width changes to the double
+constexpr int kMostEnds = 10;                // of a junction that is looked at as a whole: 9496 ways to pair them
+
+struct PairCost {
+  int a = 0, b = 0;
+  double gain = 0.0;  // [deg^2] against leaving both alone
+};
+
+// [deg] Of going from one end to another; nothing where a stroke does not.
+std::optional<double> costOf(const MeetingEnd& p, const MeetingEnd& q, double nodeRadius, double usualRadius,
+                             double maxBendDeg) {
+  const double bend = turnDeg(-p.out, q.out);
+  if (bend > maxBendDeg) return std::nullopt;
+  const Vec2 d = q.at - p.at;
+  const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
+  // A pixel more or less says nothing about a width.
+  const double octaves = std::max(0.0, std::abs(std::log2(p.radius / q.radius)) - 0.5 / std::min(p.radius, q.radius));
+  return bend + kMissPerWidthDeg * miss / std::max({2.0 * usualRadius, 2.0 * nodeRadius, 1.0}) +
+         kWidthPerOctaveDeg * octaves;
+}
+
+// The pairs of the greatest sum of gains, tried one end after the other.
+class BestPairs {
+ public:
+  BestPairs(int ends, const std::vector<PairCost>& costs) : gain_(ends, std::vector<double>(ends, 0.0)), used_(ends) {
+    for (const PairCost& c : costs) gain_[c.a][c.b] = c.gain;
+  }
+  std::vector<std::pair<int, int>> find() {
+    tryFrom(0, 0.0);
+    return best_;
+  }
+
+ private:
+  void tryFrom(int a, double sum) {
+    const int n = static_cast<int>(used_.size());
+    while (a < n && used_[a]) ++a;
+    if (a == n) {
+      if (sum <= bestSum_) return;
+      bestSum_ = sum;
+      best_ = now_;
+      return;
+    }
+    for (int b = a + 1; b < n; ++b) {
+      if (used_[b] || !(gain_[a][b] > 0.0)) continue;
+      used_[b] = true;
+      now_.emplace_back(a, b);
+      tryFrom(a + 1, sum + gain_[a][b]);
+      now_.pop_back();
+      used_[b] = false;
+    }
+    tryFrom(a + 1, sum);
+  }
+
+  std::vector<std::vector<double>> gain_;  // [a][b], a < b; 0 = no stroke goes that way
+  std::vector<bool> used_;
+  std::vector<std::pair<int, int>> now_, best_;
+  double bestSum_ = 0.0;
+};
+
+std::vector<std::pair<int, int>> greedyPairs(int ends, std::vector<PairCost> costs) {
+  std::stable_sort(costs.begin(), costs.end(), [](const PairCost& x, const PairCost& y) { return x.gain > y.gain; });
+  std::vector<bool> used(ends, false);
+  std::vector<std::pair<int, int>> pairs;
+  for (const PairCost& c : costs) {
+    if (used[c.a] || used[c.b]) continue;
+    used[c.a] = used[c.b] = true;
+    pairs.emplace_back(c.a, c.b);
+  }
+  return pairs;
+}
+
+// The first point from `first` on where the stroke is as wide as usual; `first`, where it is nowhere.
+int withoutFatInk(const EndPoints& points, int first) {
+  std::vector<float> radii;
+  for (int k = first; k < std::ssize(points); ++k) radii.push_back(points[k].radius);
+  const double usual = static_cast<double>(upperMedian(radii));
+  double arc = 0.0;
+  for (int k = first; k < std::ssize(points) && arc <= kFatReach * usual; ++k) {
+    if (static_cast<double>(points[k].radius) <= kFatRadius * usual + 0.25) return k;
+    if (k + 1 < std::ssize(points)) arc += (points[k + 1].at - points[k].at).norm();
+  }
+  return first;
+}
+
+MeetingEnd measureFrom(int first, const EndPoints& points, const SkeletonNode& node, double usualRadius) {
+  MeetingEnd e;
+  const int n = static_cast<int>(points.size());
+  // An edge that hardly leaves the disc keeps its far half.
+  e.first = first == n - 1 ? n / 2 : first;
+  const double reach = std::max(kLeastTangentPx, kTangentRadii * usualRadius);
+  std::vector<double> s;
+  std::vector<Vec2> at;
+  std::vector<float> radii;
+  double arc = 0.0;
+  for (int k = e.first; k < n && arc <= reach; ++k) {
+    if (k > e.first) arc += (points[k].at - points[k - 1].at).norm();
+    s.push_back(arc);
+    at.push_back(points[k].at);
+    radii.push_back(points[k].radius);
+  }
+  if (!radii.empty()) e.radius = std::max(0.5, static_cast<double>(upperMedian(radii)));
+  const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, arc >= 0.5 * reach ? 2 : 1);
+  Vec2 out = fit.order >= 1 ? fit.r1 : Vec2(points[e.first].at - node.centre);
+  if (!(out.norm() > 0.0)) out = Vec2::UnitX();
+  e.out = out / out.norm();
+  e.at = fit.order >= 1 ? fit.r0 : points[e.first].at;
+  return e;
+}
+
+}  // namespace
+
+std::vector<MeetingEnd> measureEnds(std::span<const EndPoints> points, const SkeletonNode& node, double usualRadius) {
+  std::vector<MeetingEnd> ends;
+  for (const EndPoints& p : points) {
+    int first = 0;
+    while (first < std::ssize(p) - 1 && (p[first].at - node.centre).norm() < kTrimRadii * node.radius) ++first;
+    ends.push_back(measureFrom(first, p, node, usualRadius));
+  }
+  if (ends.size() != 3) return ends;
+  const std::array<Vec2, 3> out = {ends[0].out, ends[1].out, ends[2].out};
+  for (int i = 0; i < 3; ++i) {
+    if (out[(i + 1) % 3].dot(out[(i + 2) % 3]) > kForkCos)
+      ends[i] = measureFrom(withoutFatInk(points[i], ends[i].first), points[i], node, usualRadius);
+  }
+  return ends;
+}
+
+std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, double nodeRadius, double usualRadius,
+                                          double maxBendDeg) {
+  const int n = static_cast<int>(ends.size());
+  std::vector<PairCost> costs;
+  // Whatever may go on does: the worst two pairs are better than one good one.
+  const double worst = maxBendDeg + 4.0 * kMissPerWidthDeg + 4.0 * kWidthPerOctaveDeg;
+  for (int a = 0; a < n; ++a) {
+    for (int b = a + 1; b < n; ++b) {
+      const auto cost = costOf(ends[a], ends[b], nodeRadius, usualRadius, maxBendDeg);
+      if (!cost) continue;
+      costs.push_back({a, b, std::max(1.0, worst * worst - *cost * *cost)});
+    }
+  }
+  return n <= kMostEnds ? BestPairs(n, costs).find() : greedyPairs(n, std::move(costs));
+}
+
+}  // namespace batten

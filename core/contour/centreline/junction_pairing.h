@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/vec2.h"
+#include "core/contour/centreline/skeleton_graph.h"
+
+namespace batten {
+
+/// How one end of an edge meets its junction.
+struct MeetingEnd {
+  int first = 0;            ///< Index, counted from the junction, of the first point with a middle of its own.
+  Vec2 at = Vec2::Zero();   ///< [px] the course there.
+  Vec2 out = Vec2::Zero();  ///< Unit direction away from the junction there.
+  double radius = 0.5;      ///< [px] usual half-width beyond it.
+};
+
+/// Points of an edge, the junction's first.
+using EndPoints = std::vector<StrokePathPoint>;
+
+/// The ends of a junction, as `points` come to it. Where two of three ends leave it side by side, the third begins
+/// beyond the ink that is wider than usual: two strokes share it, and its middle is that of neither.
+/// @param usualRadius [px] of the strokes of the page.
+std::vector<MeetingEnd> measureEnds(std::span<const EndPoints> points, const SkeletonNode& node, double usualRadius);
+
+/// Which ends of a junction are one stroke: over all of it at once, by their bend, by how far one lies aside of the
+/// other's course, and by how alike their widths are. An end that bends to every other by more than `maxBendDeg` stays
+/// alone.
+/// @param nodeRadius [px] of the junction's disc.
+/// @return pairs of indices into `ends`, the lower one first.
+std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, double nodeRadius, double usualRadius,
+                                          double maxBendDeg);
+
+}  // namespace batten

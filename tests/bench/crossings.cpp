@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lines that cross, meet at shallow angles and branch off: how many are found whole, and how often a found line passes
+// from one drawn line to another.
+//
+//   bench_crossings [--seeds N]
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/pipeline/run/pipeline.h"
+#include "tests/support/dense_page.h"
+
+using namespace batten;
+using namespace batten::test;
+
+namespace {
+
+using Line = std::vector<Vec2>;
+constexpr int kWidth = 900, kHeight = 700;
+constexpr double kMarginPx = 30.0;
+
+struct Drawn {
+  Line points;
+  double widthPx = 4.0;
+};
+
+bool isOnPage(const Line& line) {
+  return std::all_of(line.begin(), line.end(), [](const Vec2& p) {
+    return p.x() > kMarginPx && p.y() > kMarginPx && p.x() < kWidth - kMarginPx && p.y() < kHeight - kMarginPx;
+  });
+}
+
+// An arc whose curvature changes evenly along it, through `at`; points 1 px apart.
+Line clothoid(const Vec2& at, double angle, double length, double curvature, double slope) {
+  Line line;
+  for (const double side : {-1.0, 1.0}) {
+    Vec2 p = at;
+    double direction = angle;
+    Line half;
+    for (double s = 0.0; s < 0.5 * length; s += 1.0) {
+      half.push_back(p);
+      const double k = curvature + slope * side * s;
+      p += side * Vec2(std::cos(direction), std::sin(direction));
+      direction += side * k;
+    }
+    if (side < 0.0) {
+      line.assign(half.rbegin(), half.rend() - 1);
+    } else {
+      line.insert(line.end(), half.begin(), half.end());
+    }
+  }
+  return line;
+}
+
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : generator_(seed) {}
+  double between(double a, double b) { return std::uniform_real_distribution<double>(a, b)(generator_); }
+
+ private:
+  std::mt19937 generator_;
+};
+
+Line anyLine(Random& random) {
+  for (;;) {
+    const double curvature = random.between(-1.0, 1.0) / 200.0;
+    const double length = random.between(250.0, 520.0);
+    Line line =
+        clothoid({random.between(0.0, kWidth), random.between(0.0, kHeight)}, random.between(0.0, std::numbers::pi),
+                 length, curvature, random.between(-1.0, 1.0) / 200.0 / length);
+    if (isOnPage(line)) return line;
+  }
+}
+
+struct Kind {
+  std::string name;
+  std::vector<double> widthsPx;  // in turn
+  double leastDeg = 0.0, mostDeg = 90.0;
+  bool isBranch = false;  // the second line of a pair begins on the first one
+};
+
+Vec2 directionAt(const Line& line, std::size_t i) {
+  const Vec2 d = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+  return d / d.norm();
+}
+
+// Pairs of lines that meet in their middles under an angle of the kind, pairs apart from one another.
+std::vector<Drawn> pairsOf(const Kind& kind, Random& random) {
+  std::vector<Drawn> drawn;
+  for (int tries = 0; tries < 400 && drawn.size() < 8; ++tries) {
+    const Line first = anyLine(random);
+    const std::size_t middle = first.size() / 2;
+    const Vec2 d = directionAt(first, middle);
+    const double turn = random.between(kind.leastDeg, kind.mostDeg) * std::numbers::pi / 180.0;
+    const double angle = std::atan2(d.y(), d.x()) + (random.between(0.0, 1.0) < 0.5 ? turn : -turn);
+    Line second = clothoid(first[middle], angle, random.between(250.0, 450.0), random.between(-1.0, 1.0) / 250.0, 0.0);
+    if (kind.isBranch) second.erase(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2));
+    if (!isOnPage(second)) continue;
+    const auto isNear = [](const Line& a, const Line& b) {
+      for (std::size_t i = 0; i < a.size(); i += 5) {
+        for (std::size_t k = 0; k < b.size(); k += 5) {
+          if ((a[i] - b[k]).norm() < 40.0) return true;
+        }
+      }
+      return false;
+    };
+    if (std::any_of(drawn.begin(), drawn.end(),
+                    [&](const Drawn& other) { return isNear(other.points, first) || isNear(other.points, second); }))
+      continue;
+    drawn.push_back({first, kind.widthsPx[0]});
+    drawn.push_back({second, kind.widthsPx.back()});
+  }
+  return drawn;
+}
+
+std::vector<Line> tracedOn(const Scan& scan) {
+  StageCache cache;
+  PipelineRequest request;
+  request.upTo = StageId::Contours;
+  request.needEdges = false;
+  const PipelineOutput out = runPipeline(scan, Recipe{}, cache, request, {});
+  std::vector<Line> lines;
+  if (!out.contours) return lines;
+  for (const Contour& c : out.contours->contours) {
+    lines.push_back(positionsOf(c.points));
+    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front().at);
+  }
+  return lines;
+}
+
+DenseScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed) {
+  std::vector<float> cover(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
+  std::vector<Line> truth;
+  double widest = 0.0;
+  for (const Drawn& d : drawn) {
+    const std::vector<float> one = coverageOf({d.points}, d.widthPx, kWidth, kHeight);
+    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
+    truth.push_back(d.points);
+    widest = std::max(widest, d.widthPx);
+  }
+  return scoreDense(truth, tracedOn(scanOfLines(std::move(cover), kWidth, kHeight, seed)), widest, 3.0 * widest);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int seeds = 6;
+  for (int i = 1; i + 1 < argc; ++i) {
+    if (std::string(argv[i]) == "--seeds") seeds = std::max(1, std::atoi(argv[i + 1]));
+  }
+  std::vector<Kind> kinds;
+  for (const auto& [widths, name] : {std::pair<std::vector<double>, std::string>{{4.0}, "4 and 4 px"},
+                                     {{8.0}, "8 and 8 px"},
+                                     {{3.0, 8.0}, "3 and 8 px"}}) {
+    for (const double angle : {10.0, 20.0, 35.0, 60.0})
+      kinds.push_back({"crossing, " + name, widths, angle, angle + 10.0, false});
+    for (const double angle : {15.0, 30.0, 60.0})
+      kinds.push_back({"branch, " + name, {widths.rbegin(), widths.rend()}, angle, angle + 15.0, true});
+  }
+  std::printf("%-24s %10s %14s %8s %8s %8s\n", "", "angle", "whole", "pieces", "lost", "switches");
+  DenseScore all;
+  for (const Kind& kind : kinds) {
+    DenseScore sum;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      Random random(static_cast<std::uint32_t>(seed));
+      const DenseScore s = scoreOf(pairsOf(kind, random), static_cast<std::uint32_t>(seed));
+      for (DenseScore* to : {&sum, &all}) {
+        to->drawn += s.drawn;
+        to->whole += s.whole;
+        to->inPieces += s.inPieces;
+        to->bridges += s.bridges;
+      }
+    }
+    std::printf("%-24s %4.0f to %2.0f %6d of %4d %8d %8d %8d\n", kind.name.c_str(), kind.leastDeg, kind.mostDeg,
+                sum.whole, sum.drawn, sum.inPieces, sum.drawn - sum.whole - sum.inPieces, sum.bridges);
+    std::fflush(stdout);
+  }
+  std::printf("%-24s %10s %6d of %4d %8d %8d %8d\n", "all", "", all.whole, all.drawn, all.inPieces,
+              all.drawn - all.whole - all.inPieces, all.bridges);
+  return 0;
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which ends of a junction are one stroke: against junctions made of lines that are known.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/contour/centreline/centreline.h"
+#include "core/contour/centreline/junction_pairing.h"
+#include "tests/support/dense_page.h"
+
+namespace batten {
+namespace {
+
+using Pairs = std::vector<std::pair<int, int>>;
+constexpr double kNodeRadius = 4.0, kUsualRadius = 2.0, kMostBendDeg = 40.0;
+
+// An end that leaves the junction at the origin in this direction, `aside` px to its left.
+MeetingEnd endTowards(double angleDeg, double radius = kUsualRadius, double aside = 0.0) {
+  const double angle = angleDeg * std::numbers::pi / 180.0;
+  const Vec2 out(std::cos(angle), std::sin(angle));
+  return {0, kNodeRadius * out + aside * Vec2(-out.y(), out.x()), out, radius};
+}
+
+Pairs pairsOf(const std::vector<MeetingEnd>& ends) { return pairEnds(ends, kNodeRadius, kUsualRadius, kMostBendDeg); }
+
+TEST(JunctionPairing, StrokesThatCrossGoStraightOn) {
+  EXPECT_THAT(pairsOf({endTowards(0), endTowards(25), endTowards(180), endTowards(205)}),
+              testing::UnorderedElementsAre(std::pair(0, 2), std::pair(1, 3)));
+}
+
+TEST(JunctionPairing, ThickGoesOnWithThick) {
+  // Two Y of equal bends: what is as wide decides.
+  EXPECT_EQ(pairsOf({endTowards(180, 5.0), endTowards(-12, 2.0), endTowards(12, 5.0)}), Pairs({{0, 2}}));
+  EXPECT_EQ(pairsOf({endTowards(180, 2.0), endTowards(-12, 2.0), endTowards(12, 5.0)}), Pairs({{0, 1}}));
+}
+
+TEST(JunctionPairing, TheWholeJunctionIsLookedAt) {
+  // 0 goes straight on to 2, but then 1 and 3, which bend by 38 degrees, would remain; by turns of 16 and 22 both go
+  // on.
+  const std::vector<MeetingEnd> ends = {endTowards(0), endTowards(22), endTowards(180), endTowards(164)};
+  EXPECT_THAT(pairsOf(ends), testing::UnorderedElementsAre(std::pair(0, 3), std::pair(1, 2)));
+}
+
+TEST(JunctionPairing, AnEndThatMeetsNoneStaysAlone) {
+  EXPECT_EQ(pairsOf({endTowards(0), endTowards(90), endTowards(180)}), Pairs({{0, 2}}));
+  EXPECT_TRUE(pairsOf({endTowards(0), endTowards(90)}).empty());
+  EXPECT_TRUE(pairsOf({endTowards(0)}).empty());
+  EXPECT_TRUE(pairsOf({}).empty());
+}
+
+TEST(JunctionPairing, ManyEndsArePairedToo) {
+  std::vector<MeetingEnd> ends;
+  for (int i = 0; i < 16; ++i) ends.push_back(endTowards(22.5 * i));
+  const Pairs pairs = pairsOf(ends);
+  EXPECT_EQ(pairs.size(), 8u);
+  for (const auto& [a, b] : pairs) EXPECT_EQ(b - a, 8);
+}
+
+// Straight lines of 4 px that cross, or branch off, at a small angle: every one is found as one line.
+TEST(JunctionPairing, LinesAtSmallAnglesAreWhole) {
+  constexpr int kWidth = 640, kHeight = 480;
+  for (const double angleDeg : {20.0, 26.0, 32.0, 40.0}) {
+    for (const double firstDeg : {4.0, 37.0, 81.0}) {
+      std::vector<std::vector<Vec2>> lines = test::hatchLines({320, 240}, firstDeg, 1, 1.0, 360.0, 0.0);
+      lines.push_back(test::hatchLines({320, 240}, firstDeg + angleDeg, 1, 1.0, 360.0, 0.0).front());
+      const Scan scan = test::scanOfLines(test::coverageOf(lines, 4.0, kWidth, kHeight), kWidth, kHeight, 3);
+      BitImage ink(kWidth, kHeight);
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
+      const auto set = centrelines(ink, scan.grey, {}, {});
+      ASSERT_TRUE(set);
+      std::vector<std::vector<Vec2>> found;
+      for (const Contour& c : set->contours) found.push_back(positionsOf(c.points));
+      const test::DenseScore score = test::scoreDense(lines, found, 4.0, 12.0);
+      EXPECT_EQ(score.whole, 2) << angleDeg << " degrees at " << firstDeg;
+      EXPECT_EQ(score.bridges, 0) << angleDeg << " degrees at " << firstDeg;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace batten
