@@ -52,7 +52,7 @@ BATTEN_HOT_LOOP void blendSamples(const SamplesAcross& s, int count, float* __re
 }
 
 // Whether all pixels around the samples of a profile lie on the page. Each coordinate only rises or only falls.
-bool isWithin(const GreyImage& grey, const Vec2& at, const Vec2& normal, int half) {
+bool staysOnPage(const GreyImage& grey, const Vec2& at, const Vec2& normal, int half) {
   const double reach = half * kStrokeStepPx;
   for (const double u : {-reach, reach}) {
     const double fx = at.x() + u * normal.x() - 0.5, fy = at.y() + u * normal.y() - 0.5;
@@ -97,7 +97,7 @@ BATTEN_HOT_LOOP void smoothInside(const float* p, int count, float* __restrict o
 
 void sampleAcross(const GreyImage& grey, const Vec2& at, const Vec2& normal, int half, float* out) {
   const int samples = 2 * half + 1;
-  if (!isWithin(grey, at, normal, half)) {
+  if (!staysOnPage(grey, at, normal, half)) {
     for (int k = 0; k < samples; ++k) {
       const double u = (k - half) * kStrokeStepPx;
       out[k] = sampleGrey(grey, at.x() + u * normal.x(), at.y() + u * normal.y());
