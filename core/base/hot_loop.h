@@ -10,3 +10,11 @@
 #else
 #define BATTEN_HOT_LOOP
 #endif
+
+/// BATTEN_UNROLL: before a short loop of known length, which is then written out, so that the loop around it can be
+/// turned into one of vectors.
+#if defined(__GNUC__) && !defined(__clang__)
+#define BATTEN_UNROLL _Pragma("GCC unroll 16")
+#else
+#define BATTEN_UNROLL
+#endif

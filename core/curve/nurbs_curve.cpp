@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace batten {
@@ -12,6 +13,8 @@ namespace batten {
 namespace {
 
 constexpr int kMaxOrder = 4;
+constexpr int kAnyDegree = 0;
+constexpr int kQuinticBasis = 5;  // nearly all curves
 
 /// A parameter on a span of a knot vector.
 struct PlaceOnKnots {
@@ -22,10 +25,14 @@ struct PlaceOnKnots {
 };
 
 /// Values of the degree + 1 basis functions of a span, Piegl & Tiller A2.2. `values` holds 8 numbers. Tells
-/// `difference` (row, column, knot difference) and `column` (number, its values) what the derivatives need.
-template <class Difference, class Column>
+/// `difference` (row, column, knot difference) and `column` (number, its values) what the derivatives need. kDegree: of
+/// the place, where the compiler knows it, so that all loops are unrolled; else kAnyDegree.
+template <int kDegree, class Difference, class Column>
 void basisTriangle(const PlaceOnKnots& place, double* values, const Difference& difference, const Column& column) {
-  const auto [degree, knots, span, u] = place;
+  const int degree = kDegree == kAnyDegree ? place.degree : kDegree;
+  const double* knots = place.knots;
+  const int span = place.span;
+  const double u = place.u;
   std::array<double, kMaxDegree + 1> left, right;
   values[0] = 1.0;
   column(0, values);
@@ -48,12 +55,59 @@ void basisTriangle(const PlaceOnKnots& place, double* values, const Difference& 
 }
 
 void basisValues(int degree, const double* knots, int span, double u, double* values) {
-  basisTriangle(
-      {degree, knots, span, u}, values, [](int, int, double) {}, [](int, const double*) {});
+  const auto run = [&](auto known) {
+    basisTriangle<known()>(
+        {degree, knots, span, u}, values, [](int, int, double) {}, [](int, const double*) {});
+  };
+  if (degree == kQuinticBasis) return run(std::integral_constant<int, kQuinticBasis>());
+  run(std::integral_constant<int, kAnyDegree>());
+}
+
+/// Knot differences below the diagonal, values on it and above.
+using BasisTriangle = double[kMaxDegree + 1][kMaxDegree + 1];
+
+/// basisDerivatives() for a degree and an order that the compiler knows: derivative k of function r.
+template <int kDegree, int kRow, int kStep>
+void derivativeStep(const BasisTriangle& ndu, double (&a)[2][kMaxDegree + 1], BasisRow& row) {
+  constexpr int kNow = (kStep + 1) % 2, kNext = kStep % 2, kBefore = kRow - kStep, kLower = kDegree - kStep;
+  double d = 0.0;
+  if constexpr (kRow >= kStep) {
+    a[kNext][0] = a[kNow][0] / ndu[kLower + 1][kBefore];
+    d = a[kNext][0] * ndu[kBefore][kLower];
+  }
+  constexpr int kFrom = kBefore >= -1 ? 1 : -kBefore, kTo = kRow - 1 <= kLower ? kStep - 1 : kDegree - kRow;
+  for (int j = kFrom; j <= kTo; ++j) {
+    a[kNext][j] = (a[kNow][j] - a[kNow][j - 1]) / ndu[kLower + 1][kBefore + j];
+    d += a[kNext][j] * ndu[kBefore + j][kLower];
+  }
+  if constexpr (kRow <= kLower) {
+    a[kNext][kStep] = -a[kNow][kStep - 1] / ndu[kLower + 1][kRow];
+    d += a[kNext][kStep] * ndu[kRow][kLower];
+  }
+  row.values[kStep][kRow] = d;
+}
+
+template <int kDegree, int kOrder>
+void knownDerivatives(const BasisTriangle& ndu, BasisRow& row) {
+  const auto function = [&]<int kRow, int... kSteps>(std::integral_constant<int, kRow>,
+                                                     std::integer_sequence<int, kSteps...>) {
+    double a[2][kMaxDegree + 1];
+    a[0][0] = 1.0;
+    (derivativeStep<kDegree, kRow, kSteps + 1>(ndu, a, row), ...);
+  };
+  [&]<int... kRows>(std::integer_sequence<int, kRows...>) {
+    (function(std::integral_constant<int, kRows>(), std::make_integer_sequence<int, kOrder>()), ...);
+  }
+  (std::make_integer_sequence<int, kDegree + 1>());
+  double factor = kDegree;
+  for (int k = 1; k <= kOrder; ++k) {
+    for (int j = 0; j <= kDegree; ++j) row.values[k][j] *= factor;
+    factor *= kDegree - k;
+  }
 }
 
 /// Derivatives of the basis functions from the triangle of knot differences and values, Piegl & Tiller A2.3.
-void basisDerivatives(int degree, const double (&ndu)[kMaxDegree + 1][kMaxDegree + 1], int order, BasisRow& row) {
+void basisDerivatives(int degree, const BasisTriangle& ndu, int order, BasisRow& row) {
   for (int r = 0; r <= degree; ++r) {
     double a[2][kMaxDegree + 1] = {};
     int now = 0, next = 1;
@@ -107,12 +161,22 @@ BasisRow basis(int degree, std::span<const double> knots, int controlPointCount,
     basisValues(degree, knots.data(), span, u, values.data());
     return row;
   }
-  double ndu[kMaxDegree + 1][kMaxDegree + 1];
-  basisTriangle(
-      {degree, knots.data(), span, u}, values.data(), [&](int j, int r, double whole) { ndu[j][r] = whole; },
-      [&](int j, const double* column) {
-        for (int r = 0; r <= j; ++r) ndu[r][j] = column[r];
-      });
+  BasisTriangle ndu;
+  const auto triangle = [&](auto known) {
+    basisTriangle<known()>(
+        {degree, knots.data(), span, u}, values.data(), [&](int j, int r, double whole) { ndu[j][r] = whole; },
+        [&](int j, const double* column) {
+          for (int r = 0; r <= j; ++r) ndu[r][j] = column[r];
+        });
+  };
+  if (degree == kQuinticBasis && order <= 3) {
+    triangle(std::integral_constant<int, kQuinticBasis>());
+    if (order == 1) knownDerivatives<kQuinticBasis, 1>(ndu, row);
+    if (order == 2) knownDerivatives<kQuinticBasis, 2>(ndu, row);
+    if (order == 3) knownDerivatives<kQuinticBasis, 3>(ndu, row);
+    return row;
+  }
+  triangle(std::integral_constant<int, kAnyDegree>());
   // Derivatives above the degree are zero, as the row already is.
   basisDerivatives(degree, ndu, std::min({order, degree, kMaxOrder}), row);
   return row;
@@ -206,15 +270,21 @@ std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
   const auto terms = static_cast<std::size_t>(d.degree) + 1;
   std::array<Vec2, 5> result;
   result.fill(Vec2::Zero());
+  if (d.weights.empty()) {
+    const Vec2* points = d.controlPoints.data() + first;
+    for (int k = 0; k <= top; ++k) {
+      for (std::size_t j = 0; j < terms; ++j) result[k] += row.values[k][j] * points[j];
+    }
+    return result;
+  }
   std::array<double, 5> weight{};
   for (int k = 0; k <= top; ++k) {
     for (std::size_t j = 0; j < terms; ++j) {
-      const double n = row.values[k][j] * (d.weights.empty() ? 1.0 : d.weights[first + j]);
+      const double n = row.values[k][j] * d.weights[first + j];
       result[k] += n * d.controlPoints[first + j];
       weight[k] += n;
     }
   }
-  if (d.weights.empty()) return result;
   // Quotient rule, A4.2: each order from the numerator's and the lower ones.
   constexpr double binomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
   for (int k = 0; k <= top; ++k) {

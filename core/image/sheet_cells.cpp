@@ -2,7 +2,6 @@
 #include "core/image/sheet_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -10,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
+#include "core/image/lanes_of_values.h"
 
 namespace batten {
 namespace {
@@ -20,74 +19,82 @@ constexpr double kPaperRankOfCell = 0.7;  // of the pixels of a cell by grey: in
 constexpr int kSheetCells = 400;          // along the longer side of the picture
 constexpr int kSamplesAcross = 4;         // of a cell
 
-/// Values so few that counting those below each of them beats sorting. Behind them lie ones that none exceeds.
-struct FewValues {
-  static constexpr int kMost = 64, kHalf = kMost / 2;
-  std::array<std::int16_t, kMost> values;  ///< Less 32768.
-  int count = 0;
-
-  void clear() {
-    values.fill(std::numeric_limits<std::int16_t>::max());
-    count = 0;
-  }
-  void add(int value) { values[count++] = static_cast<std::int16_t>(value - 32768); }
-};
-
-/// The value that has `rank` smaller ones before it when sorted: the largest of those with no more than `rank` below.
-BATTEN_HOT_LOOP int valueOfRank(const FewValues& few, int rank) {
-  std::array<std::int16_t, FewValues::kMost> below{};
-  const int lanes = few.count <= FewValues::kHalf ? FewValues::kHalf : FewValues::kMost;
-  for (int j = 0; j < few.count; ++j) {
-    const std::int16_t value = few.values[j];
-    for (int i = 0; i < lanes; ++i) below[i] = static_cast<std::int16_t>(below[i] + (value < few.values[i] ? 1 : 0));
-  }
-  const auto most = static_cast<std::int16_t>(rank);
-  std::int16_t found = std::numeric_limits<std::int16_t>::min();
-  for (int i = 0; i < lanes; ++i) {
-    const std::int16_t value = below[i] <= most ? few.values[i] : std::numeric_limits<std::int16_t>::min();
-    found = value > found ? value : found;
-  }
-  return found + 32768;
-}
-
-/// Some pixels of a cell, and their differences from their neighbours at the right.
+/// Some pixels of every cell of a row, and their differences from their neighbours at the right.
 class CellSamples {
  public:
-  void take(const GreyImage& grey, const ColourImage& colour, const cv::Rect& cell, int stride) {
-    levels_.clear();
-    darkest_ = std::numeric_limits<std::uint16_t>::max();
-    steps_.clear();
-    coloured_.clear();
-    for (int y = cell.y; y < cell.y + cell.height; y += stride) {
-      const std::uint16_t* row = grey.row(y);
-      for (int x = cell.x; x < cell.x + cell.width; x += stride) {
-        levels_.add(row[x]);
-        darkest_ = std::min(darkest_, row[x]);
-        if (!colour.isEmpty()) coloured_.emplace_back(row[x], colour.row(y)[x]);
-        if (x + 1 < grey.width) steps_.add(std::abs(row[x + 1] - row[x]));
-      }
+  CellSamples(const GreyImage& grey, const ColourImage& colour, int cellPx, int columns)
+      : grey_(grey),
+        colour_(colour),
+        cellPx_(cellPx),
+        columns_(columns),
+        stride_(std::max(1, cellPx / kSamplesAcross)),
+        levels_(columns),
+        steps_(columns),
+        lastSteps_(1) {}
+
+  void take(int row) {
+    for (LanesOfValues* values : {&levels_, &steps_, &lastSteps_}) values->clear();
+    darkest_.assign(columns_, std::numeric_limits<std::uint16_t>::max());
+    for (int y = row * cellPx_; y < (row + 1) * cellPx_; y += stride_) {
+      for (int x = 0; x < cellPx_; x += stride_) addPlace(grey_.row(y), x);
     }
+    row_ = row;
+    levels_.sortTo(paperRank());
+    steps_.sortTo(steps_.count() / 2);
+    lastSteps_.sortTo(lastSteps_.count() / 2);
   }
 
   /// Grey, red less grey and blue less grey of the paper.
-  cv::Vec3f paper() {
-    const int rank = static_cast<int>(kPaperRankOfCell * (levels_.count - 1.0));
-    if (coloured_.empty()) return {static_cast<float>(valueOfRank(levels_, rank) / GreyImage::kGreyUnit), 0.0f, 0.0f};
-    std::nth_element(coloured_.begin(), coloured_.begin() + rank, coloured_.end(),
+  cv::Vec3f paper(int column) const {
+    if (!colour_.isEmpty()) return colouredPaper(column);
+    return {levelOf(levels_.value(paperRank(), column)), 0.0f, 0.0f};
+  }
+  /// [grey]
+  float darkest(int column) const { return levelOf(darkest_[column]); }
+  float roughness(int column) const {
+    if (column + 1 < columns_) return levelOf(steps_.value(steps_.count() / 2, column));
+    return levelOf(lastSteps_.value(lastSteps_.count() / 2, 0));
+  }
+
+ private:
+  static float levelOf(int value) { return static_cast<float>(value / GreyImage::kGreyUnit); }
+  int paperRank() const { return static_cast<int>(kPaperRankOfCell * (levels_.count() - 1.0)); }
+
+  /// One pixel of each cell. At the border of the page the last cell may have no neighbour at the right.
+  void addPlace(const std::uint16_t* row, int x) {
+    const auto stored = [](int value) { return static_cast<std::int16_t>(value - LanesOfValues::kMiddle); };
+    std::int16_t *level = levels_.add(), *step = steps_.add();
+    const int last = columns_ - 1;
+    const std::uint16_t* at = row + x;
+    for (int i = 0; i < last; ++i, at += cellPx_) {
+      level[i] = stored(at[0]);
+      step[i] = stored(std::abs(at[1] - at[0]));
+      darkest_[i] = std::min(darkest_[i], at[0]);
+    }
+    level[last] = stored(at[0]);
+    step[last] = stored(0);  // lies in lastSteps_
+    darkest_[last] = std::min(darkest_[last], at[0]);
+    if (at + 1 < row + grey_.width) *lastSteps_.add() = stored(std::abs(at[1] - at[0]));
+  }
+
+  cv::Vec3f colouredPaper(int column) const {
+    std::vector<std::pair<std::uint16_t, Rgb8>> coloured;
+    for (int y = row_ * cellPx_; y < (row_ + 1) * cellPx_; y += stride_) {
+      for (int x = column * cellPx_; x < (column + 1) * cellPx_; x += stride_)
+        coloured.emplace_back(grey_.row(y)[x], colour_.row(y)[x]);
+    }
+    std::nth_element(coloured.begin(), coloured.begin() + paperRank(), coloured.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    const auto& [grey, colour] = coloured_[rank];
-    const auto level = static_cast<float>(grey / GreyImage::kGreyUnit);
+    const auto& [grey, colour] = coloured[paperRank()];
+    const float level = levelOf(grey);
     return {level, static_cast<float>(colour.red) - level, static_cast<float>(colour.blue) - level};
   }
 
-  /// [grey]
-  float darkest() const { return static_cast<float>(darkest_ / GreyImage::kGreyUnit); }
-  float roughness() const { return static_cast<float>(valueOfRank(steps_, steps_.count / 2) / GreyImage::kGreyUnit); }
-
- private:
-  FewValues levels_, steps_;
-  std::uint16_t darkest_ = 0;
-  std::vector<std::pair<std::uint16_t, Rgb8>> coloured_;
+  const GreyImage& grey_;
+  const ColourImage& colour_;
+  int cellPx_, columns_, stride_, row_ = 0;
+  LanesOfValues levels_, steps_, lastSteps_;  ///< The last: of the last cell alone, those there are.
+  std::vector<std::uint16_t> darkest_;
 };
 
 }  // namespace
@@ -100,16 +107,15 @@ SheetCells sheetCellsOf(const GreyImage& grey, const ColourImage& colour, const 
   cells.colour.create(cells.rows, cells.columns);
   cells.rough.create(cells.rows, cells.columns);
   cells.dark.create(cells.rows, cells.columns);
-  const int stride = std::max(1, cells.sizePx / kSamplesAcross);
-  static_assert(2 * kSamplesAcross * 2 * kSamplesAcross <= FewValues::kMost);  // 2 kSamplesAcross - 1 at the most
+  if (cells.colour.empty()) return cells;
   parallelFor(context, cells.rows, 8, [&](int begin, int end) {
-    CellSamples samples;
+    CellSamples samples(grey, colour, cells.sizePx, cells.columns);
     for (int j = begin; j < end; ++j) {
+      samples.take(j);
       for (int i = 0; i < cells.columns; ++i) {
-        samples.take(grey, colour, cv::Rect(i * cells.sizePx, j * cells.sizePx, cells.sizePx, cells.sizePx), stride);
-        cells.colour(j, i) = samples.paper();
-        cells.rough(j, i) = samples.roughness();
-        cells.dark(j, i) = samples.darkest();
+        cells.colour(j, i) = samples.paper(i);
+        cells.rough(j, i) = samples.roughness(i);
+        cells.dark(j, i) = samples.darkest(i);
       }
     }
   });

@@ -38,20 +38,63 @@ double noiseOf(const MeasuredPiece& piece) {
   return robustSigma(sizes) / std::sqrt(20.0);
 }
 
-/// Signed distance of a point from the nearest of some polylines.
-double distanceFrom(const Vec2& p, std::span<const std::vector<Vec2>* const> lines) {
-  double least = std::numeric_limits<double>::infinity(), side = 1.0;
-  for (const std::vector<Vec2>* line : lines) {
-    for (std::size_t i = 0; i + 1 < line->size(); ++i) {
-      const Vec2 &a = (*line)[i], &b = (*line)[i + 1];
-      const double away = awayFromSegment(p, a, b).squaredNorm();
-      if (away >= least) continue;
-      least = away;
-      side = cross(b - a, p - a) < 0.0 ? -1.0 : 1.0;
+/// The least box around points.
+struct PointBox {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = -low;
+  void add(const Vec2& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  double squareFrom(const Vec2& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm(); }
+};
+
+/// A polyline in parts, with boxes that tell which of them cannot be the nearest to a point.
+class BoxedLine {
+ public:
+  explicit BoxedLine(const std::vector<Vec2>& points) : points_(points) {
+    const std::size_t segments = points.empty() ? 0 : points.size() - 1;
+    for (std::size_t first = 0; first < segments; first += kPartSegments) {
+      Part part{{}, first, std::min(first + kPartSegments, segments)};
+      for (std::size_t i = first; i <= part.last; ++i) part.box.add(points[i]);
+      box_.add(part.box.low);
+      box_.add(part.box.high);
+      parts_.push_back(part);
     }
   }
-  return side * std::sqrt(least);
-}
+
+  /// What is nearest to a point so far: the square of its distance, and on which side of it the point lies.
+  struct Nearest {
+    double square = std::numeric_limits<double>::infinity(), side = 1.0;
+  };
+  /// @param marginMm more than rounding makes of distances.
+  void look(const Vec2& p, double marginMm, Nearest& found) const {
+    const auto isBeyond = [&](const PointBox& box) {
+      return box.squareFrom(p) > (1.0 + kMarginShare) * found.square + marginMm * marginMm;
+    };
+    if (isBeyond(box_)) return;
+    for (const Part& part : parts_) {
+      if (isBeyond(part.box)) continue;
+      for (std::size_t i = part.first; i < part.last; ++i) {
+        const Vec2 &a = points_[i], &b = points_[i + 1];
+        const double away = awayFromSegment(p, a, b).squaredNorm();
+        if (away >= found.square) continue;
+        found = {away, cross(b - a, p - a) < 0.0 ? -1.0 : 1.0};
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kPartSegments = 4;
+  static constexpr double kMarginShare = 1e-6;
+  struct Part {
+    PointBox box;
+    std::size_t first, last;  ///< Segments.
+  };
+  const std::vector<Vec2>& points_;
+  PointBox box_;
+  std::vector<Part> parts_;
+};
 
 class Refiner {
  public:
@@ -92,8 +135,9 @@ class Refiner {
     }
     away_.clear();
     excess_ = set_.missedPx = 0.0;
+    const std::vector<BoxedLine> lines(curve.begin(), curve.end());
     for (std::size_t i = 0; i < curve.size(); ++i) {
-      away_.push_back(worst(curve, i));
+      away_.push_back(worst(lines, i));
       if (away_[i] > kTold * limitPx_) set_.missedPx = std::max(set_.missedPx, away_[i]);
       excess_ += length(i) * std::pow(std::max(0.0, away_[i] - limitPx_), 2);
     }
@@ -116,6 +160,8 @@ class Refiner {
   const StationSet& set() const { return set_; }
 
  private:
+  static constexpr double kRoundingPx = 1e-6;
+
   Vec2 stationPx(std::size_t i) const { return set_.stations[i].point / pixelMm_; }
   double end(std::size_t i) const { return i + 1 < s_.size() ? s_[i + 1] : s_.front() + meter_.length(); }
   double length(std::size_t i) const { return end(i) - s_[i]; }
@@ -145,11 +191,17 @@ class Refiner {
   }
 
   /// Largest distance [px] of an interval's points from the curve, in the mean over a few px.
-  double worst(const std::vector<std::vector<Vec2>>& curve, std::size_t interval) const {
+  double worst(const std::vector<BoxedLine>& curve, std::size_t interval) const {
     const std::size_t n = curve.size();
-    std::vector<const std::vector<Vec2>*> lines = {&curve[interval]};
-    if (interval > 0 || given_.closed) lines.push_back(&curve[(interval + n - 1) % n]);
-    if (interval + 1 < n || given_.closed) lines.push_back(&curve[(interval + 1) % n]);
+    const BoxedLine& own = curve[interval];
+    const BoxedLine* before = interval > 0 || given_.closed ? &curve[(interval + n - 1) % n] : nullptr;
+    const BoxedLine* after = interval + 1 < n || given_.closed ? &curve[(interval + 1) % n] : nullptr;
+    const auto distanceOf = [&](const Vec2& p) {
+      BoxedLine::Nearest nearest;
+      for (const BoxedLine* line : {&own, before, after})
+        if (line) line->look(p, kRoundingPx * pixelMm_, nearest);
+      return nearest.side * std::sqrt(nearest.square);
+    };
     int i = meter_.lowerBound(s_[interval]), last = meter_.lowerBound(end(interval));
     if (!given_.closed) last = std::min(last, meter_.count() - 1);
     // Blocks of equal length: a short one left over at the end would be a mean over too little.
@@ -159,7 +211,7 @@ class Refiner {
       double sum = 0.0;
       int count = 0;
       for (; i <= last && (meter_.s(i) < until || until > end(interval) - 0.5 * block); ++i, ++count) {
-        sum += distanceFrom(meter_.point(i) * pixelMm_, lines) / pixelMm_;
+        sum += distanceOf(meter_.point(i) * pixelMm_) / pixelMm_;
       }
       if (count > 0) largest = std::max(largest, std::abs(sum / count));
     }

@@ -15,13 +15,14 @@
 namespace batten {
 namespace {
 
-constexpr float kEndContrast = 4.0f;                          // [grey]
-constexpr double kBesideEndPx = 2.5;                          // [px] of paper looked at round an end
-constexpr double kEndStepPx = 0.5;                            // [px] between the places at which an end is compared
-constexpr double kTipStepPx = 0.25;                           // [px] between the places at which its tip may lie,
-constexpr int kTipSteps = 5;                                  // and how many of them to either side
-constexpr double kSamplesPerPx = 4.0;                         // at half a pixel's step each pixel is seen so often
-constexpr double kCutSlopes[] = {-1.0, -0.5, 0.0, 0.5, 1.0};  // [-] of a cut: as far as 45 degrees from square
+constexpr float kEndContrast = 4.0f;                    // [grey]
+constexpr double kBesideEndPx = 2.5;                    // [px] of paper looked at round an end
+constexpr double kEndStepPx = 0.5;                      // [px] between the places at which an end is compared
+constexpr double kTipStepPx = 0.25;                     // [px] between the places at which its tip may lie,
+constexpr int kTipSteps = 5;                            // and how many of them to either side
+constexpr double kSamplesPerPx = 4.0;                   // at half a pixel's step each pixel is seen so often
+constexpr double kLessSkewed = 0.5, kMostSkewed = 1.0;  // [-] slopes of a cut: as far as 45 degrees from square
+constexpr double kCutSlopes[] = {-kMostSkewed, -kLessSkewed, 0.0, kLessSkewed, kMostSkewed};
 constexpr double kLeastEndBlurPx = 0.4, kMostEndBlurPx = 2.4, kBlurStepPx = 0.1;  // standard deviations
 constexpr double kThinnerPx = 0.75, kThickerPx = 0.25, kRadiusStepPx = 0.1;       // than half the width at half level
 
@@ -119,25 +120,97 @@ EndPatch patchAt(const EndCourse& end, double tipPx, double radius, const GreyIm
   return patch;
 }
 
-// The darkness of an end at (along the stroke from its tip, across it). [grey]
-double darkOfCut(const PenModel& pen, double slope, double along, double across) {
-  const double inside = (slope * across - along) / std::hypot(1.0, slope);
-  return pen.dark * pen.across(across) * edgeShare(inside / pen.blur);
+// The places at which the model of an end is asked for: those of a patch, for every tip that is tried.
+class EndPlaces {
+ public:
+  explicit EndPlaces(const EndPatch& patch)
+      : patch_(patch), rows_((patch.rows - 1) * kStepsPerRow + 2 * kTipSteps + 1), columns_(patch.columns) {}
+  static constexpr int kStepsPerRow = static_cast<int>(kEndStepPx / kTipStepPx);
+  int rows() const { return rows_; }
+  int columns() const { return columns_; }
+  double along(int i) const { return patch_.firstPx + (i - kTipSteps) * kTipStepPx; }
+  double across(int k) const { return patch_.across(k); }
+
+ private:
+  const EndPatch& patch_;
+  int rows_, columns_;
+};
+
+// The darkness of an end at its places, row by row. [grey]
+using EndModel = std::vector<double>;
+
+// Shares of the darkness inside a cut, by the depth below it. Depths are multiples of kTipStepPx over the same number,
+// as all places and the way that a slope makes over a column are: few of them differ.
+class CutShares {
+ public:
+  CutShares(const PenModel& pen, const EndPlaces& places, double slope) {
+    const double steepness = std::hypot(1.0, slope);
+    const double side = std::abs(slope * places.across(0));
+    first_ = stepsOf(-side - places.along(places.rows() - 1));
+    const int last = stepsOf(side - places.along(0));
+    for (int n = first_; n <= last; ++n) share_.push_back(edgeShare(n * kTipStepPx / steepness / pen.blur));
+  }
+  double at(double depthPx) const { return share_[stepsOf(depthPx) - first_]; }
+
+ private:
+  static_assert(kLessSkewed * kEndStepPx == kTipStepPx);
+  static int stepsOf(double px) { return static_cast<int>(px / kTipStepPx); }  // exact
+  std::vector<double> share_;
+  int first_ = 0;
+};
+
+EndModel darkOfCut(const PenModel& pen, const EndPlaces& places, const CutShares& shares, double slope) {
+  std::vector<double> whole(places.columns());
+  for (int k = 0; k < places.columns(); ++k) whole[k] = pen.dark * pen.across(places.across(k));
+  EndModel dark;
+  for (int i = 0; i < places.rows(); ++i) {
+    for (int k = 0; k < places.columns(); ++k)
+      dark.push_back(whole[k] * shares.at(slope * places.across(k) - places.along(i)));
+  }
+  return dark;
 }
 
-double darkOfRound(const PenModel& pen, double along, double across) {
-  constexpr double kFar = 3.5;  // standard deviations: nothing is seen of lanes farther off
-  const int lanes = std::max(8, static_cast<int>(std::ceil(4.0 * pen.radius / pen.blur)));
-  const double lane = 2.0 * pen.radius / lanes;
-  double sum = 0.0;
-  for (int j = 0; j < lanes; ++j) {
-    const double v = (j + 0.5) * lane - pen.radius, off = (across - v) / pen.blur;
-    if (std::abs(off) > kFar) continue;
-    const double tip = std::sqrt(std::max(0.0, pen.radius * pen.radius - v * v)) - pen.radius;
-    sum += std::exp(-0.5 * off * off) * edgeShare((tip - along) / pen.blur);
+// A round end is made of lanes along the stroke: what of each is seen depends on the column, and how far it reaches on
+// the row.
+class RoundLanes {
+ public:
+  RoundLanes(const PenModel& pen, const EndPlaces& places)
+      : pen_(pen), count_(std::max(8, static_cast<int>(std::ceil(4.0 * pen.radius / pen.blur)))) {
+    lane_ = 2.0 * pen.radius / count_;
+    for (int k = 0; k < places.columns(); ++k) {
+      for (int j = 0; j < count_; ++j) {
+        const double off = (places.across(k) - middleOf(j)) / pen.blur;
+        seen_.push_back(std::abs(off) > kFar ? 0.0 : std::exp(-0.5 * off * off));
+      }
+    }
   }
-  return pen.dark * sum * lane / (pen.blur * std::sqrt(2.0 * std::numbers::pi));
-}
+  EndModel dark(const EndPlaces& places) const {
+    EndModel all;
+    std::vector<double> reached(count_);
+    for (int i = 0; i < places.rows(); ++i) {
+      for (int j = 0; j < count_; ++j) reached[j] = edgeShare((tipOf(j) - places.along(i)) / pen_.blur);
+      for (int k = 0; k < places.columns(); ++k) {
+        const double* seen = seen_.data() + std::ptrdiff_t{k} * count_;
+        double sum = 0.0;
+        for (int j = 0; j < count_; ++j) sum += seen[j] * reached[j];
+        all.push_back(pen_.dark * sum * lane_ / (pen_.blur * std::sqrt(2.0 * std::numbers::pi)));
+      }
+    }
+    return all;
+  }
+
+ private:
+  static constexpr double kFar = 3.5;  // standard deviations: nothing is seen of lanes farther off
+  double middleOf(int j) const { return (j + 0.5) * lane_ - pen_.radius; }
+  double tipOf(int j) const {
+    const double v = middleOf(j);
+    return std::sqrt(std::max(0.0, pen_.radius * pen_.radius - v * v)) - pen_.radius;
+  }
+  const PenModel& pen_;
+  int count_;
+  double lane_ = 0.0;
+  std::vector<double> seen_;  // by column and lane
+};
 
 struct FittedEnd {
   double stopPx = 0.0;  // where the pen stopped, from the tip that was first thought
@@ -145,28 +218,17 @@ struct FittedEnd {
 };
 
 // Where an end of this shape fits best.
-template <class Model>
-FittedEnd fittedEnd(const EndPatch& patch, const PenModel& pen, const Model& darkAt) {
-  // At every place that any of the tips asks for.
-  const int steps = static_cast<int>(std::lround(kEndStepPx / kTipStepPx));
-  const int rows = (patch.rows - 1) * steps + 2 * kTipSteps + 1;
-  std::vector<double> model;
-  for (int i = 0; i < rows; ++i) {
-    for (int k = 0; k < patch.columns; ++k)
-      model.push_back(pen.paper - darkAt(patch.firstPx + (i - kTipSteps) * kTipStepPx, patch.across(k)));
-  }
+FittedEnd fittedEnd(const EndPatch& patch, const PenModel& pen, EndModel model) {
+  for (double& level : model) level = pen.paper - level;
   std::array<double, 2 * kTipSteps + 1> misfit{};
-  int best = 0;
-  for (int tip = 0; tip <= 2 * kTipSteps; ++tip) {
-    for (int i = 0; i < patch.rows; ++i) {
-      const double* at = model.data() + static_cast<std::ptrdiff_t>(i * steps + 2 * kTipSteps - tip) * patch.columns;
-      for (int k = 0; k < patch.columns; ++k) {
-        const double off = patch.level[i * patch.columns + k] - at[k];
-        misfit[tip] += off * off;
-      }
+  for (int i = 0; i < patch.rows; ++i) {
+    for (int k = 0; k < patch.columns; ++k) {
+      const double level = patch.level[i * patch.columns + k];
+      const double* at = model.data() + std::ptrdiff_t{i * EndPlaces::kStepsPerRow + 2 * kTipSteps} * patch.columns + k;
+      for (int tip = 0; tip <= 2 * kTipSteps; ++tip, at -= patch.columns) misfit[tip] += (level - *at) * (level - *at);
     }
-    if (misfit[tip] < misfit[best]) best = tip;
   }
+  const auto best = static_cast<int>(std::min_element(misfit.begin(), misfit.end()) - misfit.begin());
   FittedEnd end{(best - kTipSteps) * kTipStepPx, misfit[best] + pen.misfit};
   if (best == 0 || best == 2 * kTipSteps) return end;
   // The lowest point of the parabola through the best and its neighbours.
@@ -209,6 +271,7 @@ std::optional<PenStop> penStop(const EndCourse& end, double widthPx, double tipP
   if (evenTo < 2.0 * kEndStepPx) return std::nullopt;
   const Flank flank = flankOf(end, evenTo, 0.5 * widthPx + kBesideEndPx, grey);
   const EndPatch patch = patchAt(end, tipPx, 0.5 * widthPx, grey);
+  const EndPlaces places(patch);
   const double independent =
       static_cast<double>(patch.level.size() + 2 * flank.level.size() * flank.columns) / kSamplesPerPx;
   FittedEnd round, cut;
@@ -218,12 +281,14 @@ std::optional<PenStop> penStop(const EndCourse& end, double widthPx, double tipP
     // Thin strokes do not tell their width from their blur; what the flank itself rules out is not tried.
     if (variance == 0.0) leastFlank = pen.misfit;
     if (variance > 0.0 && pen.misfit - leastFlank > 2.0 * kRuledOut * variance) break;
-    FittedEnd one = fittedEnd(patch, pen, [&](double s, double u) { return darkOfRound(pen, s, u); });
+    FittedEnd one = fittedEnd(patch, pen, RoundLanes(pen, places).dark(places));
     one.stopPx -= pen.radius;
     if (one.misfit < round.misfit) round = one;
+    const CutShares square(pen, places, 0.0), skewed(pen, places, kLessSkewed), diagonal(pen, places, kMostSkewed);
     for (int k = 0; k < std::ssize(kCutSlopes); ++k) {
-      const FittedEnd other =
-          fittedEnd(patch, pen, [&](double s, double u) { return darkOfCut(pen, kCutSlopes[k], s, u); });
+      const double slope = kCutSlopes[k], steep = std::abs(slope);
+      const CutShares& shares = steep == 0.0 ? square : steep == kLessSkewed ? skewed : diagonal;
+      const FittedEnd other = fittedEnd(patch, pen, darkOfCut(pen, places, shares, slope));
       if (other.misfit < cuts[k].misfit) cuts[k] = other;
       if (other.misfit < cut.misfit) cut = other;
     }

@@ -110,9 +110,9 @@ struct PlacedStroke {
 std::optional<PlacedStroke> mostLikely(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m,
                                        double width) {
   double low = -0.5 * width, high = 0.5 * width;
-  PointInformation information;
+  BorderSums sums;
   for (int step = 0; step < kStrokeNewtonSteps; ++step) {
-    BorderSums sums;
+    sums = {};
     for (const PixelWindow::Pixel& p : window.pixels) {
       const auto in = response.at(p.distance - low, m.direction), out = response.at(p.distance - high, m.direction);
       const double e = p.grey - (m.paper + m.slope * p.distance - m.contrast * (in.part - out.part));
@@ -120,7 +120,6 @@ std::optional<PlacedStroke> mostLikely(const PixelWindow& window, const PixelRes
     }
     const double det = sums.det();
     if (!(det > kLeastDeterminant * sums.ll * sums.hh)) return std::nullopt;
-    information = sums.information();
     const double moveLow = std::clamp((sums.hh * sums.l - sums.lh * sums.h) / det, -kLargestStepPx, kLargestStepPx);
     const double moveHigh = std::clamp((sums.ll * sums.h - sums.lh * sums.l) / det, -kLargestStepPx, kLargestStepPx);
     low += moveLow;
@@ -128,7 +127,7 @@ std::optional<PlacedStroke> mostLikely(const PixelWindow& window, const PixelRes
     if (!(high - low > kNarrowestPx)) return std::nullopt;
     if (std::abs(moveLow) + std::abs(moveHigh) < kSettledPx) break;
   }
-  return PlacedStroke{{0.5 * (low + high), high - low}, information};
+  return PlacedStroke{{0.5 * (low + high), high - low}, sums.information()};
 }
 
 /// Tone and width at a point as they are along the stroke, without the noise of single profiles.

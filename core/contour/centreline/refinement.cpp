@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/parallel.h"
+#include "core/contour/centreline/grey_across.h"
 #include "core/contour/centreline/pixel_placement.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_ends.h"
@@ -17,7 +18,6 @@ namespace batten {
 namespace {
 
 constexpr int kCoursePointsPerBlock = 512;  // refined together; the result does not depend on it
-constexpr int kAlongHalf = 6;               // profiles averaged to either side
 constexpr double kAlong = 2.0;              // [points] Gaussian over neighbouring profiles
 constexpr double kBesideInkPx = 1.5;        // of which the mask may have lost a border
 
@@ -26,9 +26,9 @@ struct CourseBlock {
   int course, begin, end;
 };
 
-std::array<float, kAlongHalf + 1> alongKernel() {
-  std::array<float, kAlongHalf + 1> kernel{};
-  for (int k = 0; k <= kAlongHalf; ++k) {
+std::array<float, kMeanHalf + 1> alongKernel() {
+  std::array<float, kMeanHalf + 1> kernel{};
+  for (int k = 0; k <= kMeanHalf; ++k) {
     kernel[k] = static_cast<float>(std::exp(-0.5 * k * k / (kAlong * kAlong)));
   }
   return kernel;
@@ -37,42 +37,39 @@ std::array<float, kAlongHalf + 1> alongKernel() {
 // Measures the shift of the points [begin, end) of a course. The profiles are averaged in the moving frame, which bends
 // with the stroke: no bias on curved strokes.
 void measureBlock(StrokeCourse& course, int begin, int end, const GreyImage& grey, CentreRule rule) {
-  static const std::array<float, kAlongHalf + 1> kKernel = alongKernel();
+  static const std::array<float, kMeanHalf + 1> kKernel = alongKernel();
   const int n = course.count();
   const int half = course.profileHalf, samples = 2 * half + 1;
-  const int rows = end - begin + 2 * kAlongHalf;
+  const int rows = end - begin + 2 * kMeanHalf;
   std::vector<float> profiles(static_cast<std::ptrdiff_t>(rows) * samples), mean(samples), scratch(samples);
   std::vector<char> there(rows, 0);
   const auto rowOf = [&](int r) { return profiles.data() + static_cast<std::ptrdiff_t>(r) * samples; };
   for (int r = 0; r < rows; ++r) {
-    int i = begin - kAlongHalf + r;
+    int i = begin - kMeanHalf + r;
     if (course.closed) i = wrapIndex(i, n);
     if (i < 0 || i >= n) continue;
     there[r] = 1;
-    const Vec2& at = course.points[i].base;
-    const Vec2 normal = leftNormal(course.points[i].tangent);
-    float* out = rowOf(r);
-    for (int k = 0; k < samples; ++k) {
-      const double u = (k - half) * kStrokeStepPx;
-      out[k] = sampleGrey(grey, at.x() + u * normal.x(), at.y() + u * normal.y());
-    }
+    sampleAcross(grey, course.points[i].base, leftNormal(course.points[i].tangent), half, rowOf(r));
   }
   for (int i = begin; i < end; ++i) {
-    std::fill(mean.begin(), mean.end(), 0.0f);
-    float weight = 0.0f;
-    const int here = i - begin + kAlongHalf;
+    const int here = i - begin + kMeanHalf;
     // Near an open end the window shrinks evenly, so that it stays centred.
-    int reach = kAlongHalf;
+    int reach = kMeanHalf;
     while (reach > 0 && !(there[here - reach] && there[here + reach])) {
       --reach;
     }
-    for (int d = -reach; d <= reach; ++d) {
-      const float w = kKernel[std::abs(d)];
-      const float* row = rowOf(here + d);
-      for (int k = 0; k < samples; ++k) mean[k] += w * row[k];
-      weight += w;
+    float weight = 0.0f;
+    for (int d = -reach; d <= reach; ++d) weight += kKernel[std::abs(d)];
+    if (reach == kMeanHalf) {
+      meanOfProfiles(rowOf(here - reach), samples, kKernel.data(), weight, mean.data());
+    } else {
+      std::fill(mean.begin(), mean.end(), 0.0f);
+      for (int d = -reach; d <= reach; ++d) {
+        const float* row = rowOf(here + d);
+        for (int k = 0; k < samples; ++k) mean[k] += kKernel[std::abs(d)] * row[k];
+      }
+      for (float& m : mean) m /= weight;
     }
-    for (float& m : mean) m /= weight;
     CoursePoint& p = course.points[i];
     const std::optional<StrokeCentre> c = rule == CentreRule::Centroid ? centroidCentre(mean, p.radius + kBesideInkPx)
                                                                        : halfLevelCentre(mean, course.widthPx, scratch);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/centreline/stroke_profile.h"
 
+#include "core/contour/centreline/grey_across.h"
+
 namespace batten {
 namespace {
 
@@ -62,17 +64,7 @@ PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
 std::optional<StrokeCentre> halfLevelCentre(std::span<const float> profile, double widthPx, std::span<float> scratch) {
   StrokeCentre result;
   const int n = static_cast<int>(profile.size()), half = n / 2;
-  // Gaussian of .5 px: two samples.
-  constexpr float kKernel[6] = {0.2021f, 0.1779f, 0.1212f, 0.0639f, 0.0261f, 0.00825f};
-  for (int k = 0; k < n; ++k) {
-    float sum = kKernel[0] * profile[k], weight = kKernel[0];
-    for (int d = 1; d < 6; ++d) {
-      if (k - d < 0 || k + d >= n) break;
-      sum += kKernel[d] * (profile[k - d] + profile[k + d]);
-      weight += 2.0f * kKernel[d];
-    }
-    scratch[k] = sum / weight;
-  }
+  smoothAcrossStroke(profile.data(), n, scratch.data());
   const int core = static_cast<int>(std::lround(kCoreShare * widthPx / kStrokeStepPx));
   const int first = std::max(0, half - core);
   const double ink = meanOf(scratch, first, 2 * (half - first) + 1);
@@ -130,13 +122,11 @@ std::optional<StrokeCentre> centroidCentre(std::span<const float> profile, doubl
 }
 
 std::vector<float> profileAcross(const GreyImage& grey, const Vec2& at, const Vec2& direction, int half) {
-  std::vector<float> mean(2 * half + 1, 0.0f);
+  std::vector<float> mean(2 * half + 1, 0.0f), one(mean.size());
   const Vec2 normal = leftNormal(direction);
   for (int d = -1; d <= 1; ++d) {
-    for (int k = 0; k < std::ssize(mean); ++k) {
-      const Vec2 p = at + d * direction + (k - half) * kStrokeStepPx * normal;
-      mean[k] += sampleGrey(grey, p.x(), p.y()) / 3.0f;
-    }
+    sampleAcross(grey, at + d * direction, normal, half, one.data());
+    for (int k = 0; k < std::ssize(mean); ++k) mean[k] += one[k] / 3.0f;
   }
   return mean;
 }

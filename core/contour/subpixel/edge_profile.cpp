@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/contour/subpixel/profile_samples.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -92,13 +93,7 @@ EdgeProfiles sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, s
   EdgeProfiles profiles;
   profiles.grey.resize(base.size() * kProfileSamples);
   parallelFor(context, static_cast<int>(base.size()), kSamplingGrain, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      float* row = profiles.row(i);
-      for (int k = 0; k < kProfileSamples; ++k) {
-        const Vec2 at = base[i] + profileU(k) * normal[i];
-        row[k] = static_cast<float>(cubic ? sampleCubic(grey, at) : sampleLinear(grey, at));
-      }
-    }
+    for (int i = begin; i < end; ++i) sampleProfile(grey, base[i], normal[i], cubic, profiles.row(i));
   });
   return profiles;
 }

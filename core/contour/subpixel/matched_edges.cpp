@@ -30,7 +30,7 @@ constexpr double kLeastTwinPx = 0.5;  // of ink or paper that is seen at all
 struct EdgeModel {
   double value, slope;  // slope = -d value / d position * blur
 };
-EdgeModel edgeModel(const NormalTable& table, double x, const EdgeTwins& twins) {
+inline EdgeModel edgeModel(const NormalTable& table, double x, const EdgeTwins& twins) {
   const NormalTable::Value own = table.at(x);
   EdgeModel m{own.cdf, own.pdf};
   if (twins.ink) m.value -= table.at(x - *twins.ink).cdf;
@@ -53,6 +53,7 @@ BothSides sumSides(const float* profile, const MatchedEdge& edge, double blur) {
   const double inkFrom = edge.position + std::min(kSideFromPx, kSideShare * (span.hi - edge.position));
   const double paperTo = edge.position - std::min(kSideFromPx, kSideShare * (edge.position - span.lo));
   BothSides sums;
+  const EdgeTwins twins = span.twinsIn(blur);
   for (int k = 0; k < kProfileSamples; ++k) {
     const double u = profileU(k);
     SideSums* side = nullptr;
@@ -62,7 +63,7 @@ BothSides sumSides(const float* profile, const MatchedEdge& edge, double blur) {
       side = &sums.paper;
     if (side == nullptr) continue;
     side->grey += profile[k];
-    side->model += edgeModel(table, (u - edge.position) / blur, span.twinsIn(blur)).value;
+    side->model += edgeModel(table, (u - edge.position) / blur, twins).value;
     ++side->count;
   }
   return sums;
@@ -119,13 +120,14 @@ double fitPosition(const float* profile, const MatchedEdge& edge, double start, 
   const EdgeSpan& span = edge.span;
   const double paper = edge.paper, contrast = edge.contrast();
   const double reach = kSlopeBlurs * blur;
+  const EdgeTwins twins = span.twinsIn(blur);
   double position = start;
   for (int step = 0; step < kProfileNewtonSteps; ++step) {
     double top = 0.0, bottom = 0.0;
     for (int k = 0; k < kProfileSamples; ++k) {
       const double u = profileU(k);
       if (!span.holds(u) || std::abs(u - position) > reach) continue;
-      const EdgeModel m = edgeModel(table, (u - position) / blur, span.twinsIn(blur));
+      const EdgeModel m = edgeModel(table, (u - position) / blur, twins);
       const double gradient = contrast * m.slope / blur;  // of the grey with respect to the position
       top += gradient * (profile[k] - (paper - contrast * m.value));
       bottom += gradient * gradient;
@@ -138,10 +140,13 @@ double fitPosition(const float* profile, const MatchedEdge& edge, double start, 
   return position;
 }
 
-// One step for the blur common to the contour from a spread sample of its points; also measures the noise.
-void updateBlur(const EdgeProfiles& profiles, MatchedEdges& m) {
+// One step for the blur common to the contour from a spread sample of its points. `left`: what the model leaves of
+// them, without sign; as it was where there is none.
+void updateBlur(const EdgeProfiles& profiles, MatchedEdges& m, std::vector<float>& left) {
   const NormalTable& table = NormalTable::instance();
   const int stride = std::max(1, m.count() / kBlurSamples);
+  constexpr double kStep = 0.02;  // relative, for the derivative with respect to the blur
+  const double more = m.blur * (1 + kStep), less = m.blur * (1 - kStep);
   double top = 0.0, bottom = 0.0;
   std::vector<float> residuals;
   for (int i = 0; i < m.count(); i += stride) {
@@ -149,16 +154,17 @@ void updateBlur(const EdgeProfiles& profiles, MatchedEdges& m) {
     const double contrast = edge.contrast();
     if (contrast < kLeastEdgeContrast || !edge.span.hasEdge()) continue;
     const float* profile = profiles.row(i);
+    const EdgeTwins twins = edge.span.twinsIn(m.blur), twinsOfMore = edge.span.twinsIn(more),
+                    twinsOfLess = edge.span.twinsIn(less);
     for (int k = 0; k < kProfileSamples; ++k) {
       const double u = profileU(k);
       if (!edge.span.holds(u)) continue;
-      const auto modelAt = [&](double blur) {
-        return edgeModel(table, (u - edge.position) / blur, edge.span.twinsIn(blur)).value;
+      const auto modelAt = [&](double blur, const EdgeTwins& inBlurs) {
+        return edgeModel(table, (u - edge.position) / blur, inBlurs).value;
       };
-      constexpr double kStep = 0.02;  // relative, for the derivative with respect to the blur
-      const double residual = profile[k] - (edge.paper - contrast * modelAt(m.blur));
+      const double residual = profile[k] - (edge.paper - contrast * modelAt(m.blur, twins));
       const double gradient =
-          -contrast * (modelAt(m.blur * (1 + kStep)) - modelAt(m.blur * (1 - kStep))) / (2 * kStep * m.blur);
+          -contrast * (modelAt(more, twinsOfMore) - modelAt(less, twinsOfLess)) / (2 * kStep * m.blur);
       top += gradient * residual;
       bottom += gradient * gradient;
       residuals.push_back(static_cast<float>(std::abs(residual)));
@@ -168,7 +174,7 @@ void updateBlur(const EdgeProfiles& profiles, MatchedEdges& m) {
   if (bottom > 0.0)
     m.blur = std::clamp(m.blur + std::clamp(top / bottom, -kLargestBlurStepPx, kLargestBlurStepPx), kLeastBlurOfEdgePx,
                         kMostBlurOfEdgePx);
-  m.noise = robustSigma(residuals);
+  left = std::move(residuals);
 }
 
 // Which points a round fits.
@@ -222,14 +228,16 @@ MatchedEdges matchEdges(const EdgeProfiles& profiles, bool closed, const RunCont
   for (const MatchedEdge& edge : m.edges) start.push_back(edge.position);
   updateTwins(closed, m);
   const int stride = std::max(1, n / kBlurSamples);
+  std::vector<float> left;
   for (int round = 0; round < kBlurRounds && !context.isCancelled(); ++round) {
     measureLevels(profiles, closed, m, context);
     fitAll(profiles, start, m, {.stride = stride}, context);
     if (stride == 1) updateTwins(closed, m);
     const double before = m.blur;
-    updateBlur(profiles, m);
+    updateBlur(profiles, m, left);
     if (std::abs(m.blur - before) < kSettledBlurPx) break;
   }
+  m.noise = robustSigma(std::move(left));
   for (int round = 0; round < kTwinRounds && !context.isCancelled(); ++round) {
     measureLevels(profiles, closed, m, context);
     fitAll(profiles, start, m, {.twinsOnly = round > 0}, context);

@@ -39,6 +39,24 @@ PixelResponse::Value modelAt(const PixelResponse& response, const PixelEdge& edg
   return value;
 }
 
+// Sums over the pixels for a step of an edge.
+struct EdgeSums {
+  double top = 0.0, bottom = 0.0, spread = 0.0, squares = 0.0, weights = 0.0;
+  void add(double weight, double gradient, double left) {
+    const double weighted = weight * gradient;
+    top += weighted * left;
+    bottom += weighted * gradient;
+    spread += weighted * weighted;
+    squares += weight * left * left;
+    weights += weight;
+  }
+  // Weighted least squares under white noise; one step more takes its part of the squares.
+  PointInformation information() const {
+    return {std::sqrt(spread) / bottom, std::max(0.0, squares - top * top / bottom),
+            std::max(0.0, weights - spread / bottom)};
+  }
+};
+
 // The square seen along the edge is a trapezium: two boxes of widths a >= b, one after the other.
 Answer answerOf(double d, double a, double b, double s) {
   if (b < kNarrowSide) {
@@ -82,16 +100,6 @@ int PixelResponse::direction(const Vec2& normal) const {
   return static_cast<int>(std::lround(angle / (0.25 * std::numbers::pi) * (kDirections - 1)));
 }
 
-PixelResponse::Value PixelResponse::at(double distance, int direction) const {
-  const double place = (distance + range_) * kPerPx;
-  if (!(place > 0.0)) return {0.0, 0.0};
-  if (place >= columns_ - 2) return {1.0, 0.0};
-  const int k = static_cast<int>(place);
-  const double f = place - k;
-  const int i = direction * columns_ + k;
-  return {part_[i] + f * (part_[i + 1] - part_[i]), slope_[i] + f * (slope_[i + 1] - slope_[i])};
-}
-
 void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& normal, double lo, double hi) {
   pixels.clear();
   const Vec2 along(normal.y(), -normal.x());
@@ -120,41 +128,38 @@ void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& norm
     const int first = std::max(0, static_cast<int>(std::ceil(centre.x() + from - 0.5)));
     const int last = std::min(grey.width - 1, static_cast<int>(std::floor(centre.x() + to - 0.5)));
     const std::uint16_t* row = grey.row(y);
+    if (first > last) continue;
+    pixels.resize(pixels.size() + static_cast<std::size_t>(last - first + 1));
+    Pixel* next = &*(pixels.end() - (last - first + 1));
     for (int x = first; x <= last; ++x) {
       const double dx = x + 0.5 - centre.x();
       const double s = dx * along.x() + dy * along.y();
-      pixels.push_back({dx * normal.x() + dy * normal.y() + middle, std::max(0.0, 1.0 - std::abs(s) / kHalfPx),
-                        row[x] / GreyImage::kGreyUnit});
+      *next++ = {dx * normal.x() + dy * normal.y() + middle, std::max(0.0, 1.0 - std::abs(s) / kHalfPx),
+                 row[x] / GreyImage::kGreyUnit};
     }
   }
 }
 
 EdgePosition mostLikelyPosition(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge,
                                 double start, double gate) {
-  EdgePosition found{start, std::nullopt};
-  double& position = found.position;
+  double position = start;
+  std::optional<EdgeSums> known;
+  const auto information = [&] { return known ? std::optional(known->information()) : std::nullopt; };
   for (int step = 0; step < kEdgeNewtonSteps; ++step) {
-    double top = 0.0, bottom = 0.0, spread = 0.0, squares = 0.0, weights = 0.0;
+    EdgeSums sums;
     for (const PixelWindow::Pixel& p : window.pixels) {
       if (std::abs(p.distance - position) > response.reach()) continue;
       const auto model = modelAt(response, edge, p.distance - position);
       const double gradient = edge.contrast * model.slope;  // of the grey with respect to the position
-      const double left = p.grey - (edge.paper - edge.contrast * model.part), weighted = p.weight * gradient;
-      top += weighted * left;
-      bottom += weighted * gradient;
-      spread += weighted * weighted;
-      squares += p.weight * left * left;
-      weights += p.weight;
+      sums.add(p.weight, gradient, p.grey - (edge.paper - edge.contrast * model.part));
     }
-    if (!(bottom > 0.0)) return {start, found.information};
-    // Weighted least squares under white noise; one step more takes its part of the squares.
-    found.information = {std::sqrt(spread) / bottom, std::max(0.0, squares - top * top / bottom),
-                         std::max(0.0, weights - spread / bottom)};
-    const double move = std::clamp(top / bottom, -kLargestStepPx, kLargestStepPx);
+    if (!(sums.bottom > 0.0)) return {start, information()};
+    known = sums;
+    const double move = std::clamp(sums.top / sums.bottom, -kLargestStepPx, kLargestStepPx);
     position = std::clamp(position + move, start - gate, start + gate);
     if (std::abs(move) < kSettledPx) break;
   }
-  return found;
+  return {position, information()};
 }
 
 double squaresLeft(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double position) {

@@ -32,7 +32,15 @@ class PixelResponse {
     double slope;  ///< [1/px] its derivative with respect to the distance.
   };
   /// For a pixel whose centre is `distance` px inside the ink (negative: outside).
-  Value at(double distance, int direction) const;
+  Value at(double distance, int direction) const {
+    const double place = (distance + range_) * kPerPx;
+    if (!(place > 0.0)) return {0.0, 0.0};
+    if (place >= columns_ - 2) return {1.0, 0.0};
+    const int k = static_cast<int>(place);
+    const double f = place - k;
+    const int i = direction * columns_ + k;
+    return {part_[i] + f * (part_[i + 1] - part_[i]), slope_[i] + f * (slope_[i + 1] - slope_[i])};
+  }
 
  private:
   explicit PixelResponse(double blur);

@@ -32,28 +32,40 @@ BATTEN_HOT_LOOP void meansOfFive(const float* in, float* __restrict out, int cou
   for (int i = 0; i < count; ++i) out[i] = (in[i] + in[i + 1] + in[i + 2] + in[i + 3] + in[i + 4]) / 5.0f;
 }
 
-/// The plane averaged along x over 2 kAlong + 1 pixels.
-Plane averagedAlong(const Plane& grey, const RunContext& context) {
-  static_assert(kAlong == 2);
-  Plane out(grey.width, grey.height);
-  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<float> padded(static_cast<std::size_t>(grey.width) + 2 * kAlong);
-    for (int y = begin; y < end; ++y) {
-      const float* in = grey.row(y);
-      std::copy_n(in, grey.width, padded.data() + kAlong);
-      std::fill_n(padded.data(), kAlong, in[0]);
-      std::fill_n(padded.data() + kAlong + grey.width, kAlong, in[grey.width - 1]);
-      meansOfFive(padded.data(), out.row(y), grey.width);
+/// Rows [first, past) of a plane averaged along x over 2 kAlong + 1 pixels. Made where they are needed: a whole plane
+/// of them would be fresh memory, which costs more than the sums.
+class AveragedRows {
+ public:
+  explicit AveragedRows(const Plane& grey) : grey_(grey), padded_(static_cast<std::size_t>(grey.width) + 2 * kAlong) {}
+
+  void make(int first, int past) {
+    static_assert(kAlong == 2);
+    first_ = first;
+    rows_.resize(static_cast<std::size_t>(grey_.width) * static_cast<std::size_t>(past - first));
+    for (int y = first; y < past; ++y) {
+      const float* in = grey_.row(y);
+      std::copy_n(in, grey_.width, padded_.data() + kAlong);
+      std::fill_n(padded_.data(), kAlong, in[0]);
+      std::fill_n(padded_.data() + kAlong + grey_.width, kAlong, in[grey_.width - 1]);
+      meansOfFive(padded_.data(), rows_.data() + std::ptrdiff_t{y - first} * grey_.width, grey_.width);
     }
-  });
-  return out;
-}
+  }
+  const float* row(int y) const { return rows_.data() + std::ptrdiff_t{y - first_} * grey_.width; }
+  int height() const { return grey_.height; }  ///< Of the plane.
+
+ private:
+  const Plane& grey_;
+  int first_ = 0;
+  std::vector<float> padded_, rows_;
+};
 
 double noiseAcross(const Plane& grey) {
   std::vector<float> steps;
+  AveragedRows rows(grey);
   for (int y = 0; y + 1 < grey.height; y += kNoiseStride) {
+    rows.make(y, y + 2);
     for (int x = y % kNoiseStride; x < grey.width; x += kNoiseStride)
-      steps.push_back(grey.row(y + 1)[x] - grey.row(y)[x]);
+      steps.push_back(rows.row(y + 1)[x] - rows.row(y)[x]);
   }
   return robustSigma(steps) / std::sqrt(2.0);
 }
@@ -84,12 +96,12 @@ BATTEN_HOT_LOOP void markThinDark(const RowsAround& rows, float least, std::uint
   }
 }
 
-RowsAround rowsAround(const Plane& grey, int y) {
-  RowsAround rows{grey.row(y - 1), grey.row(y), grey.row(y + 1), {}, {}};
+RowsAround rowsAround(const AveragedRows& averaged, int y) {
+  RowsAround rows{averaged.row(y - 1), averaged.row(y), averaged.row(y + 1), {}, {}};
   for (std::size_t i = 0; i < kSides.size(); ++i) {
-    const bool isOnPage = y >= kSides[i] && y + kSides[i] < grey.height;
-    rows.up[i] = isOnPage ? grey.row(y - kSides[i]) : rows.here;
-    rows.down[i] = isOnPage ? grey.row(y + kSides[i]) : rows.here;
+    const bool isOnPage = y >= kSides[i] && y + kSides[i] < averaged.height();
+    rows.up[i] = isOnPage ? averaged.row(y - kSides[i]) : rows.here;
+    rows.down[i] = isOnPage ? averaged.row(y + kSides[i]) : rows.here;
   }
   return rows;
 }
@@ -97,14 +109,17 @@ RowsAround rowsAround(const Plane& grey, int y) {
 /// Pixels in the middle of thin dark lines, strip by strip.
 std::array<std::vector<LinePixel>, kStrips> linePixels(const Plane& grey, const RunContext& context) {
   static_assert(kSides.size() == 2);
+  constexpr int kFarSide = kSides.back();
   std::array<std::vector<LinePixel>, kStrips> pixels;
   const float least = std::max(kLeastDepth, static_cast<float>(kDepthPerNoise * noiseAcross(grey)));
   const int blocks = (grey.height + kRowsPerBlock - 1) / kRowsPerBlock;
   std::vector<std::array<std::vector<LinePixel>, kStrips>> parts(blocks);
   parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
     std::vector<std::uint8_t> marks((static_cast<std::size_t>(grey.width) + 7) / 8 * 8, 0);
+    AveragedRows averaged(grey);
+    averaged.make(std::max(0, begin - kFarSide), std::min(grey.height, end + kFarSide));
     for (int y = std::max(1, begin); y < std::min(end, grey.height - 1); ++y) {
-      const RowsAround rows = rowsAround(grey, y);
+      const RowsAround rows = rowsAround(averaged, y);
       markThinDark(rows, least, marks.data(), grey.width);
       for (int x = 0; x < grey.width; ++x) {
         if (std::uint64_t eight = 0; x % 8 == 0) {
@@ -160,7 +175,7 @@ RulingStretches findRulingStretches(const Plane& grey, const RunContext& context
   out.height = grey.height;
   out.stripWidth = out.width / kStrips;
   if (std::min(grey.width, grey.height) < kLeastStretchSide) return out;
-  const auto pixels = linePixels(averagedAlong(grey, context), context);
+  const auto pixels = linePixels(grey, context);
   if (context.isCancelled()) return out;
   const double offset = kSteepest * out.width + 2.0;
   const double least = kLeastOfStrip * out.stripWidth;

@@ -287,8 +287,9 @@ CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<V
   figures.fromPoints = deviation(curve, points, true, context);
   const double size = extent(curve);
   if (size > 0.0) {
-    figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed, context).size());
-    figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed, context).size());
+    const CurvatureCounts counts = curvatureCounts(curve, kExtremumProminence / size, closed, context);
+    figures.extrema = counts.extrema;
+    figures.inflections = counts.inflections;
     if (context.isCancelled()) return figures;
     figures.curvatureJump = largestCurvatureJump(curve, closed);
   }

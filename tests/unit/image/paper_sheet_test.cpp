@@ -62,6 +62,15 @@ void expectCutAtTheSheet(const Scan& scan, const char* name) {
   EXPECT_EQ(changedInside, 0) << name;
 }
 
+// So narrow that it has not one cell across.
+TEST(PaperSheet, AStripHasNoSheetAndNoError) {
+  Scan scan;
+  scan.grey = GreyImage(80, 40000);
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_FALSE(page->sheet);
+}
+
 TEST(PaperSheet, IsFoundOnTableAndCarpet) {
   expectCutAtTheSheet(photo([](double x, double y) -> PhotoPixel {
                         if (depthInSheet(x, y) < 0.0) return {110.0, 2.0};
