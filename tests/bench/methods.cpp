@@ -42,6 +42,9 @@ std::vector<Method> methods() {
       {"nurbs+target", {"construct.method=nurbs", "fairing.mode=target", "fairing.tolerance=0.5"}},
       {"nurbs+monotone", {"construct.method=nurbs", "fairing.mode=monotone", "fairing.tolerance=0.5"}},
       {"nurbs+lowpass", {"construct.method=nurbs", "fairing.mode=lowpass", "fairing.tolerance=0.5"}},
+      // The knots lie 20 to 40 px apart: a filter of 20 px finds hardly any wave to take.
+      {"nurbs+lowpass100",
+       {"construct.method=nurbs", "fairing.mode=lowpass", "fairing.lowpass=100", "fairing.tolerance=0.5"}},
       {"bezier", {"construct.method=bezier"}},
       {"bezier from fit", {"construct.method=bezier", "construct.start=fit"}},
       {"typical", {"construct.method=typical"}},

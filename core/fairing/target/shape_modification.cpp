@@ -84,6 +84,7 @@ class ShapeModification {
         toleranceMm_(toleranceMm),
         context_(context),
         onlyIfMet_(effort.onlyIfMet),
+        isFiltered_(effort.isFiltered),
         notes_(effort.isFiltered ? kNotesOfFilter : kNotesOfTarget),
         asked_(extremaAsked(*setup, objective)) {
     if (effort.asked == ExtremaAsked::UpToSketch)
@@ -165,7 +166,10 @@ class ShapeModification {
 
   void take(const TargetStep& step, const Course* course) {
     const bool better = rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit);
-    if (!better) return;
+    // Few extrema are no merit of a curve that is farther from the filtered curvature than the sketch: it lost long
+    // waves.
+    const bool isAstray = isFiltered_ && std::sqrt(step.misfit) > report_.objectiveBefore;
+    if (!better || isAstray) return;
     best_ = step;
     course_ = course;
   }
@@ -308,7 +312,7 @@ class ShapeModification {
   const RunContext& context_;
   std::vector<std::shared_ptr<const FairingSetup>> calm_;
   std::vector<Course> courses_;
-  bool onlyIfMet_;
+  bool onlyIfMet_, isFiltered_;
   const ModificationNotes& notes_;
   int asked_;
   double metMisfit_ = 0.0;  ///< Of the curve that meets the target.

@@ -45,6 +45,45 @@ int turnsOf(const std::vector<double>& values) {
   return turns;
 }
 
+/// Curvature over equal steps of the length, without its short waves: local straight lines with Gaussian weights by the
+/// trapezoidal rule, written out plainly.
+std::vector<double> filteredCurvature(const NurbsCurve& curve, double wavelength) {
+  constexpr std::size_t kPlaces = 4001, kEvery = 8;
+  const auto samples = sampleByArcLength(curve, kPlaces);
+  const double sigma = wavelength * std::sqrt(0.5 * std::numbers::ln2) / std::numbers::pi;
+  std::vector<double> filtered;
+  for (std::size_t i = 0; i < kPlaces; i += kEvery) {
+    double w0 = 0.0, w1 = 0.0, w2 = 0.0, y0 = 0.0, y1 = 0.0;
+    for (std::size_t j = 0; j < kPlaces; ++j) {
+      const double x = samples[j].s - samples[i].s, share = j == 0 || j + 1 == kPlaces ? 0.5 : 1.0;
+      const double w = share * std::exp(-0.5 * x * x / (sigma * sigma));
+      w0 += w;
+      w1 += w * x;
+      w2 += w * x * x;
+      y0 += w * samples[j].kappa;
+      y1 += w * x * samples[j].kappa;
+    }
+    filtered.push_back((w2 * y0 - w1 * y1) / (w0 * w2 - w1 * w1));
+  }
+  return filtered;
+}
+
+/// Times that the values turn back by more than this, counted the plain way.
+int turnsBeyond(const std::vector<double>& values, double prominence) {
+  int turns = 0, direction = 0;
+  double low = values.front(), high = values.front();
+  for (const double v : values) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+    const bool rises = direction <= 0 && v - low > prominence, falls = direction >= 0 && high - v > prominence;
+    if (!rises && !falls) continue;
+    turns += direction == 0 ? 0 : 1;
+    direction = rises ? 1 : -1;
+    low = high = v;
+  }
+  return turns;
+}
+
 FairingParams monotone(double tolerance, int keep) {
   FairingParams params;
   params.mode = FairingMode::Monotone;
@@ -241,6 +280,35 @@ TEST(LowPassMode, KeepsItsShareOfEveryWaveAtAnyTolerance) {
       EXPECT_NEAR(amplitude(faired->curve) / amplitude(start), share, 0.05) << wave << ", tolerance " << tolerance;
     }
   }
+}
+
+TEST(LowPassMode, HasNoMoreExtremaThanTheFilteredCurvature) {
+  std::mt19937 random(1203);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int followed = 0;
+  for (unsigned i = 0; i < 90; ++i) {
+    const int count = 14 + static_cast<int>(30.0 * uniform(random));
+    const double length = 200.0 + 200.0 * uniform(random), height = 40.0 * uniform(random);
+    const NurbsCurve shape =
+        i % 2 == 0 ? test::wave(length, height, count) : test::arc(length, 0.4 + uniform(random), count);
+    const NurbsCurve start = test::noisy(shape, 0.3 * uniform(random), i);
+    FairingParams params;
+    params.mode = FairingMode::LowPass;
+    params.lowPassMm = 20.0 * std::pow(6.0, uniform(random));
+    params.toleranceMm = i % 3 == 0 ? 0.3 : 20.0;
+    SCOPED_TRACE(testing::Message() << "line " << i << ", wavelength " << params.lowPassMm);
+    const auto faired = fair(start, false, params, {});
+    ASSERT_TRUE(faired);
+    const int extrema = countedExtrema(faired->curve, false);
+    EXPECT_LE(extrema, countedExtrema(start, false));
+    if (!faired->report.withinTolerance) continue;
+    ++followed;
+    // What is all but an extremum of the profile may be one of the curve.
+    constexpr double kAllBut = 0.9;
+    const double prominence = kAllBut * kExtremumProminence / extent(start);
+    EXPECT_LE(extrema, turnsBeyond(filteredCurvature(start, params.lowPassMm), prominence));
+  }
+  EXPECT_GT(followed, 45);
 }
 
 TEST(LowPassMode, AdvisesNothingThatOnlyTargetsHave) {
