@@ -170,11 +170,13 @@ double depthOf(const StrokePath& s, const GreyImage& grey) {
 }
 
 // Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
-// of its own: such are kept only where they are as dark as the strokes around.
+// of its own, which end free. Such are kept where they are as dark as the strokes around, or as ink must be by the
+// threshold if they look like strokes of the same pencil: no broader, as marks are, and long enough for its width.
 void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double minWidths, bool anyPencil,
                const RunContext& context) {
-  constexpr double kGrainWidths = 2.5;  // times the shortest: longer ones are no grain
-  constexpr double kAsDark = 0.8;
+  constexpr double kGrainWidths = 2.5;               // times the shortest: longer ones are no grain
+  constexpr double kSamePencil = 1.5;                // of its usual width: two strokes side by side are broader
+  constexpr double kAsDark = 0.8, kHalfLevel = 0.5;  // of the depth of the strokes around
   // A free end of a skeleton lies half a width before that of its ink.
   const auto widthsOf = [](const StrokePath& s) {
     const double ends = s.closed ? 0.0 : (s.tip[0] ? 0.5 : 0.0) + (s.tip[1] ? 0.5 : 0.0);
@@ -184,12 +186,16 @@ void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double min
   const std::optional<GraininessMap> grain =
       anyPencil ? std::optional<GraininessMap>(std::in_place, paths, grey, context) : std::nullopt;
   if (context.isCancelled()) return;
+  const double usualPx = grain ? medianWidth(paths, [&](int i) { return grain->isPencil(i); }) : 0.0;
   for (int i = 0; i < std::ssize(paths); ++i) {
     const StrokePath& s = paths[i];
     const double widths = widthsOf(s);
     bool drop = s.points.size() < 3 || widths < minWidths;
-    if (!drop && grain && grain->isPencil(i) && widths < kGrainWidths * minWidths)
-      drop = depthOf(s, grey) < kAsDark * grain->depthAt(s.points[s.points.size() / 2].at);
+    const bool isLink = !s.closed && !s.tip[0] && !s.tip[1];
+    if (!drop && !isLink && grain && grain->isPencil(i) && widths < kGrainWidths * minWidths) {
+      const bool isStroke = s.length() >= minWidths * usualPx && s.widthPx() <= kSamePencil * usualPx;
+      drop = depthOf(s, grey) < (isStroke ? kHalfLevel : kAsDark) * grain->depthAt(s.points[s.points.size() / 2].at);
+    }
     isDropped.push_back(drop);
   }
   std::vector<StrokePath> kept;
@@ -202,6 +208,27 @@ void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double min
 // A line of which the grey values show no point is none.
 bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
+}
+
+// Within the discs of junctions and corners no grey values are asked. Where a pencil's broad and torn strokes meet,
+// whole strokes lie there.
+bool isHidden(const StrokePath& path) {
+  return std::none_of(path.points.begin(), path.points.end(),
+                      [](const StrokePathPoint& p) { return p.part == StrokePart::Ink; });
+}
+
+// The strokes as lines, but those that are not seen. `grain`: absent where no stroke is a pencil's.
+RefinedStrokes placedLines(const std::vector<StrokePath>& paths, const GraininessMap* grain, const GreyImage& grey,
+                           bool subpixel, const RunContext& context) {
+  RefinedStrokes placed = placeStrokePaths(paths, grain, grey, subpixel, context);
+  std::vector<Contour> seen;
+  for (int i = 0; i < std::ssize(placed.contours); ++i) {
+    Contour& c = placed.contours[i];
+    const bool isKept = !subpixel || isSeen(c) || (grain != nullptr && grain->isPencil(i) && isHidden(paths[i]));
+    if (c.points.size() >= 3 && isKept) seen.push_back(std::move(c));
+  }
+  placed.contours = std::move(seen);
+  return placed;
 }
 
 // The curves that were meant, in place of the lines, where the page shows lines drawn over more than once.
@@ -247,18 +274,13 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   dropShort(paths, grey, options.minWidths, anyPencil, context);
   if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
-  RefinedStrokes placedStrokes;
-  if (anyPencil) {
-    const GraininessMap found(paths, grey, context);
-    placedStrokes = placeStrokePaths(paths, &found, grey, params.subpixel, context);
-  } else {
-    placedStrokes = placeStrokePaths(paths, nullptr, grey, params.subpixel, context);
-  }
-  set.contours = std::move(placedStrokes.contours);
+  std::optional<GraininessMap> known;
+  if (anyPencil) known.emplace(paths, grey, context);
+  const std::size_t found = paths.size();
+  RefinedStrokes placedStrokes = placedLines(paths, known ? &*known : nullptr, grey, params.subpixel, context);
   if (context.isCancelled()) return cancelled();
-  const std::size_t placed = set.contours.size();
-  std::erase_if(set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); });
-  set.report.droppedShort += static_cast<int>(placed - set.contours.size());
+  set.contours = std::move(placedStrokes.contours);
+  set.report.droppedShort += static_cast<int>(found - set.contours.size());
   BitImage seen = shapes != nullptr ? either(*ink, *shapes) : *ink;
   for (const Vec2& at : placedStrokes.faint) setDisc(seen, at, 1.0);
   set.contours = keepOnInk(std::move(set.contours), seen);
