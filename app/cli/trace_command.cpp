@@ -9,6 +9,7 @@
 
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/note_list.h"
 #include "app/cli/report_output.h"
 #include "app/cli/shown_digits.h"
 #include "app/cli/stage_dump.h"
@@ -181,31 +182,63 @@ class Trace {
     const auto numbers = [](const MarkPair& pair) {
       return std::to_string(pair.other + 1) + " and " + std::to_string(pair.mark + 1);
     };
-    for (const int mark : out_.pieces->lostMarks) {
-      list.push_back("No line lies near the corner " + placeOf(mark) + ".");
-    }
-    for (const MarkPair& pair : out_.pieces->sameCorner) {
-      list.push_back("Corners " + numbers(pair) + ", at " + placeOf(pair.other) + " and " + placeOf(pair.mark) +
-                     ", snap to the same corner: remove one, or reduce corners.snap if you mean two corners.");
-    }
-    for (const MarkPair& pair : out_.pieces->closeCorners) {
-      list.push_back("Corners " + numbers(pair) + " are " + std::to_string(std::lround(pair.apartPx)) +
-                     " px apart: remove one of them.");
-    }
+    addNotes(
+        list, out_.pieces->lostMarks, [&](int mark) { return "No line lies near the corner " + placeOf(mark) + "."; },
+        [](const std::string& count) { return "No line lies near " + count + " more corners."; });
+    addNotes(
+        list, out_.pieces->sameCorner,
+        [&](const MarkPair& pair) {
+          return "Corners " + numbers(pair) + ", at " + placeOf(pair.other) + " and " + placeOf(pair.mark) +
+                 ", snap to the same corner: remove one, or reduce corners.snap if you mean two corners.";
+        },
+        [](const std::string& count) { return count + " more pairs of corners snap to the same corner."; });
+    addNotes(
+        list, out_.pieces->closeCorners,
+        [&](const MarkPair& pair) {
+          return "Corners " + numbers(pair) + " are " + std::to_string(std::lround(pair.apartPx)) +
+                 " px apart: remove one of them.";
+        },
+        [](const std::string& count) { return count + " more pairs of corners are as close together."; });
   }
 
   void addDirectionNotes(std::vector<std::string>& list) const {
     const Recipe& recipe = plan_.recipe;
     const DirectionOwners owners = assignDirections(*out_.pieces, recipe);
-    for (const std::size_t mark : owners.lostDirections)
-      list.push_back("No curve near " + placeText(recipe.directions[mark].positionPx) + " for --direction.");
-    for (const std::size_t mark : owners.lostStarts)
-      list.push_back("No curve near " + placeText(recipe.starts[mark].positionPx) + " for --start.");
+    const auto addLost = [&](const std::vector<std::size_t>& lost, const auto& marks, const std::string& option) {
+      addNotes(
+          list, lost,
+          [&](std::size_t mark) {
+            return "No curve near " + placeText(marks[mark].positionPx) + " for " + option + ".";
+          },
+          [&](const std::string& count) { return "No curve near " + count + " more places of " + option + "."; });
+    };
+    addLost(owners.lostDirections, recipe.directions, "--direction");
+    addLost(owners.lostStarts, recipe.starts, "--start");
+    std::vector<std::size_t> onOpenLines;
     for (const auto& [contour, mark] : owners.startOfContour) {
-      if (out_.contours->contours[contour].closed) continue;
-      list.push_back("The line at " + placeText(recipe.starts[mark].positionPx) +
-                     " is open, so --start has no effect.");
+      if (!out_.contours->contours[contour].closed) onOpenLines.push_back(mark);
     }
+    addNotes(
+        list, onOpenLines,
+        [&](std::size_t mark) {
+          return "The line at " + placeText(recipe.starts[mark].positionPx) + " is open, so --start has no effect.";
+        },
+        [](const std::string& count) { return count + " more places of --start are on open lines."; });
+  }
+
+  /// Choices that wait for a line at their place.
+  void addChoiceNotes(std::vector<std::string>& list) const {
+    std::vector<std::string> places;
+    for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
+      const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
+      if (!anchors.empty()) places.push_back(placeText(anchors[anchors.size() / 2]));
+    }
+    addNotes(
+        list, places,
+        [](const std::string& place) {
+          return "No line at the position of the choice at " + place + "; the choice is kept in the recipe.";
+        },
+        [](const std::string& count) { return "No line at the positions of " + count + " more choices."; });
   }
 
   /// What the user should know although the trace was made.
@@ -228,13 +261,10 @@ class Trace {
     if (explanation_ && !explanation_->note.empty()) list.push_back(explanation_->note);
     addCornerNotes(list);
     addDirectionNotes(list);
-    for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
-      const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
-      if (anchors.empty()) continue;
-      list.push_back("No line at the position of the choice at " + placeText(anchors[anchors.size() / 2]) +
-                     "; the choice is kept in the recipe.");
-    }
-    for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
+    addChoiceNotes(list);
+    addNotes(
+        list, out_.constructed->failures, [](const Error& failure) { return failure.message; },
+        [](const std::string& count) { return count + " more lines gave no curve."; });
     for (std::string& note : curveNotes(out_)) list.push_back(std::move(note));
     return list;
   }

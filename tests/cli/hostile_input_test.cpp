@@ -87,6 +87,19 @@ TEST_F(HostileInput, NamesAreBytes) {
   EXPECT_NE(test::readFile(file("Entw\xfcrfe/plain.svg")), "");
 }
 
+TEST_F(HostileInput, ManyNotesOfAKindAreCounted) {
+  const std::string scan = scene();
+  json recipe = {{"format", "batten-recipe"}, {"version", 1}, {"parameters", json::object()}};
+  json& corners = recipe["corners"] = json::array();
+  for (int i = 0; i < 3000; ++i) corners.push_back({1.0 + i % 20, 1.0 + 0.01 * (i / 20)});
+  write("many.json", recipe.dump());
+  const Outcome done = run("trace " + scan + " --recipe " + file("many.json") + " -o " + file("o.svg"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  const json notes = json::parse(done.out)["notes"];
+  EXPECT_LT(notes.size(), 20u) << notes.dump().substr(0, 2000);
+  EXPECT_NE(done.out.find("No line lies near 2989 more corners."), std::string::npos) << done.out.substr(0, 3000);
+}
+
 TEST_F(HostileInput, TinyFilesTakeLittleMemory) {
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
   json recipe = {{"format", "batten-recipe"}, {"version", 1}, {"parameters", json::object()}, {"page", {2000, 2000}}};
