@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/cli/note_list.h"
 #include "core/pipeline/run/left_as_drawn.h"
 
 namespace batten::cli {
 namespace {
 
-constexpr std::size_t kMostNamed = 12;
-
 /// "Curve 3", "Curves 1, 4 and 7", "Curves 1, 2, 3 and 40 more".
 std::string named(const std::vector<int>& curves) {
-  const std::size_t shown = curves.size() <= kMostNamed ? curves.size() : kMostNamed - 1;
+  const std::size_t shown = namedOf(curves.size());
   std::string text = curves.size() == 1 ? "Curve " : "Curves ";
   for (std::size_t i = 0; i < shown; ++i) {
     if (i > 0) text += i + 1 == curves.size() ? " and " : ", ";
@@ -65,6 +64,13 @@ std::string typicalNote(const std::vector<TracedCurve>& curves) {
          (transitions == 1 ? " transition." : " transitions.");
 }
 
+std::string constructionLine(const Kind& k) {
+  if (k.kind != "Turns sharply") return named(k.curves) + ": " + k.note;
+  return named(k.curves) + (k.curves.size() == 1 ? " turns" : " turn") +
+         " sharply where no corner is marked: add --corner there (suggest lists the places); where the line "
+         "trembles, raise construct.detail instead.";
+}
+
 }  // namespace
 
 std::vector<std::string> curveNotes(const PipelineOutput& output) {
@@ -77,18 +83,13 @@ std::vector<std::string> curveNotes(const PipelineOutput& output) {
     add(faired, note, note, number);
   }
   std::vector<std::string> lines;
-  for (const Kind& k : constructed) {
-    if (k.kind == "Turns sharply") {
-      lines.push_back(
-          named(k.curves) + (k.curves.size() == 1 ? " turns" : " turn") +
-          " sharply where no corner is marked: add --corner there (suggest lists the places); where the line "
-          "trembles, raise construct.detail instead.");
-    } else {
-      lines.push_back(named(k.curves) + ": " + k.note);
-    }
-  }
+  const auto more = [](const std::string& count) {
+    return count + " more notes on curves are in the report (--report).";
+  };
+  addNotes(lines, constructed, constructionLine, more);
   if (std::string note = typicalNote(output.faired->curves); !note.empty()) lines.push_back(std::move(note));
-  for (const Kind& k : faired) lines.push_back(named(k.curves) + ", fairing: " + k.note);
+  addNotes(
+      lines, faired, [](const Kind& k) { return named(k.curves) + ", fairing: " + k.note; }, more);
   return lines;
 }
 

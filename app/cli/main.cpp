@@ -6,6 +6,7 @@
 #include "app/cli/batch/batch_command.h"
 #include "app/cli/compare_command.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/number_option.h"
 #include "app/cli/options_command.h"
 #include "app/cli/output_arguments.h"
 #include "app/cli/parameters_command.h"
@@ -201,24 +202,31 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
   batch->add_option("--formats", a.formats, "Formats to write for each of them (svg,json)")->type_name("LIST");
   batch->add_option("--recipe", a.recipe, "Recipe of the pages that have none of their own")->type_name("R.json");
   addRepeated(*batch, "--set", a.settings, "NAME=VALUE", "Set a parameter of every page; may be repeated");
-  batch->add_option("--dpi", a.dpi, "Resolution of the pages that state none in the manifest")->type_name("N");
-  batch->add_option("--jobs", a.jobs, "Pages processed in parallel; 0 = one per processor")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  addNumber(
+      *batch, "--dpi", [&a](double dpi) { a.dpi = dpi; }, {1.0, 1e5, "a number from 1 to 100000"},
+      "Resolution of the pages that state none in the manifest")
+      ->type_name("N");
+  addInteger(
+      *batch, "--jobs", [&a](int jobs) { a.jobs = jobs; }, {0, 1024, "a whole number from 0 to 1024"},
+      "Pages processed in parallel; 0 = one per processor")
+      ->type_name("N");
   batch->add_option("--existing", a.existing, "Existing outputs: skip unchanged pages, overwrite all, or abort")
       ->check(CLI::IsMember({"skip", "overwrite", "abort"}).description(""))
       ->type_name("skip|overwrite|abort");
-  batch
-      ->add_option("--first-line", a.firstLine,
-                   "Line number of the first line of the manifest, if it is part of a larger one (1)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000000000));
+  addInteger(
+      *batch, "--first-line", [&a](int line) { a.firstLine = line; },
+      {1, 1000000000, "a whole number from 1 to 1000000000"},
+      "Line number of the first line of the manifest, if it is part of a larger one (1)")
+      ->type_name("N");
   batch->add_flag("--resume", a.resume, "Resume an earlier run, regardless of --existing");
-  batch->add_option("--page-timeout", a.pageTimeoutSeconds, "A page that takes longer fails, 0.001 to 1000000 s")
+  addNumber(
+      *batch, "--page-timeout", [&a](double seconds) { a.pageTimeoutSeconds = seconds; },
+      {0.001, 1e6, "seconds from 0.001 to 1000000"}, "A page that takes longer fails, 0.001 to 1000000 s")
       ->type_name("S");
-  batch
-      ->add_option("--max-failures", a.maxFailures,
-                   "Stop starting pages once this fraction of all pages has failed, 0 to 1")
+  addNumber(
+      *batch, "--max-failures", [&a](double share) { a.maxFailures = share; },
+      {0.0, 1.0, "a share of the pages from 0 to 1"},
+      "Stop starting pages once this fraction of all pages has failed, 0 to 1")
       ->type_name("RATE");
   batch
       ->add_option("--results", a.results,

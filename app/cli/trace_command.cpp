@@ -9,6 +9,8 @@
 
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/name_json.h"
+#include "app/cli/note_list.h"
 #include "app/cli/report_output.h"
 #include "app/cli/shown_digits.h"
 #include "app/cli/stage_dump.h"
@@ -16,7 +18,6 @@
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
-#include "core/base/shown_text.h"
 #include "core/document/explain/explanation.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
@@ -87,8 +88,8 @@ class Trace {
   }
 
   std::string summary() const {
-    nlohmann::ordered_json json{{"scan", arguments_.scan}};
-    if (!arguments_.imports.empty()) json["imports"] = arguments_.imports;
+    nlohmann::ordered_json json{{"scan", jsonText(arguments_.scan)}};
+    if (!arguments_.imports.empty()) json["imports"] = jsonTexts(arguments_.imports);
     if (scan_.pages > 1) json["page"] = scan_.page.number;
     json["curves"] = curves_;
     json["pieces"] = pieces_;
@@ -96,11 +97,11 @@ class Trace {
     json["milliseconds"] = withDecimals(millisecondsSince(begin_), kDecimalsOfMs);
     json["processor_milliseconds"] = withDecimals(1000.0 * processorSeconds(), kDecimalsOfMs);
     json["peak_memory_bytes"] = peakMemoryBytes();
-    json["files"] = files_;
-    json["checks"] = checks_;
+    json["files"] = jsonTexts(files_);
+    json["checks"] = jsonTexts(checks_);
     if (explanation_) json["explanation"] = explanationFigures(*explanation_);
-    json["notes"] = notes();
-    return withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    json["notes"] = jsonTexts(notes());
+    return lineWithNames(json);
   }
 
  private:
@@ -181,31 +182,63 @@ class Trace {
     const auto numbers = [](const MarkPair& pair) {
       return std::to_string(pair.other + 1) + " and " + std::to_string(pair.mark + 1);
     };
-    for (const int mark : out_.pieces->lostMarks) {
-      list.push_back("No line lies near the corner " + placeOf(mark) + ".");
-    }
-    for (const MarkPair& pair : out_.pieces->sameCorner) {
-      list.push_back("Corners " + numbers(pair) + ", at " + placeOf(pair.other) + " and " + placeOf(pair.mark) +
-                     ", snap to the same corner: remove one, or reduce corners.snap if you mean two corners.");
-    }
-    for (const MarkPair& pair : out_.pieces->closeCorners) {
-      list.push_back("Corners " + numbers(pair) + " are " + std::to_string(std::lround(pair.apartPx)) +
-                     " px apart: remove one of them.");
-    }
+    addNotes(
+        list, out_.pieces->lostMarks, [&](int mark) { return "No line lies near the corner " + placeOf(mark) + "."; },
+        [](const std::string& count) { return "No line lies near " + count + " more corners."; });
+    addNotes(
+        list, out_.pieces->sameCorner,
+        [&](const MarkPair& pair) {
+          return "Corners " + numbers(pair) + ", at " + placeOf(pair.other) + " and " + placeOf(pair.mark) +
+                 ", snap to the same corner: remove one, or reduce corners.snap if you mean two corners.";
+        },
+        [](const std::string& count) { return count + " more pairs of corners snap to the same corner."; });
+    addNotes(
+        list, out_.pieces->closeCorners,
+        [&](const MarkPair& pair) {
+          return "Corners " + numbers(pair) + " are " + std::to_string(std::lround(pair.apartPx)) +
+                 " px apart: remove one of them.";
+        },
+        [](const std::string& count) { return count + " more pairs of corners are as close together."; });
   }
 
   void addDirectionNotes(std::vector<std::string>& list) const {
     const Recipe& recipe = plan_.recipe;
     const DirectionOwners owners = assignDirections(*out_.pieces, recipe);
-    for (const std::size_t mark : owners.lostDirections)
-      list.push_back("No curve near " + placeText(recipe.directions[mark].positionPx) + " for --direction.");
-    for (const std::size_t mark : owners.lostStarts)
-      list.push_back("No curve near " + placeText(recipe.starts[mark].positionPx) + " for --start.");
+    const auto addLost = [&](const std::vector<std::size_t>& lost, const auto& marks, const std::string& option) {
+      addNotes(
+          list, lost,
+          [&](std::size_t mark) {
+            return "No curve near " + placeText(marks[mark].positionPx) + " for " + option + ".";
+          },
+          [&](const std::string& count) { return "No curve near " + count + " more places of " + option + "."; });
+    };
+    addLost(owners.lostDirections, recipe.directions, "--direction");
+    addLost(owners.lostStarts, recipe.starts, "--start");
+    std::vector<std::size_t> onOpenLines;
     for (const auto& [contour, mark] : owners.startOfContour) {
-      if (out_.contours->contours[contour].closed) continue;
-      list.push_back("The line at " + placeText(recipe.starts[mark].positionPx) +
-                     " is open, so --start has no effect.");
+      if (!out_.contours->contours[contour].closed) onOpenLines.push_back(mark);
     }
+    addNotes(
+        list, onOpenLines,
+        [&](std::size_t mark) {
+          return "The line at " + placeText(recipe.starts[mark].positionPx) + " is open, so --start has no effect.";
+        },
+        [](const std::string& count) { return count + " more places of --start are on open lines."; });
+  }
+
+  /// Choices that wait for a line at their place.
+  void addChoiceNotes(std::vector<std::string>& list) const {
+    std::vector<std::string> places;
+    for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
+      const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
+      if (!anchors.empty()) places.push_back(placeText(anchors[anchors.size() / 2]));
+    }
+    addNotes(
+        list, places,
+        [](const std::string& place) {
+          return "No line at the position of the choice at " + place + "; the choice is kept in the recipe.";
+        },
+        [](const std::string& count) { return "No line at the positions of " + count + " more choices."; });
   }
 
   /// What the user should know although the trace was made.
@@ -228,13 +261,10 @@ class Trace {
     if (explanation_ && !explanation_->note.empty()) list.push_back(explanation_->note);
     addCornerNotes(list);
     addDirectionNotes(list);
-    for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
-      const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
-      if (anchors.empty()) continue;
-      list.push_back("No line at the position of the choice at " + placeText(anchors[anchors.size() / 2]) +
-                     "; the choice is kept in the recipe.");
-    }
-    for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
+    addChoiceNotes(list);
+    addNotes(
+        list, out_.constructed->failures, [](const Error& failure) { return failure.message; },
+        [](const std::string& count) { return count + " more lines gave no curve."; });
     for (std::string& note : curveNotes(out_)) list.push_back(std::move(note));
     return list;
   }
@@ -260,14 +290,14 @@ int reportPage(const TraceArguments& arguments, Error error) {
   const std::string why = error.message;
   error.message = "Page " + arguments.page + ": " + why;
   const int code = reportError(error);
-  const nlohmann::ordered_json json{{"scan", arguments.scan},
+  const nlohmann::ordered_json json{{"scan", jsonText(arguments.scan)},
                                     {"page", integerFromText(arguments.page).value_or(0)},
                                     {"curves", 0},
                                     {"pieces", 0},
                                     {"files", nlohmann::ordered_json::array()},
                                     {"exit", code},
-                                    {"error", why}};
-  std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
+                                    {"error", jsonText(why)}};
+  std::cout << lineWithNames(json) << '\n';
   const int written = endOutput();
   return written == kDone ? code : written;
 }

@@ -284,10 +284,16 @@ TEST_F(BatchFiles, PatternsReachIntoFolders) {
 TEST_F(BatchFiles, NumbersThatAreNoneAreRefused) {
   drawPage("a");
   write("pages.jsonl", line("a"));
-  for (const char* words : {"--max-failures nan", "--page-timeout nan", "--dpi nan", "--max-failures 1.5",
-                            "--page-timeout 0", "--page-timeout inf"})
-    expectError("batch " + file("pages.jsonl") + " " + words, 2,
-                std::string(words).substr(0, std::string(words).find(' ')));
+  for (const char* words :
+       {"--max-failures nan", "--page-timeout nan", "--dpi nan", "--max-failures 1.5", "--page-timeout 0",
+        "--page-timeout inf", "--dpi 0x60", "--dpi ''", "--dpi 0", "--jobs ''", "--jobs 0x2", "--jobs 1.5", "--jobs -1",
+        "--first-line 0x2", "--max-failures 0x1", "--page-timeout ''"}) {
+    const std::string name = std::string(words).substr(0, std::string(words).find(' '));
+    expectError("batch " + file("pages.jsonl") + " " + words, 2, name + " takes ");
+    std::string value = std::string(words).substr(name.size() + 1);
+    if (value == "''") value.clear();
+    expectError("batch " + file("pages.jsonl") + " " + words, 2, ", not \"" + value + "\"");
+  }
   EXPECT_FALSE(fs::exists(file("a.svg")));
 }
 

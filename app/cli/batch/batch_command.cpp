@@ -128,19 +128,6 @@ Result<void> checkSideFiles(const BatchArguments& arguments, const std::vector<B
   return {};
 }
 
-/// --page-timeout and --max-failures; NaN lies in no range, though it is no number beyond one either.
-Result<void> checkNumbers(const BatchArguments& arguments) {
-  constexpr double kShortestSeconds = 0.001, kLongestSeconds = 1e6, kLeastDpi = 1.0, kMostDpi = 1e5;
-  const auto isWithin = [](double value, double least, double most) { return value >= least && value <= most; };
-  if (!isWithin(arguments.pageTimeoutSeconds.value_or(1.0), kShortestSeconds, kLongestSeconds))
-    return wrong("--page-timeout takes seconds from 0.001 to 1000000.");
-  if (!isWithin(arguments.maxFailures, 0.0, 1.0))
-    return wrong("--max-failures takes a share of the pages from 0 to 1.");
-  if (!isWithin(arguments.dpi.value_or(kLeastDpi), kLeastDpi, kMostDpi))
-    return wrong("--dpi takes a number from 1 to 100000.");
-  return {};
-}
-
 BatchSettings settingsOf(const BatchArguments& arguments) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   BatchSettings settings;
@@ -214,7 +201,6 @@ int writeManifest(const std::string& file, const std::vector<BatchPage>& pages) 
 }  // namespace
 
 int runBatch(const BatchArguments& arguments, char* program) {
-  if (auto checked = checkNumbers(arguments); !checked) return reportError(checked.error());
   const auto pages = pagesFor(arguments);
   if (!pages) return reportError(pages.error());
   if (auto checked = checkSideFiles(arguments, *pages); !checked) return reportError(checked.error());
