@@ -151,6 +151,7 @@ Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
       const NurbsCurve &p = a.curves[i].pieces[j].curve, &q = b.curves[i].pieces[j].curve;
       if (p.degree() != q.degree() || p.controlPointCount() != q.controlPointCount())
         return readsBackOtherwise("other curves");
+      if (a.curves[i].pieces[j].width != b.curves[i].pieces[j].width) return readsBackOtherwise("other widths");
       for (std::size_t k = 0; k < p.controlPoints().size(); ++k)
         largest = std::max(largest, (p.controlPoints()[k] - q.controlPoints()[k]).norm());
       for (std::size_t k = 0; k < p.knots().size(); ++k)
