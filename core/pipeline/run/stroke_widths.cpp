@@ -124,6 +124,7 @@ class MeasuredWidths {
     if (!widths.empty()) usualPx_ = upperMedian(widths);
     anyRefined_ = std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return p.refined; });
   }
+  std::optional<double> usual() const { return usualPx_ > 0.0 ? std::optional(usualPx_) : std::nullopt; }
   std::optional<double> widthAt(int index, double toStartPx, double toEndPx) const {
     const int i = wrapIndex(index, static_cast<int>(line_.points.size()));
     const ContourPoint& point = line_.points[i];
@@ -171,7 +172,8 @@ std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput& output, cons
     if (const auto px = widths.widthAt(piece.firstPoint + i, along[i], whole - along[i]))
       measured.push_back({walk.arcLength(at), output.frame.lengthToModel(*px)});
   }
-  if (measured.empty()) return std::nullopt;
+  // A piece all of which is near corners or crossings: as wide as its line.
+  if (measured.empty()) measured.push_back({0.0, output.frame.lengthToModel(widths.usual().value_or(0.0))});
   return fittedWidths(measured, walk.length(), curve.closed, pixel);
 }
 
