@@ -138,6 +138,8 @@ void addTrace(CLI::App& app, TraceArguments& a) {
                    "degree 3 within the tolerance (cubic)")
       ->type_name("exact|bezier|cubic");
   trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
+  trace->add_flag("--width-outline", a.widthOutline,
+                  "SVG: write strokes also as filled outlines of their width, in a layer below the curves");
   addRepeated(*trace, "--corner", a.corners, "X,Y[,MM|,rMM][,gN]",
               "Corner near this point, px from the upper left; MM rounds it from that distance on, rMM "
               "to that minimum radius; g1, g2 or g3: continuity of the rounding; may be repeated");

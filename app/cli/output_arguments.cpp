@@ -63,6 +63,7 @@ Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments
   if (arguments.flavour == "bezier") settings.flavour = CurveFlavour::BezierSegments;
   if (arguments.flavour == "cubic") settings.flavour = CurveFlavour::Cubic;
   if (arguments.chords) settings.arcs = false;
+  settings.widthOutlines = arguments.widthOutline;
   if (auto problem = validate(settings)) return fail(std::move(*problem));
   return TracePlan::Output{path, settings};
 }
@@ -114,13 +115,15 @@ Result<void> checkOptions(const TraceArguments& arguments, const TracePlan& plan
   for (const auto& output : plan.outputs) add(output.path);
   for (const auto& report : plan.reports) add(report.path);
   if (names.empty()) names = "what is written here";
-  for (const auto& [word, isGiven, option] : {Given{"--unit", !arguments.unit.empty(), FormatOption::Unit},
-                                              {"--tolerance", arguments.tolerance.has_value(), FormatOption::Tolerance},
-                                              {"--joined", arguments.joined, FormatOption::Joined},
-                                              {"--apart", arguments.apart, FormatOption::Apart},
-                                              {"--splines-only", arguments.splinesOnly, FormatOption::SplinesOnly},
-                                              {"--flavour", !arguments.flavour.empty(), FormatOption::Flavour},
-                                              {"--chords", arguments.chords, FormatOption::Chords}}) {
+  for (const auto& [word, isGiven, option] :
+       {Given{"--unit", !arguments.unit.empty(), FormatOption::Unit},
+        {"--tolerance", arguments.tolerance.has_value(), FormatOption::Tolerance},
+        {"--joined", arguments.joined, FormatOption::Joined},
+        {"--apart", arguments.apart, FormatOption::Apart},
+        {"--splines-only", arguments.splinesOnly, FormatOption::SplinesOnly},
+        {"--flavour", !arguments.flavour.empty(), FormatOption::Flavour},
+        {"--chords", arguments.chords, FormatOption::Chords},
+        {"--width-outline", arguments.widthOutline, FormatOption::WidthOutlines}}) {
     const auto acts = [&](const auto& output) { return actsOn(option, output.settings); };
     if (isGiven && std::none_of(plan.outputs.begin(), plan.outputs.end(), acts)) {
       return wrong(std::string(word) + " has no effect on " + names + ". It acts on " + whereItActs(option) + ".");

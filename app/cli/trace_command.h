@@ -21,6 +21,7 @@ struct TraceArguments {
   bool joined = false;                     ///< --joined
   bool apart = false;                      ///< --apart
   bool splinesOnly = false;                ///< --splines-only
+  bool widthOutline = false;               ///< --width-outline
   std::string flavour;                     ///< --flavour exact|bezier|cubic; empty: the preset's, else exact
   bool chords = false;                     ///< --chords
   std::string recipe;                      ///< --recipe

@@ -16,6 +16,7 @@
 #include "core/pipeline/run/direction_owners.h"
 #include "core/pipeline/run/imported_lines.h"
 #include "core/pipeline/run/piece_numbers.h"
+#include "core/pipeline/run/stroke_widths.h"
 
 namespace batten {
 namespace {
@@ -82,7 +83,7 @@ PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {
 }
 
 /// Adds the lines of a run in one of their two kinds.
-void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, bool isBoth,
+void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& recipe, bool sketched, bool isBoth,
                ExportDocument& document) {
   const DirectionOwners owners = assignDirections(*output.pieces, recipe);
   std::map<int, ContourPieces> byContour;
@@ -107,6 +108,7 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
         ExportPiece& own = curve.pieces.emplace_back(
             ExportPiece{shapeOf(*piece, sketched), nameOfCurve(output, recipe, *piece), number});
         own.figures = figuresOf(*piece, sketched);
+        own.width = strokeWidthsAlong(output, scan, *piece, shapeOf(*piece, sketched));
         if (const auto& wanted = owners.ofPiece[piece->piece])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
@@ -136,8 +138,8 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
     if (!parameter.isForDisplay) document.settings.emplace_back(parameter.name, parameter.get(recipe));
   if (!output.faired || !output.pieces || !output.contours) return document;
   const bool isBoth = which == ExportedCurves::Both;
-  if (which != ExportedCurves::Faired) addCurves(output, recipe, true, isBoth, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, isBoth, document);
+  if (which != ExportedCurves::Faired) addCurves(output, scan, recipe, true, isBoth, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, scan, recipe, false, isBoth, document);
   return document;
 }
 

@@ -116,7 +116,8 @@ RunContext whileReading(const RunContext& context) { return partialContext(conte
 
 Result<Check> svgFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
                       ExportReport& report) {
-  auto svg = writeSvg(document, {toleranceOf(settings), settings.strokeWidthMm, settings.svgUnitsPerMm},
+  auto svg = writeSvg(document,
+                      {toleranceOf(settings), settings.strokeWidthMm, settings.widthOutlines, settings.svgUnitsPerMm},
                       whileWriting(context));
   if (!svg) return fail(svg.error());
   const auto back = checkSvg(svg->text, document, whileReading(context));
@@ -125,6 +126,8 @@ Result<Check> svgFile(const ExportDocument& document, const ExportSettings& sett
   report.cubics = back->cubics;
   report.largestErrorMm = std::max(svg->largestErrorMm, back->largestErrorMm);
   report.largestJump = svg->largestJump;
+  report.outlines = back->outlines;
+  report.largestWidthErrorMm = back->largestWidthErrorMm;
   return Check{std::move(svg->text), back->largestErrorMm, kReadMargin * toleranceOf(settings)};
 }
 
@@ -151,6 +154,7 @@ Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
       const NurbsCurve &p = a.curves[i].pieces[j].curve, &q = b.curves[i].pieces[j].curve;
       if (p.degree() != q.degree() || p.controlPointCount() != q.controlPointCount())
         return readsBackOtherwise("other curves");
+      if (a.curves[i].pieces[j].width != b.curves[i].pieces[j].width) return readsBackOtherwise("other widths");
       for (std::size_t k = 0; k < p.controlPoints().size(); ++k)
         largest = std::max(largest, (p.controlPoints()[k] - q.controlPoints()[k]).norm());
       for (std::size_t k = 0; k < p.knots().size(); ++k)
@@ -289,6 +293,10 @@ std::string resultOf(const ExportReport& report) {
   if (report.cubics > 0) text += " as " + countOf(report.cubics, "cubic");
   if (report.largestErrorMm) text += ", within " + shortNumber(*report.largestErrorMm) + " mm of the exact ones";
   if (report.largestJump) text += ", curvature jumps by " + shortNumber(100.0 * *report.largestJump) + " % at most";
+  if (report.outlines > 0) {
+    text += ", " + countOf(report.outlines, "stroke") + " outlined within " + shortNumber(report.largestWidthErrorMm) +
+            " mm of " + (report.outlines == 1 ? "its" : "their") + " width";
+  }
   return text + ", read back, largest difference " + shortNumber(report.largestDifferenceMm) + " mm";
 }
 

@@ -23,6 +23,8 @@ struct ExportReport {
   int cubics = 0;                        ///< Of paths.
   int doubles = 0;                       ///< Pieces left out because they lie on another one.
   std::optional<double> largestErrorMm;  ///< What the approximation costs, measured; absent for exact files.
+  int outlines = 0;                      ///< SVG: strokes as filled outlines of their width …
+  double largestWidthErrorMm = 0.0;      ///< … and how far their borders are from it, measured.
   std::optional<double> largestJump;     ///< Of the curvature where cubics meet, relative (see cubic_path.h).
   double largestDifferenceMm = 0.0;      ///< Of what was read back from what was to be written.
 };

@@ -38,7 +38,9 @@ constexpr std::array kOptionRows = {
               [](const ExportSettings& s) { return isCadFormat(s) && !isCnc(s); }},
     OptionRow{FormatOption::Flavour, ".igs, .step and .3dm",
               [](const ExportSettings& s) { return isCadFormat(s) && s.format != ExportFormat::Dxf; }},
-    OptionRow{FormatOption::Chords, ".dxf with --preset cnc", isCnc}};
+    OptionRow{FormatOption::Chords, ".dxf with --preset cnc", isCnc},
+    OptionRow{FormatOption::WidthOutlines, ".svg",
+              [](const ExportSettings& s) { return s.format == ExportFormat::Svg; }}};
 
 const OptionRow& rowOf(FormatOption option) {
   return *std::find_if(kOptionRows.begin(), kOptionRows.end(),

@@ -9,7 +9,7 @@
 namespace batten {
 
 /// What a user may say of the way curves are written. Scale is missing: it acts on every format.
-enum class FormatOption { Unit, Tolerance, Joined, Apart, SplinesOnly, Flavour, Chords };
+enum class FormatOption { Unit, Tolerance, Joined, Apart, SplinesOnly, Flavour, Chords, WidthOutlines };
 
 /// Whether an option can make a difference to a file of these settings: the tolerance only where something is
 /// approximated, "joined" where pieces are written apart by default, and so on. The command line refuses an option that

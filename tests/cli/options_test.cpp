@@ -24,6 +24,7 @@ TEST_F(Options, WithoutEffectOnAnyOutputAreRefused) {
   for (const char* words : {"--splines-only", "--chords", "--flavour cubic", "--unit in", "--joined"})
     refused(words, ".svg", "has no effect on");
   refused("--chords", ".dxf", ".dxf with --preset cnc");
+  refused("--width-outline", ".pdf", ".svg");
   refused("--flavour bezier", ".dxf", ".igs, .step and .3dm");
   refused("--tolerance 0.1", ".step", "--flavour cubic");
   refused("--joined", ".csv", ".dxf, .igs, .step and .3dm");
@@ -52,6 +53,24 @@ TEST_F(Options, WithAnEffectOnOneOutputAreTaken) {
   taken("--tolerance 0.05 --chords --preset cnc", {".dxf"});
   taken("--apart", {".csv", ".dxf"});
   taken("--paper letter", {".svg", ".report.pdf"});
+}
+
+TEST_F(Options, StrokesAreOutlinedOnRequest) {
+  const std::string start = "trace " + scene() + " --dpi 254 --set edges.mode=centreline ";
+  ASSERT_EQ(run(start + " -o " + file("plain.svg")).code, 0);
+  EXPECT_EQ(test::readFile(file("plain.svg")).find("width-of"), std::string::npos);
+  const auto done = run(start + " --width-outline -o " + file("wide.svg") + " -o " + file("wide.json"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("outlined within"));
+  EXPECT_THAT(test::readFile(file("wide.svg")), HasSubstr("batten:width-of=\"curve-1\""));
+  EXPECT_THAT(test::readFile(file("wide.json")), HasSubstr("\"width_mm\""));
+  // The file opens again with its curves alone.
+  ASSERT_EQ(run("trace " + file("wide.svg") + " -o " + file("again.json")).code, 0);
+  const auto count = [&](const char* name) {
+    const auto json = nlohmann::json::parse(test::readFile(file(name)));
+    return json["curves"].size();
+  };
+  EXPECT_EQ(count("again.json"), count("wide.json"));
 }
 
 TEST_F(Options, APresetTakesEveryFormatOfItsReceiver) {

@@ -104,6 +104,34 @@ TEST_F(Export, ThePreviewShowsWhatWillBeWritten) {
   }));
 }
 
+TEST_F(Export, StrokesAreOutlinedOnRequest) {
+  openPage(test::zigzagPage());
+  Recipe recipe = session().recipe();
+  recipe.edges.mode = EdgeMode::Centreline;
+  session().change(QStringLiteral("Centre lines"), recipe);
+  ASSERT_TRUE(settle());
+  window_->action(ActionId::Export)->trigger();
+  auto* widths = find<QAbstractButton>("export.widths");
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("fusion"));
+  EXPECT_FALSE(widths->isVisible()) << "a DXF has no areas";
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("inkscape"));
+  ASSERT_TRUE(widths->isVisible());
+  EXPECT_FALSE(widths->isChecked());
+  QTest::mouseClick(widths, Qt::LeftButton, {}, {8, widths->height() / 2});
+  ASSERT_TRUE(widths->isChecked());
+  auto* path = find<QLineEdit>("export.path");
+  path->setFocus();
+  path->selectAll();
+  path->insert(folder_.filePath(QStringLiteral("wide.svg")));
+  QTest::keyClick(path, Qt::Key_Return);
+  QTest::mouseClick(find<QAbstractButton>("export.run"), Qt::LeftButton);
+  const QString target = folder_.filePath(QStringLiteral("wide.svg"));
+  auto* result = find<QLabel>("export.result");
+  ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && !result->text().isEmpty(); }));
+  EXPECT_TRUE(result->text().contains(QStringLiteral("outlined within"))) << result->text().toStdString();
+  EXPECT_TRUE(read(target).contains("batten:width-of=\"curve-1\""));
+}
+
 TEST_F(Export, TheCurvesOfTheFileAreChosenInThePanel) {
   openPage(test::zigzagPage());
   Recipe recipe = session().recipe();

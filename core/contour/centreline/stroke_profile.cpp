@@ -137,6 +137,7 @@ InkAcross inkAcross(std::span<const float> profile, double widthPx, double inkLe
   const PaperLine paper = paperBeside(profile, edge, inkLevel);
   const int reach = std::min(static_cast<int>(paper.reach), edge + kSpreadSamples);
   InkAcross ink;
+  ink.paper = paper.at(half);
   double moment = 0.0;
   for (int k = half - reach; k <= half + reach; ++k) {
     const double dark = paper.at(k) - static_cast<double>(profile[k]);

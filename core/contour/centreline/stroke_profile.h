@@ -54,6 +54,7 @@ struct InkAcross {
   double darkness = 0.0;  ///< [grey px] below the paper; with noise also negative where there is no ink.
   double centre = 0.0;    ///< [px] centroid along the profile, 0 = its middle; 0 where there is no ink.
   double middle = 0.0;    ///< [grey] below the paper within a pixel of its middle, mean.
+  double paper = 255.0;   ///< [grey] at the middle, as it would be without ink.
 };
 /// `widthPx`: no ink of the stroke lies farther than half of it, and blur, from the middle. `inkLevel` [grey]: of the
 /// stroke where it is whole; what lies beside it and is not far lighter is another one's.

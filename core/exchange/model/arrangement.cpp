@@ -92,8 +92,10 @@ Result<void> begin(ExportCurve& line) {
   for (ExportPiece& piece : line.pieces) piece.keepsDirection = true;
   if (line.pieces.size() == 1) {
     NurbsCurve& curve = line.pieces[0].curve;
-    auto turned = startedAt(curve, closestPoint(curve, wanted).u);
+    const double u = closestPoint(curve, wanted).u;
+    auto turned = startedAt(curve, u);
     if (!turned) return fail(turned.error());
+    if (auto& width = line.pieces[0].width) width = startedAt(*width, ArcLength(curve).at(u));
     curve = std::move(*turned);
     return {};
   }
@@ -105,7 +107,10 @@ Result<void> begin(ExportCurve& line) {
 }
 
 void turn(ExportPiece& piece) {
-  if (piece.direction && piece.direction->isTurned) piece.curve = reversed(piece.curve);
+  if (piece.direction && piece.direction->isTurned) {
+    piece.curve = reversed(piece.curve);
+    if (piece.width) piece.width = reversed(*piece.width);
+  }
   piece.keepsDirection = piece.keepsDirection || piece.direction.has_value();
   piece.direction.reset();
 }

@@ -242,6 +242,7 @@ ExportDocument scaled(const ExportDocument& document, double scale) {
     if (curve.strokeWidthMm) *curve.strokeWidthMm *= scale;
     for (ExportPiece& piece : curve.pieces) {
       piece.curve = piece.curve.mapped(linear, Vec2::Zero());
+      if (piece.width) piece.width = scaled(*piece.width, scale);
       if (!piece.figures) continue;
       PieceFigures& figures = *piece.figures;
       for (double* length : {&figures.toleranceMm, &figures.movedMm, &figures.largestOffMm, &figures.typicalOffMm})

@@ -82,7 +82,7 @@ std::optional<Error> exportProblem(const ExportDocument& document) {
   for (const ExportCurve& curve : document.curves) {
     if (curve.pieces.empty()) return numerical("The curve " + curve.id + " is empty. Exclude it from the export.");
     for (const ExportPiece& piece : curve.pieces) {
-      if (piece.curve.isEmpty() || !isFinite(piece.curve)) {
+      if (piece.curve.isEmpty() || !isFinite(piece.curve) || (piece.width && !isValid(*piece.width))) {
         return numerical("The curve " + curve.id +
                          " contains a number that is not finite. Exclude it from the export.");
       }

@@ -8,6 +8,7 @@
 
 #include "core/base/page_frame.h"
 #include "core/curve/nurbs_curve.h"
+#include "core/curve/width_profile.h"
 
 namespace batten {
 
@@ -33,6 +34,7 @@ struct ExportPiece {
   /// The user said where it starts or which way it runs: no entity may stand for it that runs otherwise.
   bool keepsDirection = false;
   std::optional<PieceFigures> figures = {};
+  std::optional<WidthProfile> width = {};  ///< [mm] Of the stroke that it is the middle of, along it.
 };
 /// All pieces of one line of the drawing, in order of travel; neighbouring pieces meet at corners, but for
 /// curves that a construction breaks there.

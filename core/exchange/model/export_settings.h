@@ -38,6 +38,7 @@ struct ExportSettings {
   CurveFlavour flavour = CurveFlavour::Exact;
   std::optional<double> toleranceMm;  ///< [mm] > 0. Of what is approximated; absent: defaultTolerance().
   double strokeWidthMm = 0.1;         ///< [mm] > 0. Of the lines of SVG and PDF.
+  bool widthOutlines = false;         ///< SVG: strokes as filled outlines of their width, too.
   double svgUnitsPerMm = 1.0;         ///< [1/mm] > 0. User units of an SVG (see svg_writer.h).
   double spacingMm = 1.0;             ///< [mm] > 0. Arc length between the rows of a CSV, at most.
 };

@@ -69,7 +69,10 @@ std::vector<Neighbours> neighboursOf(const std::vector<ExportCurve>& lines) {
 
 void turnAround(ExportCurve& line) {
   std::reverse(line.pieces.begin(), line.pieces.end());
-  for (ExportPiece& piece : line.pieces) piece.curve = reversed(piece.curve);
+  for (ExportPiece& piece : line.pieces) {
+    piece.curve = reversed(piece.curve);
+    if (piece.width) piece.width = reversed(*piece.width);
+  }
 }
 
 /// A line of a chain, and whether it is run through from its end to its start.

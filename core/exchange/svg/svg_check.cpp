@@ -7,10 +7,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "core/exchange/model/cubic_outline.h"
 #include "core/exchange/model/file_text.h"
 #include "core/exchange/model/read_back.h"
+#include "core/exchange/model/width_outline.h"
+#include "core/exchange/svg/svg_writer.h"
 
 namespace batten {
 namespace {
@@ -22,6 +25,7 @@ struct ReadPiece {
 struct ReadSvg {
   std::vector<std::vector<ReadPiece>> curves;
   std::vector<QByteArray> paths;
+  std::vector<std::pair<std::string, QByteArray>> outlines;  ///< Of the curve with this id.
   double unitsPerMm = 1.0;
 };
 
@@ -45,7 +49,11 @@ Result<ReadSvg> parsed(std::string_view text) {
                                    numbersIn(value("control-points").toStdString()),
                                    numbersIn(value("weights").toStdString())});
     } else if (xml.name() == QLatin1String("path")) {
-      svg.paths.push_back(value("d"));
+      const auto widthOf = attributes.value(QStringLiteral("urn:batten:curves:1"), QLatin1String(kWidthOf));
+      if (widthOf.isEmpty())
+        svg.paths.push_back(value("d"));
+      else
+        svg.outlines.emplace_back(widthOf.toString().toStdString(), value("d"));
     }
   }
   if (xml.hasError()) return readsBackOtherwise(xml.errorString().toStdString());
@@ -66,14 +74,14 @@ struct ReadPath {
   bool closes = false;
 };
 
-Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame, double unitsPerMm) {
+Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame, double unitsPerMm, bool hasLoops = false) {
   ReadPath path;
   Vec2 pen = Vec2::Zero();
   qsizetype at = 0;
   while (at < data.size()) {
     const char command = data[at++];
     if (command == ' ') continue;
-    if (path.closes) return readsBackOtherwise("a path that goes on behind its end");
+    if (path.closes && !hasLoops) return readsBackOtherwise("a path that goes on behind its end");
     qsizetype end = at;
     while (end < data.size() && std::isalpha(static_cast<unsigned char>(data[end])) == 0) ++end;
     const std::vector<double> n = numbersIn(data.mid(at, end - at).toStdString());
@@ -95,6 +103,24 @@ Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame, double u
   }
   if (path.cubics.empty()) return readsBackOtherwise("an empty path");
   return path;
+}
+
+/// Every outline belongs to a curve with a width and lies around it.
+Result<void> checkOutlines(const ReadSvg& svg, const ExportDocument& document, const RunContext& context,
+                           SvgCheck& check) {
+  for (const auto& [id, data] : svg.outlines) {
+    if (context.isCancelled()) return cancelled();
+    const auto curve = std::find_if(document.curves.begin(), document.curves.end(),
+                                    [&](const ExportCurve& one) { return one.id == id; });
+    if (curve == document.curves.end()) return readsBackOtherwise("the outline of another curve");
+    const auto path = pathOf(data, document.frame, svg.unitsPerMm, true);
+    if (!path) return fail(path.error());
+    const double off = distanceFromWidth(path->cubics, *curve, context);
+    if (!std::isfinite(off)) return readsBackOtherwise("an outline that is no stroke's");
+    check.largestWidthErrorMm = std::max(check.largestWidthErrorMm, off);
+    ++check.outlines;
+  }
+  return {};
 }
 
 }  // namespace
@@ -121,6 +147,7 @@ Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument& document,
     check.cubics += static_cast<int>(path->cubics.size());
     ++check.curves;
   }
+  if (auto outlines = checkOutlines(*svg, document, context, check); !outlines) return fail(outlines.error());
   return check;
 }
 

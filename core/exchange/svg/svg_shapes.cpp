@@ -16,6 +16,7 @@
 #include "core/curve/knot_operations.h"
 #include "core/exchange/model/cad_shape.h"
 #include "core/exchange/svg/svg_path_data.h"
+#include "core/exchange/svg/svg_writer.h"
 
 namespace batten {
 namespace {
@@ -142,6 +143,8 @@ class ShapesReader {
                                                   "radialGradient", "filter",   "glyph", "font",   "foreignObject"};
     frame.isHidden = frame.isHidden || kHidden.contains(name) || text("display") == "none" ||
                      withoutBlanks(text("style")).find("display:none") != std::string::npos;
+    // The picture of a stroke: the curve is the path in its middle.
+    frame.isHidden = frame.isHidden || !text((std::string("batten:") + kWidthOf).c_str()).empty();
     if (name == "svg" && !sawSvg_) {
       sawSvg_ = true;
       frame.toMm = pageTransform();

@@ -8,6 +8,7 @@
 #include "core/exchange/model/cubic_outline.h"
 #include "core/exchange/model/export_check.h"
 #include "core/exchange/model/file_text.h"
+#include "core/exchange/model/width_outline.h"
 
 namespace batten {
 namespace {
@@ -30,6 +31,26 @@ void appendRun(std::string& data, const CubicRun& run) {
     data.append(" ").append(pointText(cubic[1]));
     data.append(" ").append(pointText(cubic[2]));
   }
+}
+
+/// To user units, y down from the upper edge.
+Vec2 inFile(const Vec2& mm, const PageFrame& frame, double unitsPerMm) {
+  const double top = frame.bottomMm + frame.lengthToModel(frame.heightPx);
+  return unitsPerMm * Vec2(mm.x() - frame.leftMm, top - mm.y());
+}
+
+/// The filled outline of a stroke; empty for lines without a width.
+std::string outlineData(const WidthOutline& outline, const PageFrame& frame, double unitsPerMm) {
+  std::string data;
+  for (CubicRun loop : outline.loops) {
+    loop.start = inFile(loop.start, frame, unitsPerMm);
+    for (auto& cubic : loop.cubics)
+      for (Vec2& p : cubic) p = inFile(p, frame, unitsPerMm);
+    data.append(data.empty() ? "M" : " M").append(pointText(loop.start));
+    appendRun(data, loop);
+    data.append(" Z");
+  }
+  return data;
 }
 
 /// The path of a line in user units, y down from the upper edge.
@@ -96,6 +117,27 @@ std::optional<Error> problemOf(const SvgOptions& options) {
   return std::nullopt;
 }
 
+/// The strokes of the curves from `first` on that share its layer, as filled outlines in a layer of their own.
+std::string outlineLayer(const ExportDocument& document, std::size_t first, int count, const SvgOptions& options,
+                         const RunContext& context, SvgText& svg) {
+  const std::string& layer = document.curves[first].layer;
+  std::string paths;
+  for (std::size_t i = first; i < document.curves.size() && document.curves[i].layer == layer; ++i) {
+    if (context.isCancelled()) return {};
+    const ExportCurve& curve = document.curves[i];
+    const std::string data =
+        outlineData(widthOutline(curve, options.toleranceMm, context), document.frame, options.unitsPerMm);
+    if (data.empty()) continue;
+    ++svg.outlines;
+    const std::string id = xmlText(curve.id);
+    paths += "    <path id=\"" + id + "-width\" batten:" + kWidthOf + "=\"" + id + "\" d=\"" + data + "\"/>\n";
+  }
+  if (paths.empty()) return {};
+  return "  <g id=\"widths" + (count == 1 ? std::string() : std::string("-").append(std::to_string(count))) +
+         "\" inkscape:groupmode=\"layer\" inkscape:label=\"" + xmlText(layer) + " width\" fill=\"" +
+         (count == 1 ? "#000000" : "#b00020") + "\" fill-rule=\"nonzero\" stroke=\"none\">\n" + paths + "  </g>\n";
+}
+
 /// The paths, a group for curves in a row that share a layer.
 Result<std::string> layers(const ExportDocument& document, const SvgOptions& options, const RunContext& context,
                            SvgText& svg) {
@@ -108,6 +150,7 @@ Result<std::string> layers(const ExportDocument& document, const SvgOptions& opt
     if (i == 0 || curve.layer != document.curves[i - 1].layer) {
       if (i > 0) text += "  </g>\n";
       ++count;
+      if (options.widthOutlines) text += outlineLayer(document, i, count, options, context, svg);
       text += "  <g id=\"curves" + (count == 1 ? std::string() : std::string("-").append(std::to_string(count))) +
               "\" inkscape:groupmode=\"layer\" inkscape:label=\"" + xmlText(curve.layer) +
               "\" fill=\"none\" stroke=\"" + (count == 1 ? "#000000" : "#b00020") + "\"\n     stroke-width=\"" +
@@ -128,6 +171,7 @@ std::string description(const ExportDocument& document, const SvgText& svg) {
          fixed(svg.largestErrorMm) +
          " mm of the exact curves in the metadata; where cubics meet, the curvature jumps by at most " +
          fixedNumber(100.0 * svg.largestJump, 4) + " percent" +
+         (svg.outlines > 0 ? "; filled outlines show the strokes in their width" : "") +
          (document.dpi ? " (" + fixed(*document.dpi) + " dpi)"
                        : "; the scan states no resolution, so the scale is assumed") +
          ".</desc>\n";

@@ -35,6 +35,12 @@ Json figuresToJson(const PieceFigures& figures) {
           {"deviation_mm", {{"max", figures.largestOffMm}, {"rms", figures.typicalOffMm}}}};
 }
 
+Json widthToJson(const WidthProfile& profile) {
+  Json samples = Json::array();
+  for (const WidthSample& sample : profile.samples) samples.push_back({sample.s, sample.width});
+  return {{"samples", std::move(samples)}, {"tolerance", profile.tolerance}};
+}
+
 /// Where the pieces of a line meet.
 Json cornersToJson(const ExportCurve& line) {
   Json corners = Json::array();
@@ -64,6 +70,7 @@ Result<Json> pieceToJson(const ExportPiece& piece, const PageFrame& frame) {
     json["weights"] = Json::array();
     for (const double weight : curve.weights()) json["weights"].push_back(weight);
   }
+  if (piece.width) json["width_mm"] = widthToJson(*piece.width);
   if (piece.figures) json.update(figuresToJson(*piece.figures));
   return json;
 }
@@ -92,6 +99,17 @@ Result<NurbsCurve> pieceFromJson(const Json& json) {
   const auto degree = integerOf(json.at("degree"));
   if (!degree) return damaged("a degree is not a whole number");
   return NurbsCurve::make(*degree, json.at("knots").get<std::vector<double>>(), std::move(points), std::move(weights));
+}
+
+Result<WidthProfile> widthFromJson(const Json& json) {
+  WidthProfile profile;
+  for (const Json& sample : json.at("samples")) {
+    if (sample.size() != 2) return damaged("a sample of a width is not a pair of numbers");
+    profile.samples.push_back({sample.at(0).get<double>(), sample.at(1).get<double>()});
+  }
+  profile.tolerance = json.at("tolerance").get<double>();
+  if (!isValid(profile)) return damaged("the width along a curve is not a list of places and widths from its start on");
+  return profile;
 }
 
 Result<ExportDocument> documentFromJson(const Json& json) {
@@ -123,6 +141,11 @@ Result<ExportDocument> documentFromJson(const Json& json) {
       ExportPiece& known = curve.pieces.emplace_back(ExportPiece{std::move(*made)});
       if (piece.contains("name")) known.name = piece.at("name").get<std::string>();
       if (piece.contains("number")) known.number = integerOf(piece.at("number"));
+      if (piece.contains("width_mm")) {
+        auto profile = widthFromJson(piece.at("width_mm"));
+        if (!profile) return fail(profile.error());
+        known.width = std::move(*profile);
+      }
     }
   }
   if (auto problem = exportProblem(document)) return damaged(problem->message);

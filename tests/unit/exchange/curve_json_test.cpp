@@ -15,6 +15,7 @@ using test::exportOfAllKinds;
 TEST(CurveJson, ReadsBackEveryCurveExactly) {
   ExportDocument document = exportOfAllKinds();
   document.curves.front().strokeWidthMm = 0.7;
+  document.curves.front().pieces.front().width = WidthProfile{{{0.0, 0.5}, {1.0 / 3.0, 0.9}, {7.0, 0.0}}, 0.01};
   const auto text = writeCurveJson(document);
   ASSERT_TRUE(text) << text.error().message;
   const auto read = readCurveJson(*text);
@@ -29,6 +30,7 @@ TEST(CurveJson, ReadsBackEveryCurveExactly) {
     EXPECT_EQ(read->curves[i].strokeWidthMm, document.curves[i].strokeWidthMm);
     ASSERT_EQ(read->curves[i].pieces.size(), document.curves[i].pieces.size());
     for (std::size_t k = 0; k < read->curves[i].pieces.size(); ++k) {
+      EXPECT_EQ(read->curves[i].pieces[k].width, document.curves[i].pieces[k].width);
       const NurbsCurve &a = read->curves[i].pieces[k].curve, &b = document.curves[i].pieces[k].curve;
       for (int s = 0; s <= 200; ++s) {
         const double u = b.start() + (b.end() - b.start()) * s / 200.0;
@@ -37,6 +39,24 @@ TEST(CurveJson, ReadsBackEveryCurveExactly) {
       }
     }
   }
+}
+
+TEST(CurveJson, RefusesWidthsThatAreNone) {
+  ExportDocument document = exportOfAllKinds();
+  document.curves.front().pieces.front().width = WidthProfile{{{0.0, 0.5}, {7.0, 0.25}}, 0.01};
+  const auto json = nlohmann::json::parse(*writeCurveJson(document));
+  EXPECT_EQ(json["curves"][0]["pieces"][0]["width_mm"]["samples"], nlohmann::json::parse("[[0, 0.5], [7, 0.25]]"));
+  EXPECT_EQ(json["curves"][0]["pieces"][0]["width_mm"]["tolerance"], 0.01);
+  for (const char* samples : {"[]", "[[0, 1]]", "[[0, 1], [0, 2]]", "[[0, 1], [2, -1]]", "[[0, 1], [2]]", "3"}) {
+    auto wrong = json;
+    wrong["curves"][0]["pieces"][0]["width_mm"]["samples"] = nlohmann::json::parse(samples);
+    EXPECT_FALSE(readCurveJson(wrong.dump())) << samples;
+  }
+  auto without = json;
+  without["curves"][0]["pieces"][0].erase("width_mm");
+  EXPECT_TRUE(readCurveJson(without.dump()));
+  document.curves.front().pieces.front().width->samples.pop_back();
+  EXPECT_FALSE(writeCurveJson(document));
 }
 
 TEST(CurveJson, HoldsTheContract) {

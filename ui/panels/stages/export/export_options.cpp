@@ -22,7 +22,7 @@ namespace {
 
 const QString kPresetKey = QStringLiteral("export/preset"), kUnitKey = QStringLiteral("export/unit"),
               kWhichKey = QStringLiteral("export/which"), kJoinedKey = QStringLiteral("export/joined"),
-              kToleranceKey = QStringLiteral("export/accuracy");
+              kToleranceKey = QStringLiteral("export/accuracy"), kWidthsKey = QStringLiteral("export/widths");
 constexpr const char* kFirstPreset = "illustrator";
 constexpr std::array kExportedCurves = {ExportedCurves::Faired, ExportedCurves::Sketched,
                                         ExportedCurves::Both};  // as listed
@@ -62,7 +62,8 @@ ExportOptions::ExportOptions(QWidget* parent)
       unit_(new QComboBox(this)),
       scale_(new NumberField(this)),
       tolerance_(new NumberField(this)),
-      joined_(new QCheckBox(tr("Join consecutive curves"), this)) {
+      joined_(new QCheckBox(tr("Join consecutive curves"), this)),
+      widths_(new QCheckBox(tr("Outline strokes"), this)) {
   build();
   restore();
   connect(presets_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
@@ -79,10 +80,11 @@ ExportOptions::ExportOptions(QWidget* parent)
       save();
       emit changed();
     });
-  connect(joined_, &QCheckBox::toggled, this, [this] {
-    save();
-    emit changed();
-  });
+  for (QCheckBox* box : {joined_, widths_})
+    connect(box, &QCheckBox::toggled, this, [this] {
+      save();
+      emit changed();
+    });
 }
 
 QWidget* ExportOptions::row(const QString& label, QWidget* control, const QString& help) {
@@ -146,6 +148,11 @@ void ExportOptions::build() {
       tr("On: a line with corners is exported as one curve or path. Off: every curve is exported "
          "separately."));
   layout->addWidget(joined_);
+  widths_->setObjectName(QStringLiteral("export.widths"));
+  widths_->setToolTip(
+      tr("On: strokes are also written as filled outlines of their width, in a layer of their own below "
+         "the curves."));
+  layout->addWidget(widths_);
 }
 
 const ExportPreset& ExportOptions::preset() const {
@@ -158,6 +165,7 @@ void ExportOptions::choosePreset() {
   note_->setText(QString::fromUtf8(chosen.note));
   unitRow_->setVisible(actsOn(FormatOption::Unit, chosen.settings));
   toleranceRow_->setVisible(actsOn(FormatOption::Tolerance, chosen.settings));
+  widths_->setVisible(actsOn(FormatOption::WidthOutlines, chosen.settings));
   const QSettings settings;
   const QSignalBlocker quiet(joined_);
   const QString own = QLatin1Char('/') + QString::fromLatin1(chosen.id);
@@ -172,6 +180,7 @@ void ExportOptions::restore() {
   presets_->setCurrentIndex(std::max(0, known >= 0 ? known : presets_->findData(QString::fromLatin1(kFirstPreset))));
   which_->setCurrentIndex(std::clamp(settings.value(kWhichKey, 0).toInt(), 0, 2));
   unit_->setCurrentIndex(std::clamp(settings.value(kUnitKey, 0).toInt(), 0, 1));
+  widths_->setChecked(settings.value(kWidthsKey, false).toBool());
   choosePreset();
 }
 
@@ -182,6 +191,7 @@ void ExportOptions::save() const {
   settings.setValue(kJoinedKey + own, joined_->isChecked());
   settings.setValue(kWhichKey, which_->currentIndex());
   settings.setValue(kUnitKey, unit_->currentIndex());
+  settings.setValue(kWidthsKey, widths_->isChecked());
 }
 
 ExportSettings ExportOptions::settings() const {
@@ -190,6 +200,7 @@ ExportSettings ExportOptions::settings() const {
   settings.unit = isInch ? LengthUnit::Inch : LengthUnit::Millimetre;
   settings.scale = scale_->value();
   settings.joined = joined_->isChecked();
+  settings.widthOutlines = actsOn(FormatOption::WidthOutlines, settings) && widths_->isChecked();
   if (actsOn(FormatOption::Tolerance, settings)) settings.toleranceMm = tolerance_->value();
   return settings;
 }

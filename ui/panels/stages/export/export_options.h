@@ -49,6 +49,7 @@ class ExportOptions : public QWidget {
   NumberField* scale_;
   NumberField* tolerance_;
   QCheckBox* joined_;
+  QCheckBox* widths_;
   QWidget* unitRow_ = nullptr;
   QWidget* toleranceRow_ = nullptr;
 };
