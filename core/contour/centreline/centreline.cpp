@@ -211,24 +211,17 @@ bool isSeen(const Contour& c) {
 }
 
 // Within the discs of junctions and corners no grey values are asked. Where a pencil's broad and torn strokes meet,
-// whole strokes lie there.
-bool isHidden(const StrokePath& path) {
-  return std::none_of(path.points.begin(), path.points.end(),
-                      [](const StrokePathPoint& p) { return p.part == StrokePart::Ink; });
-}
-
-// The strokes as lines, but those that are not seen. `grain`: absent where no stroke is a pencil's.
-RefinedStrokes placedLines(const std::vector<StrokePath>& paths, const GraininessMap* grain, const GreyImage& grey,
-                           bool subpixel, const RunContext& context) {
-  RefinedStrokes placed = placeStrokePaths(paths, grain, grey, subpixel, context);
-  std::vector<Contour> seen;
-  for (int i = 0; i < std::ssize(placed.contours); ++i) {
-    Contour& c = placed.contours[i];
-    const bool isKept = !subpixel || isSeen(c) || (grain != nullptr && grain->isPencil(i) && isHidden(paths[i]));
-    if (c.points.size() >= 3 && isKept) seen.push_back(std::move(c));
+// whole strokes lie there: they are asked all along.
+void askHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    std::vector<StrokePathPoint>& points = paths[i].points;
+    const bool isHidden =
+        std::none_of(points.begin(), points.end(), [](const StrokePathPoint& p) { return p.part == StrokePart::Ink; });
+    if (!isHidden || !grain.isPencil(i)) continue;
+    for (StrokePathPoint& p : points) {
+      if (p.part == StrokePart::Junction) p.part = StrokePart::Ink;
+    }
   }
-  placed.contours = std::move(seen);
-  return placed;
 }
 
 // The curves that were meant, in place of the lines, where the page shows lines drawn over more than once.
@@ -274,13 +267,17 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   dropShort(paths, grey, options.minWidths, anyPencil, context);
   if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
-  std::optional<GraininessMap> known;
-  if (anyPencil) known.emplace(paths, grey, context);
-  const std::size_t found = paths.size();
-  RefinedStrokes placedStrokes = placedLines(paths, known ? &*known : nullptr, grey, params.subpixel, context);
-  if (context.isCancelled()) return cancelled();
+  std::optional<GraininessMap> ofKept;
+  if (anyPencil) {
+    ofKept.emplace(paths, grey, context);
+    askHidden(paths, *ofKept);
+  }
+  RefinedStrokes placedStrokes = placeStrokePaths(paths, ofKept ? &*ofKept : nullptr, grey, params.subpixel, context);
   set.contours = std::move(placedStrokes.contours);
-  set.report.droppedShort += static_cast<int>(found - set.contours.size());
+  if (context.isCancelled()) return cancelled();
+  const std::size_t placed = set.contours.size();
+  std::erase_if(set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); });
+  set.report.droppedShort += static_cast<int>(placed - set.contours.size());
   BitImage seen = shapes != nullptr ? either(*ink, *shapes) : *ink;
   for (const Vec2& at : placedStrokes.faint) setDisc(seen, at, 1.0);
   set.contours = keepOnInk(std::move(set.contours), seen);
