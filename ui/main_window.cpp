@@ -175,6 +175,7 @@ void MainWindow::connectSession() {
   connect(p.canvas, &CurveCanvas::hovered, p.status, &StatusLine::setPlace);
   connect(p.canvas, &CurveCanvas::hint, p.status, &StatusLine::setHint);
   connect(p.strip, &TargetStrip::hint, p.status, &StatusLine::setHint);
+  connect(p.plots, &CurvePlots::directionChanged, p.strip, &TargetStrip::setRunsLeft);
   connect(p.plots, &CurvePlots::hint, p.status, &StatusLine::setHint);
   connect(p.status, &StatusLine::scaleAsked, this, [this] {
     setStage(PanelStage::Scan);

@@ -219,7 +219,9 @@ void CurvePlots::refreshData() {
 void CurvePlots::showAxes() {
   State& d = *state_;
   const bool isReversed = d.data.runsLeft != d.isTurned;
+  const bool isTurnedNow = d.plot->xAxis->rangeReversed() != isReversed;
   d.plot->xAxis->setRangeReversed(isReversed);
+  if (isTurnedNow) emit directionChanged(isReversed);
   d.lengthTicker->setReversed(isReversed);
   d.head->setReversed(d.isTurned);
   d.empty->setVisible(d.data.isEmpty());
