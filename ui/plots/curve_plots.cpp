@@ -298,7 +298,8 @@ void CurvePlots::showCursor() {
     d.cursor->point1->setCoords(*s, d.data.low);
     d.cursor->point2->setCoords(*s, d.data.high);
   }
-  d.head->setValue(isShown ? valueText(d.data, d.tab, *s) : QString());
+  const TracedCurve* curve = d.session.selected();
+  d.head->setValue(isShown && curve ? valueText(d.data, d.tab, *s, judgedCurve(*curve, judgedIn(d.view))) : QString());
   d.plot->replot(QCustomPlot::rpQueuedReplot);
 }
 
