@@ -22,7 +22,7 @@ namespace batten {
 
 HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window), browser_(new QTextBrowser(this)) {
   setObjectName(QStringLiteral("helpWindow"));
-  setWindowTitle(tr("Help – Batten"));
+  setWindowTitle(tr("Help — Batten"));
   resize(640, 720);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);

@@ -18,6 +18,7 @@
 #include "ui/main_window_parts.h"
 #include "ui/new_drawing_dialog.h"
 #include "ui/panels/controls/number_field.h"
+#include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/rail/stage_rail.h"
 #include "ui/panels/rail/tool_list.h"
 #include "ui/panels/stages/clean_up_panel.h"
@@ -154,6 +155,7 @@ QWidget* MainWindow::makeInspector() {
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setFocusPolicy(Qt::NoFocus);
     p.inspector->addWidget(scroll);
+    tabAsLaidOut(panel);
     p.settings->add(stage, scroll);
     // Keys typed after Enter are the drawing's.
     for (auto* field : panel->findChildren<NumberField*>())
@@ -175,6 +177,7 @@ void MainWindow::connectSession() {
   connect(p.canvas, &CurveCanvas::hovered, p.status, &StatusLine::setPlace);
   connect(p.canvas, &CurveCanvas::hint, p.status, &StatusLine::setHint);
   connect(p.strip, &TargetStrip::hint, p.status, &StatusLine::setHint);
+  connect(p.plots, &CurvePlots::directionChanged, p.strip, &TargetStrip::setRunsLeft);
   connect(p.plots, &CurvePlots::hint, p.status, &StatusLine::setHint);
   connect(p.status, &StatusLine::scaleAsked, this, [this] {
     setStage(PanelStage::Scan);

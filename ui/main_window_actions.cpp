@@ -277,8 +277,10 @@ void MainWindow::connectLayers() {
   connect(&view_, &ViewSettings::changed, this, follow);
   connect(&view_, &ViewSettings::toolChanged, this, [this](Tool tool) {
     action(toolAction(tool))->setChecked(true);
-    parts_->status->setStageHint(tool == usualTool(stage()) ? hint(stage(), session_.hasScan())
-                                                            : actionInfo(toolAction(tool)).help);
+    // Where no curves are drawn there are none to click: the stage knows better what to do.
+    const bool areCurvesShown = view_.isVisible(Layer::Curve) || view_.isVisible(Layer::Faired);
+    const bool isStage = tool == usualTool(stage()) || (tool == Tool::Select && !areCurvesShown);
+    parts_->status->setStageHint(isStage ? hint(stage(), session_.hasScan()) : actionInfo(toolAction(tool)).help);
   });
   action(toolAction(view_.tool()))->setChecked(true);
   follow();

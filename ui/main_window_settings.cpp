@@ -97,7 +97,8 @@ void MainWindow::refreshTitle() {
   const bool unsaved = session_.hasUnsavedChanges();
   parts_->topBar->setTitle(drawingName(), unsaved,
                            shownPath(session_.isBlankPage() ? parts_->recipePath : session_.scanPath()));
-  setWindowTitle(session_.hasScan() ? drawingName() + QStringLiteral("[*] – Batten") : QStringLiteral("Batten"));
+  // With the dash that Qt puts before the name of the program in the titles of dialogs.
+  setWindowTitle(session_.hasScan() ? drawingName() + QStringLiteral("[*] — Batten") : QStringLiteral("Batten"));
   setWindowModified(unsaved);
 }
 

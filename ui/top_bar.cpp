@@ -119,7 +119,10 @@ void TopBar::setIcons() {
 
 void TopBar::setTitle(const QString& title, bool unsaved, const QString& toolTip) {
   const QString mark = unsaved ? QStringLiteral(" •") : QString();
-  title_->setText(title_->fontMetrics().elidedText(title, Qt::ElideMiddle, 285) + mark);
+  const QString name = title_->fontMetrics().elidedText(title, Qt::ElideMiddle, 285);
+  title_->setText(name + mark);
+  // The mark has its room all the time: what stands beside it does not move when it comes.
+  title_->setMinimumWidth(title_->fontMetrics().horizontalAdvance(name + QStringLiteral(" •")));
   title_->setToolTip(unsaved ? QStringList{toolTip, tr("Unsaved changes")}.join(QLatin1Char('\n')).trimmed() : toolTip);
 }
 

@@ -26,7 +26,7 @@ namespace {
 struct TargetsRun {
   std::shared_ptr<const FairingSetup> setup;  ///< Null: the curve cannot be made fair, `problem` says why.
   std::string problem;
-  std::vector<TargetLevel> levels;
+  TargetLevels levels;
   std::array<bool, 6> isMet{};
   Result<TargetOutcomes> outcomes = cancelled();
 };
@@ -46,12 +46,12 @@ TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
     if (job.spanAt) {
       outcomes.splits = targetSplits(job.curve, job.closed, job.params);
       outcomes.span = spanBetween(outcomes.splits, *job.spanAt, job.closed);
-      run.levels = {{{}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span)}};
+      run.levels = oneLevel({}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span));
     } else {
       run.levels = targetLevels(job.curve, job.closed, job.params);
-      outcomes.splits = run.levels.front().splits;
+      outcomes.splits = run.levels.ofTolerance().splits;
     }
-    outcomes.targets = run.levels.front().targets;
+    outcomes.targets = run.levels.ofTolerance().targets;
     outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
     auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span, context)
                                : makeSetup(job.curve, job.closed, job.params, context);
@@ -79,9 +79,9 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
     }
     auto faired = fairOverLevels(run.setup, run.levels, static_cast<int>(at) + 1, tolerance, context);
     if (faired) {
-      run.isMet[at] = faired->isMet();
+      run.isMet[at] = faired->isMet;
       faired->faired = againstSketch(*run.setup, std::move(faired->faired));
-      outcomes.targets.profiles[at] = run.levels[faired->level].targets.profiles[at];
+      outcomes.targets.profiles[at] = run.levels.all[faired->level].targets.profiles[at];
       outcomes.faired[at] = std::move(faired->faired);
     } else {
       outcomes.problems[at] = faired.error().message;

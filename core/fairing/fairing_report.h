@@ -28,7 +28,7 @@ struct FairingReport {
   int iterations = 0;
   double objectiveBefore = 0.0, objectiveAfter = 0.0;  ///< Relative curvature misfit, or integral of (dkappa/ds)^2.
   double maxDeviationMm = 0.0;                         ///< From the sketched curve.
-  double neededMm = 0.0;        ///< Target mode: deviation that meeting the target fully would take.
+  double neededMm = 0.0;        ///< Target mode: the smallest tolerance that meets the target (fairOverLevels).
   bool withinTolerance = true;  ///< Target mode: the target was met within the tolerance.
   /// Target mode with polynomials: the degree of the one that was followed, and the shares of the arc length at which
   /// its parts meet; 0: none. Parts between corners that followed different degrees: 0.

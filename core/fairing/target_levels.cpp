@@ -2,6 +2,8 @@
 #include "core/fairing/target_levels.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/fairing/corner_sections.h"
@@ -16,9 +18,140 @@ namespace {
 /// A profile of more polynomials says nothing that the curve does not say itself.
 constexpr std::size_t kMostSplits = 24;
 
+/// [mm] The largest tolerance there is: what a target needs beyond it is not looked for more closely.
+constexpr double kLargestToleranceMm = 20.0;
+
 bool hasNaturalSpans(const TargetParams& params) {
   return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
 }
+
+struct LevelNeed {
+  std::optional<double> mm;  ///< Deviation of the curve that meets the target.
+  bool isTried = false;      ///< And the curve for the tolerance is known.
+};
+
+/// One degree over the levels.
+class LevelFairing {
+ public:
+  LevelFairing(const std::shared_ptr<const FairingSetup>& setup, const TargetLevels& levels, int degree,
+               double toleranceMm, const RunContext& context)
+      : setup_(setup),
+        levels_(levels),
+        degree_(degree),
+        toleranceMm_(toleranceMm),
+        context_(context),
+        needs_(levels.all.size()) {}
+
+  Result<LevelOutcome> overAll() {
+    const std::size_t fewest = levels_.ofTolerance().splits.size();
+    std::size_t spans = 0;
+    for (std::size_t i = levels_.first; i < levels_.all.size(); ++i) {
+      const std::size_t splits = levels_.all[i].splits.size();
+      if (best_ && (splits > kMostSplits || extremaLeft() <= fewest)) break;
+      if (best_ && splits <= spans) continue;
+      spans = splits;
+      if (const auto error = tryLevel(i)) {
+        if (!best_) return fail(*error);
+        break;
+      }
+    }
+    if (const auto met = findNeed()) meet(*met);
+    return finished();
+  }
+
+  Result<LevelOutcome> ifItMet() {
+    auto faired = over(levels_.first, true);
+    if (!faired) return fail(faired.error());
+    best_ = LevelOutcome{levels_.first, std::move(*faired), false};
+    if (best_->faired.report.withinTolerance) {
+      needs_[levels_.first] = {best_->faired.report.neededMm, true};
+      if (isMet(*best_)) findNeed();
+    }
+    return finished();
+  }
+
+ private:
+  const TargetProfile& profileOf(std::size_t level) const { return levels_.all[level].targets.profiles[degree_ - 1]; }
+  std::size_t extremaLeft() const { return static_cast<std::size_t>(best_->faired.report.extremaAfter); }
+  bool isMet(const LevelOutcome& one) const {
+    const FairingReport& report = one.faired.report;
+    return one.level == levels_.first && report.withinTolerance && report.extremaAfter <= report.extremaBefore;
+  }
+  Result<FairedCurve> over(std::size_t level, bool onlyIfMet) const {
+    return modifyShape(setup_, profileOf(level), toleranceMm_, context_, {ExtremaAsked::UpToSketch, onlyIfMet});
+  }
+
+  std::optional<Error> tryLevel(std::size_t level) {
+    auto faired = over(level, false);
+    if (!faired) return faired.error();
+    const FairingReport& report = faired->report;
+    needs_[level] = {report.neededMm, true};
+    const auto isBetter = [&](const FairingReport& than) {
+      return report.extremaAfter < than.extremaAfter ||
+             (report.extremaAfter == than.extremaAfter && report.withinTolerance && !than.withinTolerance);
+    };
+    if (!best_ || isBetter(best_->faired.report)) best_ = LevelOutcome{level, std::move(*faired), false};
+    return std::nullopt;
+  }
+
+  /// What a level needs, where that is no more than `most`.
+  std::optional<double> needOf(std::size_t level, double most) {
+    std::optional<double>& mm = needs_[level].mm;
+    if (!mm && most > 0.0) mm = neededWithin(setup_, profileOf(level), most, context_);
+    return mm && *mm <= most ? mm : std::nullopt;
+  }
+
+  /// Of the most spans, which every tolerance has, and of those that need less than they do.
+  /// @return the level that needs least.
+  std::optional<std::size_t> findNeed() {
+    const double claimed = setup_->claimedMm(), largest = kLargestToleranceMm - claimed;
+    std::optional<std::size_t> least;
+    const auto offer = [&](std::size_t i, double most) {
+      const auto need = needOf(i, most);
+      const double needed = std::max(levels_.all[i].fromMm, need.value_or(0.0) + claimed);
+      if (!need || (least && needed >= neededMm_)) return;
+      neededMm_ = needed;
+      least = i;
+    };
+    for (std::size_t i = 0; i < levels_.all.size(); ++i)
+      if (needs_[i].mm) offer(i, largest);
+    for (std::size_t i = levels_.all.size(); i-- > 0 && !context_.isCancelled();) {
+      if (least && levels_.all[i].fromMm >= neededMm_) break;
+      offer(i, least ? std::min(neededMm_ - claimed, largest) : largest);
+    }
+    // What no tolerance allows is said of the most spans.
+    if (!least && !context_.isCancelled()) offer(levels_.all.size() - 1, kNoLimit);
+    if (least) best_->faired.report.neededMm = neededMm_ - claimed;
+    return least;
+  }
+
+  /// Where the tolerance meets the target, but the curve does not: it does, if that takes no extremum more.
+  void meet(std::size_t level) {
+    const bool isAllowed = level >= levels_.first && *needs_[level].mm <= kTargetRoom * toleranceMm_;
+    if (best_->faired.report.withinTolerance || !isAllowed || context_.isCancelled()) return;
+    const double needed = best_->faired.report.neededMm;
+    if (!needs_[level].isTried) tryLevel(level);
+    best_->faired.report.neededMm = needed;
+    const bool isOutOfReach = *needs_[best_->level].mm > kTargetRoom * toleranceMm_;
+    if (!best_->faired.report.withinTolerance && isOutOfReach) noteMetOverMoreSpans(best_->faired.report);
+  }
+
+  Result<LevelOutcome> finished() {
+    if (context_.isCancelled()) return cancelled();
+    best_->isMet = isMet(*best_);
+    return std::move(*best_);
+  }
+
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  const std::shared_ptr<const FairingSetup>& setup_;
+  const TargetLevels& levels_;
+  int degree_;
+  double toleranceMm_;
+  const RunContext& context_;
+  std::vector<LevelNeed> needs_;  ///< Per level.
+  double neededMm_ = 0.0;         ///< The least tolerance.
+  std::optional<LevelOutcome> best_;
+};
 
 }  // namespace
 
@@ -37,43 +170,37 @@ std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const Fai
   return splits;
 }
 
-std::vector<TargetLevel> targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params) {
-  std::vector<std::vector<double>> splits = {params.targets.splits};
-  if (hasNaturalSpans(params.targets)) splits = naturalSplitLevels(curve, closed, params.toleranceMm);
-  std::vector<TargetLevel> levels;
-  for (auto& one : splits) {
-    if (!levels.empty() && one.size() > kMostSplits) break;
-    TargetParams targets = params.targets;
-    targets.splits = one;
-    levels.push_back({std::move(one), fitTargets(curve, targets, closed)});
+TargetLevels oneLevel(std::vector<double> splits, TargetSet targets) {
+  TargetLevels levels;
+  levels.all.push_back({0.0, std::move(splits), std::move(targets)});
+  return levels;
+}
+
+TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+  TargetParams targets = params.targets;
+  if (!hasNaturalSpans(targets)) return oneLevel(targets.splits, fitTargets(curve, targets, closed));
+  const std::vector<SpanLevel> spans = naturalSpanLevels(curve, closed);
+  TargetLevels levels;
+  levels.first = levelOf(spans, params.toleranceMm);
+  for (const SpanLevel& one : spans) {
+    targets.splits = one.splits;
+    levels.all.push_back({one.fromMm, one.splits, fitTargets(curve, targets, closed)});
   }
   return levels;
 }
 
-Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& setup,
-                                    std::span<const TargetLevel> levels, int degree, double toleranceMm,
-                                    const RunContext& context, bool onlyIfMet) {
-  std::optional<LevelOutcome> best;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    // No fewer than the extrema between the spans are looked for.
-    const auto fewest = static_cast<int>(levels.front().splits.size());
-    if (best && best->faired.report.extremaAfter <= fewest) break;
-    const TargetProfile& profile = levels[i].targets.profiles[degree - 1];
-    auto faired = modifyShape(setup, profile, toleranceMm, context, {ExtremaAsked::UpToSketch, onlyIfMet});
-    if (!faired && best) break;
-    if (!faired) return fail(faired.error());
-    if (!best || faired->report.extremaAfter < best->faired.report.extremaAfter)
-      best = LevelOutcome{i, std::move(*faired)};
-  }
-  return std::move(*best);
+Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& setup, const TargetLevels& levels,
+                                    int degree, double toleranceMm, const RunContext& context, LevelSearch search) {
+  LevelFairing fairing(setup, levels, degree, toleranceMm, context);
+  return search == LevelSearch::All ? fairing.overAll() : fairing.ifItMet();
 }
 
 Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                  const RunContext& context) {
   if (!params.spanTargets.empty())
     return fairSpans(curve, closed, targetSplits(curve, closed, params), params, context);
-  const std::vector<TargetLevel> levels = targetLevels(curve, closed, params);
-  const TargetSet& first = levels.front().targets;
+  const TargetLevels levels = targetLevels(curve, closed, params);
+  const TargetSet& first = levels.ofTolerance().targets;
   if (first.recommendedDegree == 0)
     return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
   if (const auto asked = degreeOf(params.target)) {
@@ -84,12 +211,11 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
       curve, closed, params, context, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
         const auto followed = [&](LevelOutcome&& outcome, int degree) {
           outcome.faired.report.targetDegree = degree;
-          outcome.faired.report.targetSplits = levels[outcome.level].splits;
+          outcome.faired.report.targetSplits = levels.all[outcome.level].splits;
           return std::move(outcome.faired);
         };
-        const auto toDegree = [&](int degree, std::span<const TargetLevel> over,
-                                  bool onlyIfMet = false) -> Result<LevelOutcome> {
-          return fairOverLevels(setup, over, degree, within.toleranceMm, context, onlyIfMet);
+        const auto toDegree = [&](int degree, LevelSearch search) -> Result<LevelOutcome> {
+          return fairOverLevels(setup, levels, degree, within.toleranceMm, context, search);
         };
         int degree = degreeOf(params.target).value_or(0);
         if (degree == 0 && params.targetChoice == TargetChoice::Similarity) {
@@ -97,7 +223,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
           for (int tried = 1; tried <= 6; ++tried) {
             const auto at = static_cast<std::size_t>(tried) - 1;
             if (!first.profiles[at].valid) continue;
-            auto outcome = toDegree(tried, levels);
+            auto outcome = toDegree(tried, LevelSearch::All);
             if (!outcome) return fail(outcome.error());
             all[at] = followed(std::move(*outcome), tried);
           }
@@ -107,12 +233,12 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         }
         for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
           if (!first.profiles[tried - 1].valid) continue;
-          auto outcome = toDegree(tried, std::span(levels).first(1), true);
+          auto outcome = toDegree(tried, LevelSearch::IfItMet);
           if (!outcome) return fail(outcome.error());
-          if (outcome->isMet()) return followed(std::move(*outcome), tried);
+          if (outcome->isMet) return followed(std::move(*outcome), tried);
         }
         if (degree == 0) degree = first.recommendedDegree;
-        auto outcome = toDegree(degree, levels);
+        auto outcome = toDegree(degree, LevelSearch::All);
         if (!outcome) return fail(outcome.error());
         return followed(std::move(*outcome), degree);
       });

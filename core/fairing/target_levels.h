@@ -16,28 +16,43 @@ namespace batten {
 
 /// The targets of one curve over one list of splits.
 struct TargetLevel {
+  double fromMm = 0.0;  ///< The smallest tolerance that has these splits.
   std::vector<double> splits;
   TargetSet targets;
 };
 
-/// The targets over the splits that the parameters ask for. Of natural spans also those of smaller tolerances, whose
-/// curves are valid here too: fewest splits first. Never empty.
-std::vector<TargetLevel> targetLevels(const NurbsCurve&, bool closed, const FairingParams&);
+/// The targets over the splits that the parameters ask for: of natural spans those of all tolerances, fewest splits
+/// first. What is valid for a smaller tolerance is valid for a larger one too.
+struct TargetLevels {
+  std::vector<TargetLevel> all;  ///< Never empty.
+  std::size_t first = 0;         ///< The one of the tolerance that is asked for.
+  const TargetLevel& ofTolerance() const { return all[first]; }
+};
+TargetLevels targetLevels(const NurbsCurve&, bool closed, const FairingParams&);
+/// One list of splits, whatever the tolerance.
+TargetLevels oneLevel(std::vector<double> splits, TargetSet targets);
 
 /// What one degree comes to.
 struct LevelOutcome {
   std::size_t level = 0;  ///< Which of the levels gave it.
   FairedCurve faired;
-  /// The target of the first level was met within the tolerance without a curvature extremum more.
-  bool isMet() const {
-    return level == 0 && faired.report.withinTolerance && faired.report.extremaAfter <= faired.report.extremaBefore;
-  }
+  bool isMet = false;  ///< The target over the spans of the tolerance was met, without a curvature extremum more.
 };
 
-/// The level whose curve has the fewest extrema, of those the first: one that has no more than there are splits of the
-/// first level ends the search. `onlyIfMet`: see ModificationEffort.
-Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, std::span<const TargetLevel>,
-                                    int degree, double toleranceMm, const RunContext&, bool onlyIfMet = false);
+/// How far a degree is followed.
+enum class LevelSearch {
+  All,      ///< Over the spans of this tolerance and of smaller ones, for the fewest extrema.
+  IfItMet,  ///< Over those of this tolerance, if the tolerance allows the whole target; else the sketch comes back.
+};
+
+/// The level whose curve has the fewest extrema, of those one that meets its target, of these the first: one that has
+/// no more than there are splits of the tolerance's level ends the search.
+///
+/// Its `neededMm` is the smallest tolerance that meets the target over its own spans, or over those of a smaller one.
+/// It does not depend on the tolerance; IfItMet says it only where the target is met.
+/// @param toleranceMm what fairing may take of the tolerance.
+Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, const TargetLevels&, int degree,
+                                    double toleranceMm, const RunContext&, LevelSearch search = LevelSearch::All);
 
 /// Target mode, the drawn profile excepted.
 Result<FairedCurve> fairToTarget(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/content_hash.h"
 #include "core/base/platform.h"
 #include "core/contour/centreline/skeleton.h"
 #include "core/pipeline/run/pipeline.h"
@@ -55,9 +56,16 @@ RunContext twoThreads() {
   return context;
 }
 
+/// As if read from a file, whose hash stands for the pixels: no run has to hash those.
+Scan pageOfFile() {
+  Scan scan = largePage(kPageWidth, kPageHeight, kPageStrokes, 1);
+  scan.fileHash = sha256(std::as_bytes(std::span(scan.grey.pixels)));
+  return scan;
+}
+
 /// Each stage by itself, on what the one before has made.
 struct PageStages {
-  Scan scan = largePage(kPageWidth, kPageHeight, kPageStrokes, 1);
+  Scan scan = pageOfFile();
   Recipe recipe;
   PreparedPage page = *preparePage(scan, recipe.preparation, twoThreads());
   RegionThresholds thresholds = *findThresholds(scan.grey, recipe.paper, recipe.threshold, twoThreads());

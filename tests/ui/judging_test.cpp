@@ -52,6 +52,17 @@ class Judging : public test::WindowFixture {
     }));
     return last;
   }
+  /// The palest colour near a place of the page.
+  int palest(const QImage& canvas, const Vec2& px, int reach) {
+    const QPoint at = find<CurveCanvas>("canvas")->toWidget(px).toPoint();
+    int most = 0;
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x) {
+        const QColor color = canvas.pixelColor(at + QPoint(x, y));
+        most = std::max(most, std::min({color.red(), color.green(), color.blue()}));
+      }
+    return most;
+  }
   /// The bluest colour near a place of the page: blue minus red.
   int bluest(const QImage& canvas, const Vec2& px, int reach = 4) {
     const QPoint at = find<CurveCanvas>("canvas")->toWidget(px).toPoint();
@@ -157,7 +168,8 @@ TEST_F(Judging, FoundLinesAreSeenOnBlackInk) {
     painter.drawArc(QRectF(80, 160, 480, 240), 20 * 16, 140 * 16);
   })));
   ASSERT_EQ(session().curves().size(), 2u);
-  for (const PanelStage stage : {PanelStage::Edges, PanelStage::Corners, PanelStage::Curves}) {
+  for (const PanelStage stage :
+       {PanelStage::Edges, PanelStage::Corners, PanelStage::Curves, PanelStage::Fairing, PanelStage::Export}) {
     window_->setStage(stage);
     for (int selected = 0; selected < 2; ++selected) {
       session().selectCurve(selected);
@@ -166,6 +178,7 @@ TEST_F(Judging, FoundLinesAreSeenOnBlackInk) {
         const NurbsCurve& line = curve.sketched;
         const Vec2 px = session().output().frame.pointToImage(line.point(0.5 * (line.start() + line.end())));
         EXPECT_GT(bluest(shown, px, 2), 60) << label(stage).toStdString();
+        EXPECT_GT(palest(shown, px, 3), 110) << "a border keeps it apart from the ink: " << label(stage).toStdString();
       }
     }
   }

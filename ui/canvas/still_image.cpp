@@ -78,12 +78,13 @@ void StillImage::refreshLines(const CanvasScene& scene, const LinesKey& key) {
   lines_.fill(Qt::transparent);
   if (scene.view.isScanOnly()) return;
   QPainter painter(&lines_);
-  paintOverlay(painter, scene);
+  paintUniform(painter, scene);
   if (scene.view.isVisible(Layer::Strokes)) paintStrokes(painter, scene);
   if (scene.view.isVisible(Layer::Fallback)) paintFallback(painter, scene);
   if (scene.view.isVisible(Layer::Segments)) paintSegments(painter, scene);
   if (scene.view.isVisible(Layer::Curve)) paintSketched(painter, scene);
   if (scene.view.isVisible(Layer::Faired)) paintFaired(painter, scene);
+  paintPinned(painter, scene);
   if (scene.areCombsShown()) paintCombs(painter, scene);
   if (scene.view.isVisible(Layer::Deviation)) paintDeviation(painter, scene);
 }

@@ -114,7 +114,7 @@ std::vector<ActionInfo> toolActions() {
       {ToolThresholds, "tool-thresholds", menu, tr("Edit thresholds"), keys({"T"}),
        tr("Click a region, then turn the wheel or drag up and down to change its threshold."), true},
       {ToolCorners, "tool-corners", menu, tr("Mark corners"), keys({"K"}),
-       tr("Click a line where it has a sharp corner; a click on the selected corner removes it."), true},
+       tr("Click a line to mark a corner; click a corner to select it, again to remove it."), true},
       {ToolPen, "tool-pen", menu, tr("Draw with pen"), keys({"D"}),
        tr("Drag to draw a line, with a mouse or a tablet; Del removes the selected one."), true},
       {ToolSegments, "tool-segments", menu, tr("Segment points"), keys({"G"}),

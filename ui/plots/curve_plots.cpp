@@ -219,7 +219,9 @@ void CurvePlots::refreshData() {
 void CurvePlots::showAxes() {
   State& d = *state_;
   const bool isReversed = d.data.runsLeft != d.isTurned;
+  const bool isTurnedNow = d.plot->xAxis->rangeReversed() != isReversed;
   d.plot->xAxis->setRangeReversed(isReversed);
+  if (isTurnedNow) emit directionChanged(isReversed);
   d.lengthTicker->setReversed(isReversed);
   d.head->setReversed(d.isTurned);
   d.empty->setVisible(d.data.isEmpty());
@@ -296,7 +298,8 @@ void CurvePlots::showCursor() {
     d.cursor->point1->setCoords(*s, d.data.low);
     d.cursor->point2->setCoords(*s, d.data.high);
   }
-  d.head->setValue(isShown ? valueText(d.data, d.tab, *s) : QString());
+  const TracedCurve* curve = d.session.selected();
+  d.head->setValue(isShown && curve ? valueText(d.data, d.tab, *s, judgedCurve(*curve, judgedIn(d.view))) : QString());
   d.plot->replot(QCustomPlot::rpQueuedReplot);
 }
 

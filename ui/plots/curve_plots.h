@@ -32,6 +32,8 @@ class CurvePlots : public QWidget {
 
  signals:
   void hint(const QString& text);
+  /// After every change of runsLeft().
+  void directionChanged(bool runsLeft);
 
  protected:
   void changeEvent(QEvent*) override;

@@ -59,6 +59,7 @@ PlotHead::PlotHead(QWidget* parent)
   }
   setTab(PlotTab::Radius);
   layout->addStretch();
+  value_->setObjectName(QStringLiteral("plot.value"));
   value_->setFont(uiFont(12));
   value_->setForegroundRole(QPalette::PlaceholderText);
   layout->addWidget(value_);

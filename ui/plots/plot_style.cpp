@@ -89,7 +89,10 @@ QString RoundLogTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
 }
 
 double PlainTicker::getTickStep(const QCPRange& range) {
+  // 1, 2 or 5 of a power of ten: a step of 0.025 would be written as 0.02, 0.05, 0.08.
   step_ = QCPAxisTicker::getTickStep(range);
+  const double ten = std::pow(10.0, std::floor(std::log10(step_) + 1e-9)), share = step_ / ten;
+  step_ = ten * (share < 1.5 ? 1.0 : share < 3.0 ? 2.0 : share < 7.0 ? 5.0 : 10.0);
   return step_;
 }
 

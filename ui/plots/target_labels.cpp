@@ -11,9 +11,10 @@
 namespace batten {
 namespace {
 
-constexpr int kSlots = 24;           // places along the shown stretch that are tried
-constexpr double kApartPx = 18.0;    // between two numbers
-constexpr double kFromEdgePx = 8.0;  // of the plot
+constexpr int kSlots = 24;             // places along the shown stretch that are tried
+constexpr double kApartPx = 18.0;      // between two numbers
+constexpr double kFromCurvePx = 10.0;  // half the height of a number, and a little
+constexpr double kFromEdgePx = 8.0;    // of the plot
 
 bool isTarget(const PlotSeries& series) {
   return series.role == PlotRole::Target || series.role == PlotRole::ChosenTarget ||
@@ -36,8 +37,11 @@ void TargetLabels::show(const PlotData& data) {
     if (text) plot_->removeItem(text);
   texts_.clear();
   lines_.clear();
+  curves_.clear();
   const Theme& theme = themeOf(plot_->palette());
   for (const PlotSeries& series : data.series) {
+    if ((series.role == PlotRole::Sketched || series.role == PlotRole::Faired) && series.s.size() > 1)
+      curves_.push_back(series);
     if (!isTarget(series) || series.s.size() < 2) continue;
     auto* text = new QCPItemText(plot_);
     text->setText(QString::number(series.degree));
@@ -57,29 +61,35 @@ void TargetLabels::show(const PlotData& data) {
   place();
 }
 
-void TargetLabels::place() {
+bool TargetLabels::placeOne(std::size_t line, bool clear, std::vector<QPointF>& taken) {
   const QCPRange shown = plot_->xAxis->range();
   const QRectF inside =
       QRectF(plot_->axisRect()->rect()).adjusted(kFromEdgePx, kFromEdgePx, -kFromEdgePx, -kFromEdgePx);
+  // Each begins at a place of its own and looks on from there.
+  const int first = (static_cast<int>(line) * kSlots / static_cast<int>(lines_.size()) + kSlots / 12) % kSlots;
+  for (int k = 0; k < kSlots; ++k) {
+    const double s = shown.lower + shown.size() * ((first + k) % kSlots + 0.5) / kSlots;
+    const double value = valueAt(lines_[line], s);
+    const QPointF at(plot_->xAxis->coordToPixel(s), plot_->yAxis->coordToPixel(value));
+    const auto isNear = [&](const QPointF& other) {
+      return std::hypot(other.x() - at.x(), other.y() - at.y()) < kApartPx;
+    };
+    const auto isOnCurve = [&](const PlotSeries& curve) {
+      return std::abs(plot_->yAxis->coordToPixel(valueAt(curve, s)) - at.y()) < kFromCurvePx;
+    };
+    if (!std::isfinite(at.y()) || !inside.contains(at) || std::any_of(taken.begin(), taken.end(), isNear)) continue;
+    if (clear && std::any_of(curves_.begin(), curves_.end(), isOnCurve)) continue;
+    texts_[line]->position->setCoords(s, value);
+    taken.push_back(at);
+    return true;
+  }
+  return false;
+}
+
+void TargetLabels::place() {
   std::vector<QPointF> taken;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (!texts_[i]) continue;
-    // Each begins at a place of its own and looks on from there.
-    const int first = (static_cast<int>(i) * kSlots / static_cast<int>(lines_.size()) + kSlots / 12) % kSlots;
-    bool found = false;
-    for (int k = 0; k < kSlots && !found; ++k) {
-      const double s = shown.lower + shown.size() * ((first + k) % kSlots + 0.5) / kSlots;
-      const double value = valueAt(lines_[i], s);
-      const QPointF at(plot_->xAxis->coordToPixel(s), plot_->yAxis->coordToPixel(value));
-      const auto isNear = [&](const QPointF& other) {
-        return std::hypot(other.x() - at.x(), other.y() - at.y()) < kApartPx;
-      };
-      if (!std::isfinite(at.y()) || !inside.contains(at) || std::any_of(taken.begin(), taken.end(), isNear)) continue;
-      texts_[i]->position->setCoords(s, value);
-      taken.push_back(at);
-      found = true;
-    }
-    texts_[i]->setVisible(found);
+    if (texts_[i]) texts_[i]->setVisible(placeOne(i, true, taken) || placeOne(i, false, taken));
   }
 }
 

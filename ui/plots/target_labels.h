@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QPointF>
 #include <QPointer>
 #include <vector>
 
@@ -12,7 +13,7 @@ class QCustomPlot;
 namespace batten {
 
 /// The numbers of the six targets on their lines in a plot, each where its line is inside the plot and clear of the
-/// other numbers. They follow the stretch that is shown.
+/// other numbers and, where there is such a place, of the curves. They follow the stretch that is shown.
 class TargetLabels {
  public:
   explicit TargetLabels(QCustomPlot* plot) : plot_(plot) {}
@@ -23,7 +24,9 @@ class TargetLabels {
 
  private:
   QCustomPlot* plot_;
-  std::vector<PlotSeries> lines_;
+  /// @param clear whether the number keeps off the curves, too. @return whether there was a place.
+  bool placeOne(std::size_t line, bool clear, std::vector<QPointF>& taken);
+  std::vector<PlotSeries> lines_, curves_;
   std::vector<QPointer<QCPItemText>> texts_;
 };
 

@@ -4,14 +4,13 @@
 #include <algorithm>
 
 #include "ui/plots/curve_plots.h"
+#include "ui/session/place_text.h"
 
 namespace batten {
 namespace {
 
 QString quantity(PlotTab tab, const QString& number) {
   switch (tab) {
-    case PlotTab::Radius:
-      return CurvePlots::tr(" · R %1 mm").arg(number);
     case PlotTab::Curvature:
       return CurvePlots::tr(" · κ %1 /mm").arg(number);
     case PlotTab::CurvatureSlope:
@@ -20,21 +19,36 @@ QString quantity(PlotTab tab, const QString& number) {
       return CurvePlots::tr(" · |R′| %1").arg(number);
     case PlotTab::Deviation:
       return CurvePlots::tr(" · %1 mm").arg(number);
+    case PlotTab::Radius:
+      break;
   }
   return {};
 }
 
+/// Between the two samples beside the place.
+double valueAt(const PlotSeries& series, double s) {
+  const auto next = std::lower_bound(series.s.begin(), series.s.end(), s) - series.s.begin();
+  if (next == 0) return series.value.front();
+  if (next == std::ssize(series.s)) return series.value.back();
+  const double from = series.s[next - 1], width = series.s[next] - from;
+  const double t = width > 0.0 ? (s - from) / width : 0.0;
+  return series.value[next - 1] + t * (series.value[next] - series.value[next - 1]);
+}
+
 }  // namespace
 
-QString valueText(const PlotData& data, PlotTab tab, double s) {
+QString valueText(const PlotData& data, PlotTab tab, double s, const NurbsCurve& shown) {
   const QString place = CurvePlots::tr("s %1 mm").arg(s, 0, 'f', 1);
+  // The canvas says the radius, too: of the curve itself, not of the samples of either.
+  const bool isOfCurvature = tab == PlotTab::Radius || tab == PlotTab::Curvature;
+  const auto kappa = isOfCurvature ? curvatureAtLength(shown, s) : std::nullopt;
+  if (tab == PlotTab::Radius) return kappa ? place + QStringLiteral(" · ") + radiusText(*kappa, shown) : place;
+  if (kappa) return place + quantity(tab, QString::number(*kappa, 'g', 4));
   for (const PlotRole role : {PlotRole::Faired, PlotRole::Sketched}) {
     const auto series = std::find_if(data.series.begin(), data.series.end(),
                                      [role](const PlotSeries& one) { return one.role == role; });
     if (series == data.series.end()) continue;
-    const auto at = std::lower_bound(series->s.begin(), series->s.end(), s) - series->s.begin();
-    const auto i = std::min(at, std::ssize(series->s) - 1);
-    return place + quantity(tab, QString::number(series->value[i], 'g', 4));
+    return place + quantity(tab, QString::number(valueAt(*series, s), 'g', 4));
   }
   return place;
 }

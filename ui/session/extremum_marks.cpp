@@ -56,18 +56,21 @@ QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
   return text + (note.kept ? extremumText(". Click to remove it.") : extremumText(". Click to keep it."));
 }
 
-std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const TracedCurve& curve) {
+/// The extrema of a curve as its figures count them.
+std::vector<ExtremumMark> marksOf(const EditorSession& session, const NurbsCurve& curve, bool closed, bool isFaired) {
   std::vector<ExtremumMark> marks;
-  const double size = extent(curve.faired);
+  const double size = extent(curve);
   if (!(size > 0.0)) return marks;
-  for (const CurvatureExtremumPoint& one : curvatureExtrema(curve.faired, kExtremumProminence / size, curve.closed)) {
+  for (const CurvatureExtremumPoint& one : curvatureExtrema(curve, kExtremumProminence / size, closed)) {
     ExtremumMark mark;
-    mark.px = session.output().frame.pointToImage(curve.faired.point(one.u));
+    mark.px = session.output().frame.pointToImage(curve.point(one.u));
     mark.s = one.s;
     mark.kappa = one.kappa;
     const bool isPeak = one.maximum == (one.kappa > 0.0);
-    mark.text = (isPeak ? extremumText("Curvature maximum of the faired curve.")
-                        : extremumText("Curvature minimum of the faired curve."));
+    mark.text = isPeak     ? isFaired ? extremumText("Curvature maximum of the faired curve.")
+                                      : extremumText("Curvature maximum of the curve.")
+                    : isFaired ? extremumText("Curvature minimum of the faired curve.")
+                           : extremumText("Curvature minimum of the curve.");
     marks.push_back(std::move(mark));
   }
   return marks;
@@ -78,7 +81,9 @@ std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const Trac
 std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optional<int> curve, Judged judged) {
   const TracedCurve* traced = session.curveAt(curve);
   if (!traced) return {};
-  if (judged == Judged::Result && isChanged(*traced)) return marksOfFaired(session, *traced);
+  if (judged == Judged::Result && isChanged(*traced)) return marksOf(session, traced->faired, traced->closed, true);
+  // Only the fair fit judges extrema; of all other curves they are shown as they are.
+  if (traced->construct.extrema.empty()) return marksOf(session, traced->sketched, traced->closed, false);
   std::vector<ExtremumMark> marks;
   for (std::size_t i = 0; i < traced->construct.extrema.size(); ++i) {
     const ExtremumNote& note = traced->construct.extrema[i];

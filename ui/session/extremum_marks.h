@@ -11,7 +11,7 @@ namespace batten {
 
 /// A curvature extremum as canvas and plot show it.
 struct ExtremumMark {
-  /// Index into the curve's ConstructReport::extrema; none: of the faired curve, where a click changes nothing.
+  /// Index into the curve's ConstructReport::extrema; none: not judged, a click changes nothing.
   std::optional<int> note;
   Vec2 px = Vec2::Zero();
   double s = 0.0;      ///< [mm] along the judged curve.
@@ -23,7 +23,7 @@ struct ExtremumMark {
 };
 
 /// The extrema of one of session.curves(). Of the sketched curve: those that the fair fit found, with its judgement;
-/// empty for other methods. Of the result where fairing changed it: its own, as many as its figures count.
+/// of other methods, and of the result where fairing changed it: the curve's own, as many as its figures count.
 std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optional<int> curve,
                                         Judged judged = Judged::Sketched);
 

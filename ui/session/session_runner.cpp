@@ -15,6 +15,13 @@
 namespace batten {
 namespace {
 
+/// [bytes] Of the outputs that are kept: the prepared page at two bytes a pixel, and masks and lines of a few runs, so
+/// that undoing finds them. Every value that a slider passes leaves some, too, which nobody asks for again.
+std::size_t cacheBytes(const Scan& scan) {
+  constexpr std::size_t kBytesPerPixel = 3, kLeastBytes = std::size_t{96} << 20;
+  return std::max(kLeastBytes, kBytesPerPixel * scan.grey.pixels.size());
+}
+
 double squaredDistance(const Piece& piece, const Vec2& place) {
   double best = std::numeric_limits<double>::infinity();
   for (const Vec2& point : piece.points) best = std::min(best, (point - place).squaredNorm());
@@ -104,6 +111,7 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   isStopped = false;
   dropOldDrawing();
   session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
+  cache.setLimit(cacheBytes(*session.scan_));
   path = scanPath;
   openedWithRecipe = opened.hasRecipe;
   wasRestored = isRestored;

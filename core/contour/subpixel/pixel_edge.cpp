@@ -29,7 +29,7 @@ constexpr double kReachBlurs = 2.5;  // of blur: farther from the edge the answe
 constexpr double kRangeBlurs = 4.0;  // and farther than this to 3e-5
 constexpr double kParallel = 1e-9;   // cosine: a row that runs along a strip crosses no side of it
 constexpr int kEdgeNewtonSteps = 4;
-constexpr double kLargestStepPx = 0.5, kSettledPx = 2e-3;
+constexpr double kLargestEdgeStepPx = 0.5, kSettledEdgePx = 2e-3;
 
 PixelResponse::Value modelAt(const PixelResponse& response, const PixelEdge& edge, double distance) {
   PixelResponse::Value value = response.at(distance, edge.direction);
@@ -155,9 +155,9 @@ EdgePosition mostLikelyPosition(const PixelWindow& window, const PixelResponse& 
     }
     if (!(sums.bottom > 0.0)) return {start, information()};
     known = sums;
-    const double move = std::clamp(sums.top / sums.bottom, -kLargestStepPx, kLargestStepPx);
+    const double move = std::clamp(sums.top / sums.bottom, -kLargestEdgeStepPx, kLargestEdgeStepPx);
     position = std::clamp(position + move, start - gate, start + gate);
-    if (std::abs(move) < kSettledPx) break;
+    if (std::abs(move) < kSettledEdgePx) break;
   }
   return {position, information()};
 }

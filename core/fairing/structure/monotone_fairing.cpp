@@ -138,7 +138,8 @@ class MonotoneFairing {
     auto result = done(best);
     if (!result) return result;
     FairingReport& report = result->report;
-    const std::string kept = std::to_string(report.extremaAfter) + " extrema were kept.";
+    const std::string kept =
+        report.extremaAfter == 1 ? "1 extremum was kept." : std::to_string(report.extremaAfter) + " extrema were kept.";
     const bool byPlace = !params_.keptAt.empty();
     const std::string asked = byPlace ? "these extrema" : extremaText(params_.keepExtrema);
     report.why = needed ? Termination::ToleranceLimited : Termination::NoProgress;

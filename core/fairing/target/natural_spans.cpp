@@ -85,14 +85,22 @@ std::vector<double> naturalSplits(const NurbsCurve& curve, bool closed, double t
   return NaturalSpans(curve, closed).splits(*seriesFrom(toleranceMm));
 }
 
-std::vector<std::vector<double>> naturalSplitLevels(const NurbsCurve& curve, bool closed, double toleranceMm) {
+std::vector<SpanLevel> naturalSpanLevels(const NurbsCurve& curve, bool closed) {
   const NaturalSpans spans(curve, closed);
-  std::vector<std::vector<double>> levels;
-  for (auto at = seriesFrom(toleranceMm); at != kSeries.end(); ++at) {
-    auto splits = spans.splits(*at);
-    if (levels.empty() || splits.size() > levels.back().size()) levels.push_back(std::move(splits));
+  std::vector<SpanLevel> levels;
+  for (const double tolerance : kSeries) {
+    auto splits = spans.splits(tolerance);
+    if (levels.empty() || splits != levels.back().splits) levels.push_back({tolerance, std::move(splits)});
+    levels.back().fromMm = tolerance;
   }
+  levels.back().fromMm = 0.0;
   return levels;
+}
+
+std::size_t levelOf(std::span<const SpanLevel> levels, double toleranceMm) {
+  const auto level = std::find_if(levels.begin(), levels.end(),
+                                  [&](const SpanLevel& one) { return one.fromMm * kSeriesRounding <= toleranceMm; });
+  return static_cast<std::size_t>(level - levels.begin());
 }
 
 ProfileSpan spanBetween(const std::vector<double>& splits, double at, bool closed) {

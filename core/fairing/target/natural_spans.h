@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/curve/nurbs_curve.h"
@@ -14,8 +16,15 @@ namespace batten {
 /// slider, the tolerance counts as the next lower one of the series 1, 2, 5, 10 …
 std::vector<double> naturalSplits(const NurbsCurve&, bool closed, double toleranceMm);
 
-/// The same for this and every smaller tolerance of the series, without repetitions, fewest splits first. Never empty.
-std::vector<std::vector<double>> naturalSplitLevels(const NurbsCurve&, bool closed, double toleranceMm);
+/// Splits, and the smallest tolerance of which they are the natural ones.
+struct SpanLevel {
+  double fromMm = 0.0;  ///< 0: of every tolerance below those of the next level.
+  std::vector<double> splits;
+};
+/// Those of all tolerances, from the largest tolerance down: what differs from the level before. Never empty.
+std::vector<SpanLevel> naturalSpanLevels(const NurbsCurve&, bool closed);
+/// Which of them are naturalSplits of a tolerance.
+std::size_t levelOf(std::span<const SpanLevel>, double toleranceMm);
 
 /// The part between two splits in which a place lies; with one split or none of a closed curve all of it.
 ProfileSpan spanBetween(const std::vector<double>& splits, double at, bool closed);

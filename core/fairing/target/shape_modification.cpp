@@ -27,8 +27,6 @@ constexpr double kTargetUsedShare = 0.95;
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
 constexpr double kStuckShare = 0.8;
-/// Room for what lies between the places where the deviation is measured.
-constexpr double kTargetRoom = 0.999;
 /// Tolerances: a curve that has left the sketch by this, on its way to the target, will not come back.
 constexpr double kBeyondReach = 2.0;
 
@@ -84,12 +82,13 @@ class ShapeModification {
         toleranceMm_(toleranceMm),
         context_(context),
         onlyIfMet_(effort.onlyIfMet),
+        onlyNeed_(effort.onlyNeed),
         isFiltered_(effort.isFiltered),
         notes_(effort.isFiltered ? kNotesOfFilter : kNotesOfTarget),
         asked_(extremaAsked(*setup, objective)) {
     if (effort.asked == ExtremaAsked::UpToSketch)
       asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed, setup->check));
-    if (onlyIfMet_) mostMm_ = kBeyondReach * toleranceMm;
+    if (onlyIfMet_ || onlyNeed_) mostMm_ = kBeyondReach * toleranceMm;
     openAll(setup);
     // One that comes to its target decides together with the others, which are then followed to the end.
     const auto endsEarly = [](const Course& course) { return course.steps.endsEarly(); };
@@ -114,11 +113,10 @@ class ShapeModification {
     best_.misfit = before->misfit;
     best_.extrema = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
     report_.objectiveBefore = std::sqrt(best_.misfit);
-    metMisfit_ = std::numeric_limits<double>::max();
+    const TargetStep& full = fullStep();
+    report_.neededMm = full.deviationMm;
+    metMisfit_ = full.misfit;
     for (const Course& course : courses_) {
-      const TargetStep& full = course.steps.all().front();
-      if (full.misfit < metMisfit_) report_.neededMm = full.deviationMm;
-      metMisfit_ = std::min(metMisfit_, full.misfit);
       for (const TargetStep& step : course.steps.all()) {
         if (isWithin(step)) take(step, &course);
       }
@@ -135,6 +133,11 @@ class ShapeModification {
     if (context_.isCancelled()) return cancelled();
     return done();
   }
+  /// What meeting the target takes; nothing where no course came to it.
+  std::optional<double> neededMm() const {
+    if (courses_.empty() || isBeyond()) return std::nullopt;
+    return fullStep().deviationMm;
+  }
 
  private:
   /// The steps over one knot vector.
@@ -146,10 +149,12 @@ class ShapeModification {
 
   void openAll(const std::shared_ptr<const FairingSetup>& setup) {
     open(setup.get());
-    if (isCalm()) return;
+    if (isCalm() || (onlyNeed_ && isBeyond())) return;
     calm_ = calmSetups(setup);
     for (const auto& calm : calm_) open(calm.get());
   }
+  /// A target that is so far from the sketch is not looked for over fewer knots.
+  bool isBeyond() const { return !courses_.empty() && courses_.front().steps.all().front().deviationMm > mostMm_; }
   /// Where the target is met without tremor, there is none to be passed over.
   bool isCalm() const {
     if (courses_.empty() || courses_.front().steps.endsEarly()) return false;
@@ -159,6 +164,13 @@ class ShapeModification {
   void open(const FairingSetup* over) {
     Course course{over, TargetSteps(*over, objective_, context_, mostMm_)};
     if (!course.steps.all().empty()) courses_.push_back(std::move(course));
+  }
+  /// Of the courses' ends at the target the one that meets it best.
+  const TargetStep& fullStep() const {
+    const Course* best = &courses_.front();
+    for (const Course& course : courses_)
+      if (course.steps.all().front().misfit < best->steps.all().front().misfit) best = &course;
+    return best->steps.all().front();
   }
   bool isWithin(const TargetStep& step) const { return step.deviationMm <= kTargetRoom * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
@@ -312,7 +324,7 @@ class ShapeModification {
   const RunContext& context_;
   std::vector<std::shared_ptr<const FairingSetup>> calm_;
   std::vector<Course> courses_;
-  bool onlyIfMet_, isFiltered_;
+  bool onlyIfMet_, onlyNeed_, isFiltered_;
   const ModificationNotes& notes_;
   int asked_;
   double metMisfit_ = 0.0;  ///< Of the curve that meets the target.
@@ -330,6 +342,21 @@ Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup
   auto faired = ShapeModification(setup, *objective, toleranceMm, context, effort).run();
   if (faired) faired->report.similarityAfter = similarityToSketch(faired->curve, setup->sketchedCurve());
   return faired;
+}
+
+std::optional<double> neededWithin(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
+                                   double mostMm, const RunContext& context) {
+  const auto objective = targetObjective(*setup, profile);
+  if (!objective) return std::nullopt;
+  return ShapeModification(setup, *objective, mostMm, context, {.onlyNeed = true}).neededMm();
+}
+
+void noteMetOverMoreSpans(FairingReport& report) {
+  report.why = Termination::ToleranceLimited;
+  report.withinTolerance = false;
+  report.note = report.maxDeviationMm > 0.0
+                    ? "The profile was followed in part. Over more spans it would be met, with more curvature extrema."
+                    : kNotesOfTarget.addsExtrema;
 }
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,

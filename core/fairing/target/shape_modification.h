@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
@@ -10,6 +11,10 @@
 #include "core/fairing/profile/radius_target.h"
 
 namespace batten {
+
+/// Part of the tolerance that meeting a target may take: the rest is room for what lies between the places where the
+/// deviation is measured.
+inline constexpr double kTargetRoom = 0.999;
 
 /// Moves the control points until the curvature follows the profile as far as the tolerance allows (000 VII, 003
 /// section 4): Levenberg-Marquardt with the end points pinned in a null-space basis, at fidelity weights that do not
@@ -29,11 +34,20 @@ enum class ExtremaAsked {
 struct ModificationEffort {
   ExtremaAsked asked = ExtremaAsked::UpToSketch;
   bool onlyIfMet = false;   ///< Where the tolerance does not allow the whole target, the sketch comes back at once.
+  bool onlyNeed = false;    ///< Only what the target needs is asked for, where that is not far above the tolerance.
   bool isFiltered = false;  ///< The profile is the curve's own curvature without short waves: notes advise so.
 };
 
 /// The same on a setup that several fairings share.
 Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
                                 double toleranceMm, const RunContext& context, ModificationEffort effort = {});
+
+/// What meeting the target takes of this setup, whatever the tolerance: [mm]. Nothing where that is much more than
+/// `mostMm`, or where the curve cannot be moved.
+std::optional<double> neededWithin(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
+                                   double mostMm, const RunContext& context);
+
+/// The target could have been met over other spans, but with more extrema.
+void noteMetOverMoreSpans(FairingReport&);
 
 }  // namespace batten

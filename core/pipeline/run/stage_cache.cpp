@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/run/stage_cache.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,21 @@ void StageCache::store(const ContentHash& key, std::shared_ptr<const void> value
     entries_.erase(old);
   }
   if (bytes > limit_) return;
+  std::ranges::move(makeRoom(bytes), std::back_inserter(dropped));
+  ages_.push_front(key);
+  entries_.emplace(key, Entry{std::move(value), bytes, ages_.begin()});
+  used_ += bytes;
+}
+
+void StageCache::setLimit(std::size_t limitBytes) {
+  std::vector<std::shared_ptr<const void>> dropped;  // destroyed after the lock is released
+  const std::scoped_lock lock(mutex_);
+  limit_ = limitBytes;
+  dropped = makeRoom(0);
+}
+
+std::vector<std::shared_ptr<const void>> StageCache::makeRoom(std::size_t bytes) {
+  std::vector<std::shared_ptr<const void>> dropped;
   while (used_ + bytes > limit_) {
     const auto oldest = entries_.find(ages_.back());
     used_ -= oldest->second.bytes;
@@ -32,9 +49,7 @@ void StageCache::store(const ContentHash& key, std::shared_ptr<const void> value
     entries_.erase(oldest);
     ages_.pop_back();
   }
-  ages_.push_front(key);
-  entries_.emplace(key, Entry{std::move(value), bytes, ages_.begin()});
-  used_ += bytes;
+  return dropped;
 }
 
 std::vector<std::shared_ptr<const void>> StageCache::release() {

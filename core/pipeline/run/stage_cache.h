@@ -25,6 +25,8 @@ class StageCache {
   }
   /// Stores an output that takes about `bytes`; one larger than the limit is not kept.
   void store(const ContentHash& key, std::shared_ptr<const void> value, std::size_t bytes);
+  /// From now on; what is too much for it goes, least recently used first.
+  void setLimit(std::size_t limitBytes);
   /// Everything stored so far, which it then no longer holds: to be freed where that may take a while. What is stored
   /// afterwards stays.
   std::vector<std::shared_ptr<const void>> release();
@@ -37,6 +39,8 @@ class StageCache {
     std::list<ContentHash>::iterator age;
   };
   std::shared_ptr<const void> findAny(const ContentHash& key);
+  /// Takes out the oldest until so many bytes fit.
+  std::vector<std::shared_ptr<const void>> makeRoom(std::size_t bytes);
 
   mutable std::mutex mutex_;
   std::map<ContentHash, Entry> entries_;

@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "core/curve/arc_length.h"
@@ -71,9 +75,11 @@ TEST(NaturalSplits, TriflesCountForSmallTolerancesOnly) {
   EXPECT_EQ(naturalSplits(line, false, 0.2).size(), 3u);
   EXPECT_EQ(naturalSplits(line, false, 0.001).size(), 5u);
   EXPECT_TRUE(naturalSplits(line, false, 20.0).size() < 3u) << "all of it moves the curve by less than 2 mm";
-  const auto levels = naturalSplitLevels(line, false, 20.0);
-  for (std::size_t i = 1; i < levels.size(); ++i) EXPECT_GT(levels[i].size(), levels[i - 1].size());
-  EXPECT_EQ(levels.back().size(), 5u);
+  const auto levels = naturalSpanLevels(line, false);
+  for (std::size_t i = 1; i < levels.size(); ++i) EXPECT_GT(levels[i].splits.size(), levels[i - 1].splits.size());
+  EXPECT_EQ(levels.back().splits.size(), 5u);
+  for (const double tolerance : {0.0005, 0.001, 0.004, 0.2, 3.0, 20.0})
+    EXPECT_EQ(levels[levelOf(levels, tolerance)].splits, naturalSplits(line, false, tolerance)) << tolerance;
 }
 
 TEST(NaturalSplits, ACircleHasNoneAndAnEllipseFour) {
@@ -121,6 +127,70 @@ TEST(NaturalTargets, NeedLessThanOnePolynomialForTheWholeCurve) {
   const auto chosen = fair(line, false, toTarget(0, 0.2), {});
   ASSERT_TRUE(chosen);
   EXPECT_EQ(chosen->curve, natural->faired[best - 1]->curve);
+}
+
+/// A sine, an arch with two bends and an arc of an ellipse, from 200 to 240 mm.
+std::vector<NurbsCurve> bentLines() {
+  const auto roof = [](double t) {
+    const double x = 2.0 * t - 1.0;
+    return Vec2(120.0 * x, 30.0 * (1.0 - x * x * x * x) + 4.0 * std::sin(3.0 * x));
+  };
+  const auto deepS = [](double f) { return 0.03 * std::sin(2.0 * std::numbers::pi * f) + 0.002 * bump(f, 0.3, 0.05); };
+  return {test::wave(200.0, 15.0, 40), fromCurvature(deepS, 200.0, 60), test::fitted(roof, 40),
+          test::ellipseQuarter(200.0, 120.0, 24)};
+}
+constexpr std::array kSeriesOfTest = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
+
+/// By trying all spans, with the splits set by hand: the smallest tolerance of which the target is met over its spans,
+/// or over those of a smaller one.
+double neededByTrial(const NurbsCurve& line, int degree) {
+  double needed = std::numeric_limits<double>::infinity();
+  std::vector<double> before{-1.0};
+  for (const double tolerance : kSeriesOfTest) {
+    FairingParams params = toTarget(degree, 20.0);
+    params.targets.splits = naturalSplits(line, false, tolerance);
+    if (params.targets.splits == before) continue;
+    before = params.targets.splits;
+    if (params.targets.splits.empty()) params.targets.spans = TargetSpans::Whole;
+    const auto faired = fair(line, false, params, {});
+    if (!faired) return -1.0;
+    needed = std::min(needed, std::max(tolerance > 0.001 ? tolerance : 0.0, faired->report.neededMm));
+  }
+  return needed;
+}
+
+TEST(NaturalTargets, NeedTheSameWhateverTheTolerance) {
+  std::size_t which = 0;
+  for (const NurbsCurve& line : bentLines()) {
+    SCOPED_TRACE(testing::Message() << "line " << which++);
+    std::array<double, 6> needed{};
+    std::array<int, 6> extrema{};
+    extrema.fill(countedExtrema(line, false));
+    for (int degree = 1; degree <= 6; ++degree)
+      needed[static_cast<std::size_t>(degree - 1)] = neededByTrial(line, degree);
+    for (const double tolerance : {0.05, 0.13, 0.5, 0.9, 2.0, 7.0, 20.0}) {
+      const auto targets = fairAllTargets(line, false, toTarget(1, tolerance), {});
+      ASSERT_TRUE(targets);
+      for (std::size_t i = 0; i < 6; ++i) {
+        SCOPED_TRACE(testing::Message() << "target " << i + 1 << ", tolerance " << tolerance);
+        ASSERT_TRUE(targets->faired[i]);
+        const FairingReport& report = targets->faired[i]->report;
+        EXPECT_NEAR(report.neededMm, needed[i], 1e-9);
+        EXPECT_LE(report.extremaAfter, extrema[i]);
+        extrema[i] = std::min(extrema[i], report.extremaAfter);
+        if (report.neededMm > tolerance) {
+          EXPECT_FALSE(report.withinTolerance);
+        } else if (report.neededMm < 0.998 * tolerance && !report.withinTolerance) {
+          EXPECT_NE(report.note.find("curvature extrem"), std::string::npos) << report.note;
+        }
+        const auto chosen = fair(line, false, toTarget(static_cast<int>(i) + 1, tolerance), {});
+        ASSERT_TRUE(chosen);
+        EXPECT_EQ(chosen->curve, targets->faired[i]->curve);
+        EXPECT_EQ(chosen->report.neededMm, report.neededMm);
+        EXPECT_EQ(chosen->report.withinTolerance, report.withinTolerance);
+      }
+    }
+  }
 }
 
 TEST(NaturalTargets, SimilarityIsThatOfTheCurvatureWhereTheLineBendsBothWays) {

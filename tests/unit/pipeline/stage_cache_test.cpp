@@ -59,6 +59,22 @@ TEST(StageCache, DoesNotKeepWhatIsLargerThanTheBudget) {
   EXPECT_NE(cache.find<int>(key(1)), nullptr);
 }
 
+TEST(StageCache, ALowerLimitDropsTheOldest) {
+  StageCache cache(100);
+  for (int i = 0; i < 3; ++i) cache.store(key(i), value(i), 33);
+  EXPECT_NE(cache.find<int>(key(0)), nullptr);  // now 1 is the oldest
+  cache.setLimit(66);
+  EXPECT_EQ(cache.find<int>(key(1)), nullptr);
+  EXPECT_NE(cache.find<int>(key(0)), nullptr);
+  EXPECT_NE(cache.find<int>(key(2)), nullptr);
+  EXPECT_EQ(cache.bytesUsed(), 66u);
+  cache.setLimit(10);
+  EXPECT_EQ(cache.bytesUsed(), 0u);
+  cache.setLimit(40);
+  cache.store(key(4), value(4), 40);
+  EXPECT_NE(cache.find<int>(key(4)), nullptr);
+}
+
 TEST(StageCache, ServesManyThreads) {
   StageCache cache(500);
   std::vector<std::jthread> threads;

@@ -12,6 +12,7 @@
 #include "ui/session/edits/piece_choice.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/page_text.h"
+#include "ui/session/place_text.h"
 
 namespace batten {
 namespace {
@@ -74,15 +75,11 @@ QString cursorText(const CanvasScene& scene) {
   const auto s = scene.session.cursor();
   const CurveComb* comb = scene.selectedComb();
   if (!s || comb == nullptr) return {};
-  const CombPoint place = comb->at(*s);
-  const double extentMm = scene.combs->source.frame.lengthToModel(comb->extentPx);
-  QString text = chipText("s %1 mm").arg(number(std::clamp(*s, 0.0, comb->lengthMm), 1)) + QStringLiteral(" · ");
-  if (std::abs(place.kappa) * extentMm < kStraightCurvature) {
-    text += chipText("straight");
-  } else {
-    const double radius = std::abs(1.0 / place.kappa);
-    text += chipText("R %1 mm").arg(number(radius, radius < 10.0 ? 2 : radius < 100.0 ? 1 : 0));
-  }
+  const TracedCurve* curve = scene.session.selected();
+  if (curve == nullptr) return {};
+  const NurbsCurve& shown = judgedCurve(*curve, judgedIn(scene.view));
+  QString text = chipText("s %1 mm").arg(number(std::clamp(*s, 0.0, comb->lengthMm), 1));
+  if (const auto kappa = curvatureAtLength(shown, *s)) text += QStringLiteral(" · ") + radiusText(*kappa, shown);
   if (!comb->whiskers.empty()) {
     const auto nearest =
         std::min_element(comb->whiskers.begin(), comb->whiskers.end(),

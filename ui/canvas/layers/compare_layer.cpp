@@ -6,11 +6,18 @@
 
 namespace batten {
 
-void paintOverlay(QPainter& painter, const CanvasScene& scene) {
-  if (!scene.overlay) return;
+void paintUniform(QPainter& painter, const CanvasScene& scene) {
+  if (!scene.overlay || scene.overlay->uniform.isEmpty()) return;
   ImagePainter image(painter, scene);
-  if (!scene.overlay->uniform.isEmpty()) image.stroke(scene.overlay->uniform, colors::uniform(), 1.2);
-  if (!scene.overlay->pinned.isEmpty()) image.stroke(scene.overlay->pinned, colors::pinned(), 1.2);
+  image.stroke(scene.overlay->uniform, colors::uniform(), 1.2);
+}
+
+void paintPinned(QPainter& painter, const CanvasScene& scene) {
+  // It is set beside curves; where none are drawn it would only lie over the ink.
+  const bool areCurvesShown = scene.view.isVisible(Layer::Curve) || scene.view.isVisible(Layer::Faired);
+  if (!scene.overlay || scene.overlay->pinned.isEmpty() || !areCurvesShown) return;
+  ImagePainter image(painter, scene);
+  image.stroke(scene.overlay->pinned, colors::pinned(), 1.8, Qt::DashLine);
 }
 
 }  // namespace batten

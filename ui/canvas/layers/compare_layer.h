@@ -8,7 +8,9 @@
 /// Painters take a painter in widget coordinates and leave its state as it was.
 namespace batten {
 
-/// The pinned result and the curves with uniform knots, thin.
-void paintOverlay(QPainter&, const CanvasScene&);
+/// The curves with uniform knots, thin; they lie under the others.
+void paintUniform(QPainter&, const CanvasScene&);
+/// The pinned result, dashed over the present curves, so that both are seen where they coincide.
+void paintPinned(QPainter&, const CanvasScene&);
 
 }  // namespace batten

@@ -16,6 +16,8 @@ void paintFaired(QPainter& painter, const CanvasScene& scene) {
     const bool isSelected = static_cast<int>(i) == selected;
     // One that fairing left as it was is a result like the others.
     const QPainterPath& result = shape.faired.isEmpty() ? shape.sketched : shape.faired;
+    // Where the sketched curves are hidden, nobody has drawn the border that keeps a line apart from its ink.
+    if (!scene.view.isVisible(Layer::Curve)) image.stroke(result, colors::casing(), isSelected ? 4.4 : 3.6);
     if (isSelected) image.stroke(result, colors::halo(), 7.0);
     image.stroke(result, colors::accent(), isSelected ? 2.2 : 1.5);
   }

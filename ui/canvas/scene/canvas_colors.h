@@ -17,6 +17,7 @@ inline QColor sketchedFaint() { return {96, 96, 96, 150}; }
 inline QColor target() { return {200, 112, 0}; }
 inline QColor accent() { return {11, 107, 203}; }
 inline QColor halo() { return {11, 107, 203, 56}; }
+inline QColor casing() { return {255, 255, 255, 185}; }  ///< Around a line that lies on ink.
 inline QColor corner() { return {201, 60, 16}; }
 inline QColor lost() { return {196, 0, 0}; }
 inline QColor pinned() { return {132, 58, 186}; }  ///< A result set aside.

@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <QHelpEvent>
 #include <QLabel>
+#include <QLayout>
 #include <QPainter>
 #include <QPushButton>
 #include <QToolTip>
@@ -18,7 +19,30 @@ namespace {
 constexpr int kRowHeight = 24;
 constexpr int kColumnWidth = 64;
 constexpr int kWideColumn = 72;  // where the heads of many columns would touch
+
+void addLaidOut(QLayout* layout, std::vector<QWidget*>& found);
+
+void addLaidOut(QWidget* widget, std::vector<QWidget*>& found) {
+  if (widget->focusPolicy() & Qt::TabFocus) found.push_back(widget);
+  if (widget->layout() != nullptr) addLaidOut(widget->layout(), found);
+}
+
+void addLaidOut(QLayout* layout, std::vector<QWidget*>& found) {
+  for (int i = 0; i < layout->count(); ++i) {
+    QLayoutItem* item = layout->itemAt(i);
+    if (item->widget() != nullptr)
+      addLaidOut(item->widget(), found);
+    else if (item->layout() != nullptr)
+      addLaidOut(item->layout(), found);
+  }
+}
 }  // namespace
+
+void tabAsLaidOut(QWidget* panel) {
+  std::vector<QWidget*> found;
+  addLaidOut(panel, found);
+  for (std::size_t i = 1; i < found.size(); ++i) QWidget::setTabOrder(found[i - 1], found[i]);
+}
 
 QLabel* heading(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);

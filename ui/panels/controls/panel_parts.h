@@ -22,6 +22,9 @@ QLabel* note(const QString& text, QWidget* parent);     ///< Grey 12 px, wraps.
 QPushButton* plainButton(const QString& text, const QString& name, QWidget* parent);
 QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent);  ///< Accent text without frame.
 
+/// Tab walks what takes the keyboard in the order of the layouts, from top to bottom, whichever was made first.
+void tabAsLaidOut(QWidget* panel);
+
 /// Numbers in rows with hairlines: a name at the left, one or two columns at the right. Amber marks what is over
 /// tolerance.
 class FigureTable : public QWidget {

@@ -95,21 +95,22 @@ void ScanPanel::buildPages() {
   auto* pages = new QGridLayout;
   pages->setHorizontalSpacing(8);
   pages->setColumnStretch(0, 1);
-  const auto addField = [&](QLabel* title, NumberField* field, int row, const QString& what, const QString& called) {
+  const auto addField = [&](QLabel* title, NumberField* field, int row, const QString& what, const QString& called,
+                            const QString& name) {
     title->setToolTip(what);
     field->setToolTip(what);
     field->setDecimals(0);
     field->setStep(1.0);
     field->setFixedWidth(92);
     field->edit()->setObjectName(called);
-    field->edit()->setAccessibleName(what);
+    field->edit()->setAccessibleName(name);  // the action finder lists it
     pages->addWidget(title, row, 0);
     pages->addWidget(field, row, 1);
   };
   addField(pageName_, page_, 0, tr("The open page of the file. Each page is a separate drawing with its own recipe."),
-           QStringLiteral("scan.page"));
+           QStringLiteral("scan.page"), tr("Page of the file"));
   addField(pdfName_, pdfDpi_, 1, tr("Rendering resolution of the PDF page. Its size in mm does not change."),
-           QStringLiteral("scan.pdfDpi"));
+           QStringLiteral("scan.pdfDpi"), tr("Rendering resolution of the PDF"));
   pdfDpi_->setRange(20.0, 4800.0);
   pdfDpi_->setUnit(tr("dpi"));
   column()->addLayout(pages);

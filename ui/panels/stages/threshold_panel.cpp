@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/conventions.h"
 #include "core/image/threshold/region_thresholds.h"
 #include "core/image/threshold/region_values.h"
 #include "ui/panels/controls/number_field.h"
@@ -194,6 +195,8 @@ void ThresholdPanel::refresh() {
     if (!text.isEmpty()) text += QLatin1Char('\n');
     text += tr("Specks under %1 are dropped, holes under %2 filled.")
                 .arg(areaText(params.speckArea * mm * mm), areaText(params.holeArea * mm * mm));
+    if (session_.scan() && isScaleAssumed(*session_.scan(), session_.recipe()))
+      text += tr(" These sizes assume %1 dpi: the file states no resolution.").arg(kAssumedDpi);
   }
   note_->setText(text);
   note_->setVisible(!note_->text().isEmpty());

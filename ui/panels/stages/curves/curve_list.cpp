@@ -26,6 +26,7 @@ constexpr int kIconSize = 14;
 constexpr int kApart = 8;  ///< Between a name, which may be cut, and its figures.
 constexpr int kTellEveryMs = 200;
 constexpr int kNoRow = -1;  ///< What Qt takes for none.
+constexpr int kRightMargin = 6;
 constexpr int kBadgeWidth = 44, kBadgeHeight = 18, kBadgeGap = 6;
 enum Role {
   IncludedRole = Qt::UserRole,
@@ -34,7 +35,11 @@ enum Role {
   BadgeRole = CurveList::kBadgeRole,
   SimilarityRole,
   OwnTipRole,
-  OwnTextRole
+  OwnTextRole,
+  ExtremaRole,  ///< The figures in columns of their own; empty where there are none.
+  PointsRole,
+  SameRole,
+  ShapeRole
 };
 
 /// Of S: fair, nearly so, or far from it.
@@ -45,7 +50,7 @@ QColor fairnessColour(double similarity, const Theme& theme) {
 
 class CurveDelegate : public QStyledItemDelegate {
  public:
-  using QStyledItemDelegate::QStyledItemDelegate;
+  explicit CurveDelegate(CurveList& list) : QStyledItemDelegate(&list), list_(list) {}
   QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {120, kCurveRow}; }
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     const Theme& theme = themeOf(option.palette);
@@ -63,22 +68,17 @@ class CurveDelegate : public QStyledItemDelegate {
     eye.paint(painter, iconBox(option, 6));
     painter->setFont(uiFont(12));
     painter->setPen(included ? theme.text : theme.mute);
-    const QString figures = index.data(FiguresRole).toString();
     const QString badge = index.data(BadgeRole).toString();
-    const int sign =
-        (index.data(WarnsRole).toBool() ? kIconSize + 6 : 0) + (badge.isEmpty() ? 0 : kBadgeWidth + kBadgeGap);
-    const int room = static_cast<int>(box.width()) - kEyeWidth - sign - kApart - 6 -
-                     painter->fontMetrics().horizontalAdvance(figures);
-    const QString name = painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideRight, room);
+    const QString name = list_.shownName(index.row());
     painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, name);
     if (index.data(WarnsRole).toBool()) {
       const int after = kEyeWidth + painter->fontMetrics().horizontalAdvance(name) + 6;
       themedIcon(QStringLiteral("warning"), option.palette).paint(painter, iconBox(option, after));
     }
     painter->setPen(theme.mute);
-    painter->drawText(box.adjusted(0, 0, -6, 0), Qt::AlignVCenter | Qt::AlignRight, figures);
+    paintFigures(*painter, box.adjusted(0, 0, -kRightMargin, 0), index);
     if (!badge.isEmpty()) {
-      const double right = box.right() - 6 - painter->fontMetrics().horizontalAdvance(figures) - kBadgeGap;
+      const double right = box.right() - kRightMargin - list_.columns().figures() - kBadgeGap;
       paintBadge(*painter, {right - kBadgeWidth, box.center().y() - kBadgeHeight / 2.0, kBadgeWidth, kBadgeHeight},
                  badge, fairnessColour(index.data(SimilarityRole).toDouble(), theme));
     }
@@ -86,6 +86,18 @@ class CurveDelegate : public QStyledItemDelegate {
   }
 
  private:
+  /// In columns, so that numbers stand below each other.
+  void paintFigures(QPainter& painter, const QRectF& box, const QModelIndex& index) const {
+    const CurveList::Columns& columns = list_.columns();
+    const QString extrema = index.data(ExtremaRole).toString();
+    if (extrema.isEmpty())
+      return painter.drawText(box, Qt::AlignVCenter | Qt::AlignRight, index.data(FiguresRole).toString());
+    painter.drawText(box, Qt::AlignVCenter | Qt::AlignRight, index.data(PointsRole).toString());
+    painter.drawText(box.adjusted(0, 0, -columns.points, 0), Qt::AlignVCenter | Qt::AlignRight, extrema);
+    if (index.data(SameRole).toBool())
+      painter.drawText(box.adjusted(box.width() - columns.figures(), 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft,
+                       QStringLiteral("="));
+  }
   static void paintBadge(QPainter& painter, const QRectF& box, const QString& text, const QColor& colour) {
     painter.setPen(QPen(colour, 1.2));
     painter.setBrush(Qt::NoBrush);
@@ -96,6 +108,7 @@ class CurveDelegate : public QStyledItemDelegate {
   static QRect iconBox(const QStyleOptionViewItem& option, int x) {
     return {option.rect.left() + x, option.rect.top() + (kCurveRow - kIconSize) / 2, kIconSize, kIconSize};
   }
+  CurveList& list_;
 };
 
 }  // namespace
@@ -104,7 +117,7 @@ CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
     : QListWidget(parent), session_(session), judged_(judged), worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("curves.list"));
   setAccessibleName(tr("Curves"));
-  setItemDelegate(new CurveDelegate(this));
+  setItemDelegate(new CurveDelegate(*this));
   setMouseTracking(true);
   setUniformItemSizes(true);
   setFrameShape(QFrame::NoFrame);
@@ -155,6 +168,10 @@ void CurveList::refresh() {
     item(i)->setText(name);
     item(i)->setData(IncludedRole, curve.included);
     item(i)->setData(FiguresRole, right);
+    item(i)->setData(ExtremaRole, curve.included ? tr("%1 extr.").arg(figures.extrema) : QString());
+    item(i)->setData(PointsRole, curve.included ? tr(" · %1 pts").arg(figures.controlPoints) : QString());
+    item(i)->setData(SameRole, curve.included && !whyStill.isEmpty());
+    item(i)->setData(ShapeRole, shape);
     const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
     item(i)->setData(WarnsRole, !warning.isEmpty());
     QStringList said;
@@ -171,8 +188,55 @@ void CurveList::refresh() {
   setCurrentRow(session_.selectedCurve().value_or(kNoRow));
   showFairness();
   filling_ = false;
+  measure();
   judge();
   setFixedHeight(sizeHint().height());
+}
+
+void CurveList::measure() {
+  const QFontMetrics metrics(uiFont(12));
+  const auto widen = [&](int& width, const QString& text) { width = std::max(width, metrics.horizontalAdvance(text)); };
+  Columns columns;
+  int shortest = 0;
+  for (int i = 0; i < count(); ++i) {
+    widen(columns.extrema, item(i)->data(ExtremaRole).toString());
+    widen(columns.points, item(i)->data(PointsRole).toString());
+    if (item(i)->data(SameRole).toBool()) widen(columns.same, QStringLiteral("= "));
+    if (item(i)->data(ExtremaRole).toString().isEmpty()) widen(columns.words, item(i)->data(FiguresRole).toString());
+    if (item(i)->data(WarnsRole).toBool()) columns.warning = kIconSize + 6;
+    if (!item(i)->data(BadgeRole).toString().isEmpty()) columns.badge = kBadgeWidth + kBadgeGap;
+    widen(shortest, shortNameOf(item(i)->text()));
+  }
+  columns_ = columns;
+  columns_.isNumberOnly = shortest > nameRoom();
+  viewport()->update();
+}
+
+QString CurveList::shortNameOf(const QString& name) {
+  return name.section(QStringLiteral(" ("), 0, 0).section(QLatin1Char(','), 0, 0);
+}
+
+int CurveList::nameRoom() const {
+  return viewport()->width() - kEyeWidth - columns_.warning - columns_.badge - columns_.figures() - kApart -
+         kRightMargin;
+}
+
+QString CurveList::shownName(int row) const {
+  if (row < 0 || row >= count()) return {};
+  const QString whole = item(row)->text(), shape = item(row)->data(ShapeRole).toString();
+  const QString name = shortNameOf(whole);
+  // The number is what canvas, files and report call the curve by: it is the last to go.
+  if (columns_.isNumberOnly) return name.section(QLatin1Char(' '), -1);
+  const QFontMetrics metrics(uiFont(12));
+  if (metrics.horizontalAdvance(whole) <= nameRoom()) return whole;
+  const QString withoutShape = whole.chopped(shape.size());
+  const QString cut = metrics.elidedText(withoutShape, Qt::ElideRight, nameRoom());
+  return cut.size() > name.size() + 3 ? cut : name;  // at least a letter of an own name
+}
+
+void CurveList::resizeEvent(QResizeEvent* event) {
+  QListWidget::resizeEvent(event);
+  measure();
 }
 
 void CurveList::showFairness() {
@@ -276,6 +340,7 @@ void CurveList::take(const std::shared_ptr<const Judgements>& found, bool isAll)
   filling_ = true;
   showFairness();
   filling_ = false;
+  measure();
   if (isAll) judge();
 }
 

@@ -28,11 +28,21 @@ class CurveList : public QListWidget {
   /// Of an item: what stands in its badge of fairness; empty as long as that is not known.
   static constexpr int kBadgeRole = Qt::UserRole + 3;
   ~CurveList() override;
+  /// [px] What stands right of the names in every row; 0 where no row has it.
+  struct Columns {
+    int same = 0, extrema = 0, points = 0, words = 0, warning = 0, badge = 0;
+    bool isNumberOnly = false;  ///< "2" instead of "Curve 2", in all rows.
+    int figures() const { return same + extrema + points > words ? same + extrema + points : words; }
+  };
+  const Columns& columns() const { return columns_; }
+  /// The name in a row, as far as there is room for it.
+  QString shownName(int row) const;
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return {120, 30}; }
 
  protected:
   void showEvent(QShowEvent*) override;
+  void resizeEvent(QResizeEvent*) override;
   void keyPressEvent(QKeyEvent*) override;
   void mousePressEvent(QMouseEvent*) override;
 
@@ -47,6 +57,9 @@ class CurveList : public QListWidget {
   using Judgements = std::vector<Judgement>;
 
   void refresh();
+  void measure();
+  static QString shortNameOf(const QString& name);  ///< "Curve 2"
+  int nameRoom() const;
   void showFairness();
   /// Asks for what is not known of the curves that are shown.
   void judge();
@@ -61,6 +74,7 @@ class CurveList : public QListWidget {
   EditorSession& session_;
   Judged judged_;
   bool filling_ = false;
+  Columns columns_;
   std::shared_ptr<const Judgements> known_, asked_;  ///< Of the curves in their order.
   std::unique_ptr<BackgroundWorker> worker_;         ///< Last, so that it is joined before anything goes.
 };

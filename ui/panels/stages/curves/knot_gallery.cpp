@@ -113,7 +113,7 @@ class KnotTile : public QAbstractButton {
 KnotGallery::KnotGallery(EditorSession& session, QWidget* parent)
     : QWidget(parent, Qt::Window), session_(session), worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("knots.gallery"));
-  setWindowTitle(tr("Uniform and repeated knots – Batten"));
+  setWindowTitle(tr("Uniform and repeated knots — Batten"));
   resize(820, 500);
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(16, 12, 16, 16);

@@ -74,7 +74,7 @@ PinPanel::PinPanel(EditorSession& session, QWidget* parent)
   buttons->addWidget(unpin_);
   buttons->addStretch();
   layout->addLayout(buttons);
-  pin_->setToolTip(tr("Keeps this result as a thin violet line for comparison  (A)"));
+  pin_->setToolTip(tr("Keeps this result as a dashed violet line for comparison  (A)"));
   connect(pin_, &QPushButton::clicked, &session_, &EditorSession::pin);
   connect(unpin_, &QPushButton::clicked, &session_, &EditorSession::unpin);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged, &EditorSession::runFinished,
@@ -99,7 +99,7 @@ void PinPanel::refresh() {
   unpin_->setVisible(pinned != nullptr);
   figures_->setVisible(now && before);
   what_->setText(
-      !pinned ? tr("Pin a result, then change the method or a setting: the pinned one stays as a thin violet line.")
+      !pinned ? tr("Pin a result, then change the method or a setting: the pinned one stays as a dashed violet line.")
       : before || !now
           ? tr("Pinned: %1").arg(label(before ? methodOf(*pinned, *before) : pinned->recipe.construct.method))
           : tr("The pinned result has no curve here."));

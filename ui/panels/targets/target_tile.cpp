@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/targets/target_tile.h"
+
+#include <QKeyEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/target_advice.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/piece_choice.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+constexpr double kStepPx = 1.0;  // between the points of a line
+constexpr double kTitleHeight = 17.0;
+
+/// What a tile draws: the curvature, of the sketched curve or of a target, with the side up to which the curve turns
+/// most. Which way it was traced is chance and must not turn the picture upside down.
+std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* profile) {
+  const TargetSet& set = outcomes.targets;
+  double turn = 0.0;
+  for (const double kappa : set.kappa) turn += std::isfinite(kappa) ? kappa : 0.0;
+  const double sign = turn < 0.0 ? -1.0 : 1.0;
+  std::vector<double> values(set.perimeter.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = sign * (profile ? profile->curvatureAt(set.perimeter[i]) : set.kappa[i]);
+  return values;
+}
+
+/// Where a share of the perimeter lies along what a tile shows: the curve, or its span.
+std::optional<double> shareOfSpan(const TargetOutcomes& outcomes, double perimeter) {
+  if (!outcomes.span) return perimeter;
+  const double f = perimeter < outcomes.span->from ? perimeter + 1.0 : perimeter;
+  const double share = (f - outcomes.span->from) / (outcomes.span->to - outcomes.span->from);
+  return share <= 1.0 ? std::optional(share) : std::nullopt;
+}
+
+}  // namespace
+
+TargetTile::TargetTile(int degree, QWidget* parent) : QAbstractButton(parent), degree_(degree) {
+  setObjectName(QStringLiteral("target.%1").arg(degree));
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_Hover);
+  setCursor(Qt::PointingHandCursor);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setMaximumWidth(220);
+  setFixedHeight(kHeight);
+}
+
+QString TargetTile::problem() const {
+  if (!outcomes_) return {};
+  const auto index = static_cast<std::size_t>(degree_ - 1);
+  const TargetProfile& profile = outcomes_->targets.profiles[index];
+  if (!profile.valid)
+    return profile.problem.empty() ? tr("does not fit this curve") : QString::fromStdString(profile.problem);
+  if (!outcomes_->faired[index])
+    return outcomes_->problems[index].empty() ? tr("could not be reached")
+                                              : QString::fromStdString(outcomes_->problems[index]);
+  return {};
+}
+
+bool TargetTile::fits() const {
+  return outcomes_ && isWithinTolerance(*outcomes_, degree_, toleranceMm_) && !addsExtrema(*outcomes_, degree_);
+}
+
+void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double toleranceMm, bool chosen, bool oneCurve,
+                      const QString& waiting) {
+  outcomes_ = std::move(outcomes);
+  waiting_ = outcomes_ ? QString() : waiting;
+  toleranceMm_ = toleranceMm;
+  chosen_ = chosen;
+  const QString name = tr("Target %1, %2").arg(degree_).arg(degreeName(degree_));
+  QString spoken = name, tip = name;
+  setEnabled(outcomes_ && outcomes_->targets.profiles[degree_ - 1].valid);
+  if (const QString why = problem(); !why.isEmpty()) {
+    spoken += QStringLiteral(": ") + why;
+    tip += QStringLiteral(": ") + why;
+  } else if (outcomes_) {
+    const auto& faired = *outcomes_->faired[degree_ - 1];
+    const auto& profile = outcomes_->targets.profiles[degree_ - 1];
+    spoken += tr(", moves the curve by %1, %2 extrema")
+                  .arg(millimetres(faired.report.maxDeviationMm))
+                  .arg(faired.report.extremaAfter);
+    tip += tr("\nS %1, moves the curve by at most %2; left: %3.")
+               .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
+                    counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
+    if (faired.report.similarityAfter)
+      tip += tr("\nS of the faired curve against the sketch: %1.").arg(similarityText(*faired.report.similarityAfter));
+    if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
+      tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
+    if (!faired.report.withinTolerance && faired.report.neededMm > toleranceMm)
+      tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(faired.report.neededMm));
+    else if (!faired.report.withinTolerance)
+      tip += faired.report.maxDeviationMm > 0.0
+                 ? tr("\nReaching it would add curvature extrema; the curve follows it in part.")
+                 : tr("\nReaching it would add curvature extrema; the curve is unchanged.");
+    if (!profile.isMonotone) tip += tr("\nThis profile is not monotone within a span.");
+    if (outcomes_->span)
+      tip += tr("\nFor the span you clicked; the rest of the curve is unchanged.");
+    else if (!outcomes_->splits.empty())
+      tip += tr("\nOne polynomial for each of %1 spans.").arg(outcomes_->splits.size() + 1);
+    if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares curvatures, because the line has inflections.");
+  }
+  if (outcomes_ && problem().isEmpty())
+    tip += tr("\nGrey: curvature of the sketched curve; dark: of the target, over the arc length, as the plot runs.");
+  tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
+                                       : tr("Click or press %1: for all curves.").arg(degree_));
+  if (outcomes_ && outcomes_->recommendedDegree == degree_) {
+    if (isAdvisable(*outcomes_, degree_, toleranceMm_))
+      spoken += tr(", recommended");
+    else if (fits())
+      spoken += tr(", simplest fit");
+  }
+  if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
+  if (chosen_) spoken += tr(", chosen");
+  setAccessibleName(spoken);
+  setToolTip(tip);
+  update();
+}
+
+void TargetTile::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QRectF box = QRectF(rect()).adjusted(1, 1, -1, -1);
+  const bool live = chosen_ && isEnabled();
+  painter.setBrush(theme.panel);
+  painter.setPen(QPen(live ? theme.accent : underMouse() && isEnabled() ? theme.mute : theme.line, live ? 2 : 1));
+  painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 7, 7);
+  if (hasFocus()) drawFocusRing(painter, QRectF(rect()), 8, theme);
+  const QRectF inner = innerBox();
+  const QRectF title(inner.left(), inner.top(), inner.width(), kTitleHeight);
+  paintTitle(painter, title);
+  const QRectF below(inner.left(), title.bottom() + 4, inner.width(), inner.bottom() - title.bottom() - 4);
+  const QString instead = outcomes_ ? problem() : waiting_;
+  if (!instead.isEmpty()) {
+    painter.setFont(uiFont(11));
+    painter.setPen(theme.mute);
+    painter.drawText(below, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, instead);
+  }
+  if (!outcomes_ || !instead.isEmpty()) return;
+  paintProfiles(painter, profileBox());
+  paintFigures(painter, QRectF(inner.left(), inner.bottom() - 15, inner.width(), 15));
+}
+
+bool TargetTile::hasRoomForAdvice() const {
+  const double number = QFontMetricsF(uiFont(12, QFont::Bold)).horizontalAdvance(QString::number(degree_)) + 5;
+  const double name = QFontMetricsF(uiFont(12)).horizontalAdvance(degreeName(degree_)) + 6;
+  const QFontMetricsF small(uiFont(11));
+  const double word = std::max(small.horizontalAdvance(tr("recommended")), small.horizontalAdvance(tr("simplest fit")));
+  return number + name + word <= innerBox().width();
+}
+
+void TargetTile::setAdviceInFull(bool inFull) {
+  if (adviceInFull_ == inFull) return;
+  adviceInFull_ = inFull;
+  update();
+}
+
+void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
+  const Theme& theme = themeOf(palette());
+  const QString number = QString::number(degree_);
+  painter.setFont(uiFont(12, QFont::Bold));
+  painter.setPen(isEnabled() ? theme.text : theme.mute);
+  painter.drawText(title, Qt::AlignLeft | Qt::AlignVCenter, number);
+  const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
+  // The shape nearest to the sketch is only advice where the tolerance allows it.
+  const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_ && fits();
+  const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, toleranceMm_);
+  const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
+  const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
+  QString word = isAdvised ? tr("recommended") : isNearest ? tr("simplest fit") : QString();
+  const auto hasRoom = [&](const QString& one) {
+    return numberWidth + nameWidth + 6 + small.horizontalAdvance(one) <= title.width();
+  };
+  if (!adviceInFull_ || !hasRoom(word))
+    word = word.isEmpty() ? QString() : isAdvised ? QStringLiteral("✓") : tr("simplest");
+  if (!hasRoom(word) && !isAdvised) word.clear();
+  const double taken = word.isEmpty() ? 0.0 : small.horizontalAdvance(word) + 6;
+  painter.setFont(uiFont(12));
+  painter.drawText(title.adjusted(numberWidth, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                   metrics.elidedText(degreeName(degree_), Qt::ElideRight, title.width() - numberWidth - taken));
+  painter.setFont(uiFont(11));
+  painter.setPen(isAdvised ? theme.good : theme.mute);
+  painter.drawText(title, Qt::AlignRight | Qt::AlignVCenter, word);
+}
+
+QPainterPath TargetTile::pathOf(const std::vector<double>& values, const QRectF& box, double low, double high) const {
+  QPainterPath path;
+  bool pen = false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      pen = false;
+      continue;
+    }
+    const auto share = shareOfSpan(*outcomes_, outcomes_->targets.perimeter[i]);
+    if (!share) {
+      pen = false;
+      continue;
+    }
+    const double t = std::clamp((values[i] - low) / (high - low), -0.04, 1.04);
+    const double across = runsLeft_ ? 1.0 - *share : *share;
+    const QPointF at(box.left() + across * box.width(), box.bottom() - t * box.height());
+    // Steps far below a pixel make the pen leave specks beside the line.
+    const bool isLast = i + 1 == values.size();
+    if (pen && !isLast &&
+        std::hypot(at.x() - path.currentPosition().x(), at.y() - path.currentPosition().y()) < kStepPx)
+      continue;
+    pen ? path.lineTo(at) : path.moveTo(at);
+    pen = true;
+  }
+  return path;
+}
+
+std::optional<std::pair<double, double>> TargetTile::range(const std::vector<double>& sketched) const {
+  // Same axes in every tile: the range of the data without its two outermost percent, so one spike cannot flatten all.
+  std::vector<double> sorted;
+  for (std::size_t i = 0; i < sketched.size(); ++i) {
+    if (std::isfinite(sketched[i]) && shareOfSpan(*outcomes_, outcomes_->targets.perimeter[i]))
+      sorted.push_back(sketched[i]);
+  }
+  if (sorted.size() < 2) return std::nullopt;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t cut = sorted.size() / 50;
+  const double low = sorted[cut], high = sorted[sorted.size() - 1 - cut];
+  const double pad = std::max((high - low) * 0.12, std::abs(high) * 1e-3 + 1e-12);
+  return std::pair(low - pad, high + pad);
+}
+
+QRectF TargetTile::profileBox() const {
+  const QRectF inner = innerBox();
+  return inner.adjusted(0, kTitleHeight + 4, 0, -18);
+}
+
+QPainterPath TargetTile::sketchedPath() const {
+  if (!outcomes_) return {};
+  const std::vector<double> sketched = drawn(*outcomes_, nullptr);
+  const auto axis = range(sketched);
+  return axis ? pathOf(sketched, profileBox(), axis->first, axis->second) : QPainterPath();
+}
+
+void TargetTile::setRunsLeft(bool runsLeft) {
+  if (runsLeft_ == runsLeft) return;
+  runsLeft_ = runsLeft;
+  update();
+}
+
+void TargetTile::paintProfiles(QPainter& painter, const QRectF& box) const {
+  const Theme& theme = themeOf(palette());
+  const std::vector<double> sketched = drawn(*outcomes_, nullptr);
+  const auto axis = range(sketched);
+  if (!axis) return;
+  const auto [low, high] = *axis;
+  painter.save();
+  painter.setClipRect(box.adjusted(-2, -3, 2, 3));
+  painter.setBrush(Qt::NoBrush);
+  QColor grey = theme.mute;
+  grey.setAlphaF(0.65F);
+  painter.setPen(QPen(grey, 1));
+  painter.drawPath(pathOf(sketched, box, low, high));
+  const TargetProfile& profile = outcomes_->targets.profiles[degree_ - 1];
+  painter.setPen(QPen(chosen_ ? theme.accent : theme.text, 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.drawPath(pathOf(drawn(*outcomes_, &profile), box, low, high));
+  painter.restore();
+}
+
+TargetTile::FigureTexts TargetTile::figureTexts() const {
+  const auto index = static_cast<std::size_t>(degree_ - 1);
+  const FairingReport& report = outcomes_->faired[index]->report;
+  FigureTexts texts;
+  texts.isOver = !isWithinTolerance(*outcomes_, degree_, toleranceMm_);
+  texts.hasMoreExtrema = report.extremaAfter > report.extremaBefore;
+  // What meeting the target takes is the number that decides; the curve itself never leaves the tolerance.
+  const double mm = texts.isOver ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
+  texts.similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
+  texts.length = shortMillimetres(mm);
+  const bool wouldAdd = texts.isOver && report.neededMm <= toleranceMm_;
+  texts.needs = wouldAdd ? tr("adds extrema") : texts.isOver ? tr("needs %1").arg(texts.length) : texts.length;
+  texts.extrema = tr("%1 extr.").arg(report.extremaAfter);
+  return texts;
+}
+
+QRectF TargetTile::innerBox() const { return QRectF(rect()).adjusted(10, 7, -10, -6); }
+
+TargetTile::Figures TargetTile::roomFor() const {
+  if (!outcomes_ || !problem().isEmpty()) return Figures::All;
+  constexpr double kApartPx = 8.0;
+  const FigureTexts texts = figureTexts();
+  const QFontMetricsF metrics(uiFont(11));
+  const auto width = [&](const QString& text) { return metrics.horizontalAdvance(text); };
+  // The length stands in the middle between the other two.
+  const double sides = 2.0 * (std::max(width(texts.similarity), width(texts.extrema)) + kApartPx);
+  const double right = width(texts.extrema) + kApartPx, room = innerBox().width();
+  // From the most said to the least: first the words go, which amber says too, then the similarity, which cannot
+  // choose.
+  if (sides + width(texts.needs) <= room) return Figures::All;
+  if (sides + width(texts.length) <= room) return Figures::WithoutWords;
+  if (width(texts.needs) + right <= room) return Figures::WithoutSimilarity;
+  if (width(texts.length) + right <= room) return Figures::LengthAndExtrema;
+  return Figures::Length;
+}
+
+void TargetTile::setFigures(Figures figures) {
+  if (figures_ == figures) return;
+  figures_ = figures;
+  update();
+}
+
+void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
+  const Theme& theme = themeOf(palette());
+  const FigureTexts texts = figureTexts();
+  const bool withWords = figures_ == Figures::All || figures_ == Figures::WithoutSimilarity;
+  const bool withSimilarity = figures_ == Figures::All || figures_ == Figures::WithoutWords;
+  painter.setFont(uiFont(11));
+  painter.setPen(texts.hasMoreExtrema ? theme.amber : theme.mute);
+  if (figures_ != Figures::Length) painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, texts.extrema);
+  painter.setPen(theme.mute);
+  if (withSimilarity) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, texts.similarity);
+  painter.setPen(texts.isOver ? theme.amber : theme.mute);
+  const QString length =
+      QFontMetricsF(painter.font()).elidedText(withWords ? texts.needs : texts.length, Qt::ElideRight, box.width());
+  painter.drawText(box, (withSimilarity ? Qt::AlignHCenter : Qt::AlignLeft) | Qt::AlignVCenter, length);
+}
+
+void TargetTile::enterEvent(QEnterEvent*) {
+  if (isEnabled()) emit entered(degree_);
+}
+void TargetTile::leaveEvent(QEvent*) { emit left(); }
+void TargetTile::focusInEvent(QFocusEvent* event) {
+  QAbstractButton::focusInEvent(event);
+  // By Tab only: after a click the mouse is what hovers.
+  if (event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason) emit entered(degree_);
+}
+void TargetTile::focusOutEvent(QFocusEvent* event) {
+  QAbstractButton::focusOutEvent(event);
+  emit left();
+}
+void TargetTile::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return click();
+  if (event->key() == Qt::Key_Left) return void(focusPreviousChild());
+  if (event->key() == Qt::Key_Right) return void(focusNextChild());
+  QAbstractButton::keyPressEvent(event);
+}
+
+}  // namespace batten

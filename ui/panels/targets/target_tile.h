@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QAbstractButton>
+#include <QPainterPath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/fairing/fairing.h"
+
+namespace batten {
+
+/// One target: its profile over the sketched curve's, how similar, how far it moves the curve, how many extrema.
+class TargetTile : public QAbstractButton {
+  Q_OBJECT
+ public:
+  TargetTile(int degree, QWidget* parent);
+  /// @param toleranceMm deviations above it are amber.
+  /// @param waiting what an empty tile says.
+  void show(std::shared_ptr<const TargetOutcomes> outcomes, double toleranceMm, bool chosen, bool oneCurve,
+            const QString& waiting);
+  /// Whether lengths count from right to left, as the plot below shows them.
+  void setRunsLeft(bool runsLeft);
+  /// Where the sketched curve's line stands in the tile at each of its samples, for tests.
+  QPainterPath sketchedPath() const;
+  /// How much of the figures is shown, from all of them to the length alone.
+  enum class Figures { All, WithoutWords, WithoutSimilarity, LengthAndExtrema, Length };
+  /// What there is room for in this tile.
+  Figures roomFor() const;
+  /// What is shown: for tiles side by side the same, so that they can be compared.
+  void setFigures(Figures figures);
+  /// Whether the title leaves room for the word of advice, and whether that is written in full or as a sign.
+  bool hasRoomForAdvice() const;
+  void setAdviceInFull(bool inFull);
+  Figures figures() const { return figures_; }
+  static constexpr int kHeight = 97, kLowHeight = 77;
+  QSize sizeHint() const override { return {156, kHeight}; }
+  QSize minimumSizeHint() const override { return {96, kLowHeight}; }
+
+ signals:
+  void entered(int degree);
+  void left();
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+  void enterEvent(QEnterEvent*) override;
+  void leaveEvent(QEvent*) override;
+  void focusInEvent(QFocusEvent*) override;
+  void focusOutEvent(QFocusEvent*) override;
+  void keyPressEvent(QKeyEvent*) override;
+
+ private:
+  QString problem() const;
+  /// Met within the tolerance, without a curvature extremum more.
+  bool fits() const;
+  void paintTitle(class QPainter&, const QRectF&) const;
+  void paintProfiles(class QPainter&, const QRectF&) const;
+  QRectF profileBox() const;
+  /// The range of values that all tiles show; none where there is too little to draw.
+  std::optional<std::pair<double, double>> range(const std::vector<double>& sketched) const;
+  QPainterPath pathOf(const std::vector<double>& values, const QRectF& box, double low, double high) const;
+  void paintFigures(class QPainter&, const QRectF&) const;
+  /// The words of the figures. `needs` is the length with what it means where it is over tolerance.
+  struct FigureTexts {
+    QString similarity, length, needs, extrema;
+    bool isOver = false, hasMoreExtrema = false;
+  };
+  FigureTexts figureTexts() const;
+  QRectF innerBox() const;
+  int degree_;
+  std::shared_ptr<const TargetOutcomes> outcomes_;
+  QString waiting_;
+  double toleranceMm_ = 0.0;
+  bool chosen_ = false, runsLeft_ = false, adviceInFull_ = true;
+  Figures figures_ = Figures::All;
+};
+
+}  // namespace batten
