@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/cli/exit_codes.h"
-#include "app/cli/name_json.h"
 #include "app/cli/shown_digits.h"
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
@@ -79,8 +78,8 @@ int runCompare(const std::string& first, const std::string& second) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const Json& x, const Json& y) {
     return x.at("similarity").get<double>() > y.at("similarity").get<double>();
   });
-  const Json result{{"first", jsonText(first)}, {"second", jsonText(second)}, {"pairs", pairs}};
-  std::cout << lineWithNames(result) << '\n';
+  const Json result{{"first", first}, {"second", second}, {"pairs", pairs}};
+  std::cout << withoutControls(result.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
   return endOutput();
 }
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "app/cli/exit_codes.h"
-#include "app/cli/name_json.h"
 #include "app/cli/recipe_arguments.h"
 #include "app/cli/shown_digits.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/angle.h"
 #include "core/base/platform.h"
+#include "core/base/shown_text.h"
 #include "core/contour/corner/corner_certainty.h"
 #include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/corner_places.h"
@@ -76,7 +76,7 @@ int runSuggest(const TraceArguments& arguments) {
   const auto advice = adviceFor(arguments);
   if (!advice) return reportError(advice.error());
   nlohmann::ordered_json json{
-      {"scan", jsonText(arguments.scan)},
+      {"scan", arguments.scan},
       {"edges.merge", withDecimals(advice->merge.widths, 3)},
       {"edges.intent", advice->merge.meant.has_value()},
       {"strokes", advice->merge.strokes},
@@ -85,7 +85,7 @@ int runSuggest(const TraceArguments& arguments) {
       {"overdrawn_share", withDecimals(advice->merge.share, 4)},
       {"reason", describe(advice->merge)},
       {"corners", cornersToJson(advice->corners)}};
-  std::cout << lineWithNames(json) << '\n';
+  std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }
 

@@ -9,7 +9,6 @@
 
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
-#include "app/cli/name_json.h"
 #include "app/cli/note_list.h"
 #include "app/cli/report_output.h"
 #include "app/cli/shown_digits.h"
@@ -18,6 +17,7 @@
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
+#include "core/base/shown_text.h"
 #include "core/document/explain/explanation.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
@@ -88,8 +88,8 @@ class Trace {
   }
 
   std::string summary() const {
-    nlohmann::ordered_json json{{"scan", jsonText(arguments_.scan)}};
-    if (!arguments_.imports.empty()) json["imports"] = jsonTexts(arguments_.imports);
+    nlohmann::ordered_json json{{"scan", arguments_.scan}};
+    if (!arguments_.imports.empty()) json["imports"] = arguments_.imports;
     if (scan_.pages > 1) json["page"] = scan_.page.number;
     json["curves"] = curves_;
     json["pieces"] = pieces_;
@@ -97,11 +97,11 @@ class Trace {
     json["milliseconds"] = withDecimals(millisecondsSince(begin_), kDecimalsOfMs);
     json["processor_milliseconds"] = withDecimals(1000.0 * processorSeconds(), kDecimalsOfMs);
     json["peak_memory_bytes"] = peakMemoryBytes();
-    json["files"] = jsonTexts(files_);
-    json["checks"] = jsonTexts(checks_);
+    json["files"] = files_;
+    json["checks"] = checks_;
     if (explanation_) json["explanation"] = explanationFigures(*explanation_);
-    json["notes"] = jsonTexts(notes());
-    return lineWithNames(json);
+    json["notes"] = notes();
+    return withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   }
 
  private:
@@ -290,14 +290,14 @@ int reportPage(const TraceArguments& arguments, Error error) {
   const std::string why = error.message;
   error.message = "Page " + arguments.page + ": " + why;
   const int code = reportError(error);
-  const nlohmann::ordered_json json{{"scan", jsonText(arguments.scan)},
+  const nlohmann::ordered_json json{{"scan", arguments.scan},
                                     {"page", integerFromText(arguments.page).value_or(0)},
                                     {"curves", 0},
                                     {"pieces", 0},
                                     {"files", nlohmann::ordered_json::array()},
                                     {"exit", code},
-                                    {"error", jsonText(why)}};
-  std::cout << lineWithNames(json) << '\n';
+                                    {"error", why}};
+  std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   const int written = endOutput();
   return written == kDone ? code : written;
 }

@@ -12,8 +12,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "app/cli/batch/name_json.h"
 #include "app/cli/file_names.h"
-#include "app/cli/name_json.h"
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"

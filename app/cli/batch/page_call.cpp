@@ -5,7 +5,6 @@
 #include <QFile>
 
 #include "app/cli/exit_codes.h"
-#include "app/cli/name_json.h"
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
@@ -94,7 +93,7 @@ PageResult PageCall::result() {
   result.error = lastLine(process_.readAllStandardError());
   if (result.exitCode == kNoCurve) result.status = PageStatus::Empty;
   if (result.exitCode != kDone) return result;
-  auto said = parseJson(parsableLine(process_.readAllStandardOutput().toStdString()));
+  auto said = parseJson(process_.readAllStandardOutput().toStdString());
   if (!said || !said->is_object()) {
     result.error = "The output of the subprocess could not be read.";
     return result;

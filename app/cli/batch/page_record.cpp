@@ -7,7 +7,7 @@
 #include <iterator>
 #include <span>
 
-#include "app/cli/name_json.h"
+#include "app/cli/batch/name_json.h"
 #include "core/base/content_hash.h"
 #include "core/base/json_text.h"
 #include "core/base/regular_file.h"

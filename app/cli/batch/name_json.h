@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace batten::cli {
 
@@ -15,9 +14,8 @@ namespace batten::cli {
 /// A name as the text of a JSON value, and back.
 std::string jsonText(std::string_view name);
 std::string nameOf(std::string_view jsonText);
-std::vector<std::string> jsonTexts(const std::vector<std::string>& names);
 
-/// One line of JSON, as a terminal may see it (withoutControls), that holds names as jsonText gives them.
+/// One line of JSON without a line break that holds names as jsonText gives them.
 std::string lineWithNames(const nlohmann::ordered_json&);
 /// The line as a JSON parser takes it; bytes of names that stand there as they are count, too.
 std::string parsableLine(std::string_view line);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/name_json.h"
+#include "app/cli/batch/name_json.h"
 
 #include <algorithm>
 #include <cctype>
@@ -66,12 +66,6 @@ std::string nameOf(std::string_view text) {
   return name;
 }
 
-std::vector<std::string> jsonTexts(const std::vector<std::string>& names) {
-  std::vector<std::string> texts;
-  for (const std::string& name : names) texts.push_back(jsonText(name));
-  return texts;
-}
-
 std::string lineWithNames(const nlohmann::ordered_json& json) {
   const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   std::string line;
@@ -87,7 +81,7 @@ std::string lineWithNames(const nlohmann::ordered_json& json) {
     line.append(rest.substr(0, length));
     at += length;
   }
-  return withoutControls(line);
+  return line;
 }
 
 std::string parsableLine(std::string_view line) {
