@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/contour/centreline/faint_ends.h"
 #include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
 #include "core/contour/centreline/on_ink.h"
@@ -257,6 +258,9 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || grain.isPencil(i);
   if (anyPencil) {
     bodies = bodiesOf(strokes, grey, paths, grain, context);
+    const BitImage all = shapes != nullptr ? either(bodies, *shapes) : bodies;
+    const auto isPencil = [&](int i) { return grain.isPencil(i); };
+    bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context));
     if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     ink = &bodies;
     if (context.isCancelled()) return cancelled();

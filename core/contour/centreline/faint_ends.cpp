@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/faint_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/base/angle.h"
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/contour/centreline/stroke_profile.h"
+#include "core/image/bits/bit_disc.h"
+#include "core/image/push_pull.h"
+#include "core/image/threshold/region_surface.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLeastStepPx = 6.0;             // of a search: shorter ones have no direction among the grain
+constexpr double kStepWidths = 1.5;              // [stroke widths]
+constexpr double kTurnDeg = 10.0;                // to either side: a hand turns less on so short a way
+constexpr double kBesideWidths = 0.75;           // [stroke widths] from the middle to the paper at the sides,
+constexpr double kBesidePx[] = {1.5, 2.5, 3.5};  // and so much more
+constexpr double kSoftEndPx = 2.0;               // beyond its mask a stroke fades by the blur of the scan
+constexpr double kLeastEndWidths = 3.0;          // [stroke widths] a shorter stroke has no direction
+constexpr double kMostAheadWidths = 1.5;         // [stroke widths] of ink before a free end: more is others'
+// [standard deviations of a step on paper] The darkest of three directions is 0.85 darker than one on an average; what
+// is not clearly more speaks against the line.
+constexpr double kNoEvidence = 2.0;
+constexpr double kMostEvidence = 4.0;  // [the same] of one step: a dark speck is no line
+constexpr double kClear = 4.0;         // [the same] of all steps: two clear ones at least
+constexpr double kLeastShare = 0.25;   // of the stroke's own depth: half of the half level that tells ink,
+constexpr double kMostShare = 1.5;     // and what is darker than the stroke is not its weak end
+constexpr double kLeastDepth = 1.5;    // [grey] as of all ink
+constexpr double kLeastSigma = 0.3;    // [grey] of a step: whole greys, where the scanner clipped the paper to white
+constexpr int kSamplesPerSide = 12;    // of the paper, along each side of a region
+constexpr int kFewestSamples = 12;     // that tell the paper of a region
+
+// How much darker than both its sides a place is on paper, by region.
+struct PaperDepth {
+  std::vector<float> mean, sigma;
+};
+
+// Looks along strokes of one width.
+class StepMeter {
+ public:
+  StepMeter(const GreyImage& grey, double widthPx)
+      : grey_(grey),
+        beside_(kBesideWidths * widthPx),
+        core_(std::min(1.0, 0.25 * widthPx)),
+        step_(std::max(kLeastStepPx, kStepWidths * widthPx)) {}
+
+  double stepPx() const { return step_; }
+  // [px] round the middle of a step that it looks at.
+  double reachPx() const { return std::hypot(0.5 * step_, beside_ + kBesidePx[2]) + 1.0; }
+
+  // [grey] By which the way from a place along a direction is darker than both its sides, where that is the least.
+  double depth(const Vec2& from, const Vec2& along) const {
+    const Vec2 across = leftNormal(along);
+    const int count = static_cast<int>(step_);
+    double ink = 0.0, left = 0.0, right = 0.0;
+    for (int k = 0; k < count; ++k) {
+      const Vec2 at = from + (k + 0.5) * along;
+      for (const double off : {-core_, 0.0, core_}) ink += level(at + off * across);
+      for (const double off : kBesidePx) {
+        left += level(at + (beside_ + off) * across);
+        right += level(at - (beside_ + off) * across);
+      }
+    }
+    return (std::min(left, right) - ink) / (3.0 * count);
+  }
+
+ private:
+  double level(const Vec2& at) const { return static_cast<double>(sampleGrey(grey_, at.x(), at.y())); }
+
+  const GreyImage& grey_;
+  double beside_, core_, step_;
+};
+
+// The depth of steps laid on paper, in four directions by turns.
+PaperDepth measurePaper(const StepMeter& meter, const BitImage& ink, const RunContext& context) {
+  const double reach = meter.reachPx();
+  std::vector<float> mean(kRegions, 0.0f), sigma(kRegions, 0.0f), weight(kRegions, 0.0f);
+  parallelFor(context, kRegions, 1, [&](int begin, int end) {
+    for (int region = begin; region < end && !context.isCancelled(); ++region) {
+      std::vector<double> depths;
+      for (int i = 0; i < kSamplesPerSide * kSamplesPerSide; ++i) {
+        const double u = (region % kRegionsPerSide + (i % kSamplesPerSide + 0.5) / kSamplesPerSide) / kRegionsPerSide;
+        const double v = (region / kRegionsPerSide + (i / kSamplesPerSide + 0.5) / kSamplesPerSide) / kRegionsPerSide;
+        const Vec2 at(u * ink.width, v * ink.height);
+        const bool isInside =
+            at.x() > reach && at.y() > reach && at.x() + reach < ink.width && at.y() + reach < ink.height;
+        if (!isInside || anyInDisc(ink, at, reach)) continue;
+        const double angle = 0.25 * std::numbers::pi * ((i + i / kSamplesPerSide) % 4);
+        const Vec2 along(std::cos(angle), std::sin(angle));
+        depths.push_back(meter.depth(at - 0.5 * meter.stepPx() * along, along));
+      }
+      if (std::ssize(depths) < kFewestSamples) continue;
+      const double middle = upperMedian(depths);
+      for (double& d : depths) d -= middle;
+      mean[region] = static_cast<float>(middle);
+      sigma[region] = static_cast<float>(robustSigma(depths));
+      weight[region] = 1.0f;
+    }
+  });
+  if (std::none_of(weight.begin(), weight.end(), [](float w) { return w > 0.0f; })) return {};
+  return {pushPull(mean, weight, kRegionsPerSide, kRegionsPerSide),
+          pushPull(sigma, weight, kRegionsPerSide, kRegionsPerSide)};
+}
+
+struct FreeEnd {
+  Vec2 at = Vec2::Zero(), out = Vec2::Zero();
+  double depth = 0.0;   // [grey] of its stroke
+  double mostPx = 0.0;  // to be followed
+};
+
+class EndFollower {
+ public:
+  EndFollower(const StepMeter& meter, const PaperDepth& paper, const BitImage& ink)
+      : meter_(meter), paper_(paper), ink_(ink) {}
+
+  // The end of a path beyond its ink; nothing where it has none.
+  std::optional<FreeEnd> endOf(const StrokePath& path, int side, double widthPx) const {
+    const int n = static_cast<int>(path.points.size());
+    const auto at = [&](int k) -> const Vec2& { return path.points[side == 0 ? k : n - 1 - k].at; };
+    const int back = std::min(n - 1, static_cast<int>(meter_.stepPx() + widthPx));
+    const int hook = std::min(back / 3, static_cast<int>(0.5 * widthPx + 1.0));
+    const Vec2 d = at(hook) - at(back);
+    if (!(d.norm() > 0.0)) return std::nullopt;
+    FreeEnd end{at(0), d.normalized(), 0.0, path.length()};
+    end.depth = depthOf(path);
+    for (double ahead = 0.0; ink_.at(static_cast<int>(end.at.x()), static_cast<int>(end.at.y())); ahead += 0.5) {
+      if (ahead > kMostAheadWidths * widthPx + 1.0) return std::nullopt;
+      end.at += 0.5 * end.out;
+    }
+    end.at += kSoftEndPx * end.out;
+    return end;
+  }
+
+  std::vector<Vec2> follow(const FreeEnd& end) const {
+    std::vector<Vec2> trail;
+    std::ptrdiff_t kept = 0;
+    Vec2 at = end.at, along = end.out;
+    double score = 0.0, best = 0.0;
+    while (static_cast<double>(std::ssize(trail)) < end.mostPx && isInside(at)) {
+      const Step step = darkestFrom(at, along);
+      const int toInk = pxToInk(at, step.along);
+      if (toInk < static_cast<int>(meter_.stepPx())) {
+        // What is darker there is other ink, which the trail reaches if it came as far as that ink's own soft side.
+        if (static_cast<double>(toInk) <= kSoftEndPx && kept == std::ssize(trail)) {
+          append(trail, at, step.along, toInk);
+          kept = std::ssize(trail);
+        }
+        break;
+      }
+      const int region = regionOf(static_cast<int>(at.x()), static_cast<int>(at.y()), ink_.width, ink_.height);
+      const double surplus = step.depth - static_cast<double>(paper_.mean[region]);
+      const bool isInk =
+          step.depth > std::max(kLeastShare * end.depth, kLeastDepth) && step.depth < kMostShare * end.depth;
+      const double sigma = std::max(static_cast<double>(paper_.sigma[region]), kLeastSigma);
+      score += (isInk ? std::min(surplus / sigma, kMostEvidence) : 0.0) - kNoEvidence;
+      along = step.along;
+      append(trail, at, along, static_cast<int>(meter_.stepPx()));
+      if (score > best) {
+        best = score;
+        kept = std::ssize(trail);
+      }
+      if (score < best - kClear) break;
+    }
+    if (best < kClear) return {};
+    trail.resize(kept);
+    return trail;
+  }
+
+ private:
+  struct Step {
+    Vec2 along = Vec2::Zero();
+    double depth = 0.0;
+  };
+
+  int pxToInk(const Vec2& from, const Vec2& along) const {
+    const int most = static_cast<int>(meter_.stepPx());
+    for (int k = 1; k <= most; ++k) {
+      const Vec2 at = from + k * along;
+      if (ink_.at(static_cast<int>(at.x()), static_cast<int>(at.y()))) return k;
+    }
+    return most + 1;
+  }
+
+  static void append(std::vector<Vec2>& trail, Vec2& at, const Vec2& along, int count) {
+    for (int k = 0; k < count; ++k) trail.push_back(at += along);
+  }
+
+  bool isInside(const Vec2& at) const {
+    const double reach = meter_.reachPx();
+    return at.x() > reach && at.y() > reach && at.x() + reach < ink_.width && at.y() + reach < ink_.height;
+  }
+
+  Step darkestFrom(const Vec2& at, const Vec2& along) const {
+    Step best{along, meter_.depth(at, along)};
+    for (const double a : {-kTurnDeg * kRadPerDeg, kTurnDeg * kRadPerDeg}) {
+      const Vec2 turned(std::cos(a) * along.x() - std::sin(a) * along.y(),
+                        std::sin(a) * along.x() + std::cos(a) * along.y());
+      const double depth = meter_.depth(at, turned);
+      if (depth > best.depth) best = {turned, depth};
+    }
+    return best;
+  }
+
+  // [grey] Of a stroke, the median over steps laid along it.
+  double depthOf(const StrokePath& path) const {
+    const int n = static_cast<int>(path.points.size()), step = std::min(n - 1, static_cast<int>(meter_.stepPx()));
+    std::vector<double> depths;
+    for (int i = 0; i + step < n; i += step) {
+      const Vec2 d = path.points[i + step].at - path.points[i].at;
+      if (d.norm() > 0.0) depths.push_back(meter_.depth(path.points[i].at, d.normalized()));
+    }
+    return depths.empty() ? 0.0 : upperMedian(depths);
+  }
+
+  const StepMeter& meter_;
+  const PaperDepth& paper_;
+  const BitImage& ink_;
+};
+
+}  // namespace
+
+BitImage followFaintEnds(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen,
+                         const BitImage& ink, const GreyImage& grey, const RunContext& context) {
+  BitImage trails(ink.width, ink.height);
+  const double width = medianWidth(paths, isChosen);
+  const StepMeter meter(grey, width);
+  const PaperDepth paper = measurePaper(meter, ink, context);
+  if (paper.mean.empty() || context.isCancelled()) return trails;
+  const EndFollower follower(meter, paper, ink);
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    const StrokePath& path = paths[i];
+    if (context.isCancelled()) return trails;
+    if (path.closed || !isChosen(i) || path.length() < kLeastEndWidths * path.widthPx()) continue;
+    for (const int side : {0, 1}) {
+      if (!path.tip[side]) continue;
+      const auto end = follower.endOf(path, side, width);
+      if (!end) continue;
+      const std::vector<Vec2> trail = follower.follow(*end);
+      if (trail.empty()) continue;
+      const double radius = std::max(1.0, 0.5 * std::min(width, path.widthPx()));
+      const Vec2 tip = side == 0 ? path.points.front().at : path.points.back().at;
+      for (double s = 0.0; s < (end->at - tip).norm(); s += 1.0) setDisc(trails, tip + s * end->out, radius);
+      for (const Vec2& at : trail) setDisc(trails, at, radius);
+    }
+  }
+  return trails;
+}
+
+}  // namespace batten

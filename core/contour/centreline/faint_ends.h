@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/contour/centreline/stroke_paths.h"
+#include "core/image/bits/bit_image.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// Where the chosen strokes go on beyond their free ends over ink too weak for the threshold: trails as wide as the
+/// strokes. An end is followed, step by step in the direction that is darkest against both its sides, as far as the
+/// steps together are clearly darker than the best that such a search finds on the paper around, and no farther than
+/// its stroke is long. Nothing begins on weak ink.
+/// @param isChosen by index of the path.
+BitImage followFaintEnds(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen,
+                         const BitImage& ink, const GreyImage& grey, const RunContext& context);
+
+}  // namespace batten
