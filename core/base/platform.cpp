@@ -12,6 +12,9 @@
 #if defined(__linux__)
 #include <sys/prctl.h>
 #endif
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -103,6 +106,12 @@ std::uint64_t residentMemoryBytes(std::int64_t processId) {
   std::uint64_t whole = 0, resident = 0;
   if (in >> whole >> resident) return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   return 0;
+}
+
+void returnFreeMemory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
 }
 
 std::uint64_t peakMemoryBytes() {

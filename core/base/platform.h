@@ -29,6 +29,10 @@ std::uint64_t peakMemoryBytes();
 /// [bytes] The memory that a process holds now; 0 if unknown.
 std::uint64_t residentMemoryBytes(std::int64_t processId);
 
+/// Gives memory that was freed back to the system, where the C library would keep it: some milliseconds, for the end of
+/// work that took a lot of it.
+void returnFreeMemory();
+
 /// Whether there is a process of this number, whoever's it is.
 bool isProcessRunning(std::int64_t processId);
 

@@ -108,6 +108,8 @@ std::uint64_t residentMemoryBytes(std::int64_t processId) {
   return isKnown ? counters.WorkingSetSize : 0;
 }
 
+void returnFreeMemory() {}
+
 bool isProcessRunning(std::int64_t processId) {
   if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return false;
   const OpenFile process = owned(OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(processId)));

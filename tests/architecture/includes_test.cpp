@@ -31,7 +31,8 @@ const test::ArrowTable& rooms() {
 
 /// Headers of POSIX and of Windows. Any other name with an ending that no rule states is "unknown" and refused.
 bool isOfTheSystem(const std::string& header) {
-  static const std::set<std::string> names = {"unistd.h", "dlfcn.h", "fcntl.h", "io.h", "windows.h", "psapi.h"};
+  static const std::set<std::string> names = {"unistd.h", "dlfcn.h",   "fcntl.h", "malloc.h",
+                                              "io.h",     "windows.h", "psapi.h"};
   return header.starts_with("sys/") || names.contains(header);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/conventions.h"
+#include "core/base/platform.h"
 #include "core/pipeline/run/stage_keys.h"
 #include "ui/session/guarded.h"
 #include "ui/session/merge_outputs.h"
@@ -187,6 +188,7 @@ void EditorSession::Runner::run() {
       output.error = done.error();
     const double milliseconds = static_cast<double>(clock.elapsed() - begin);
     startedMs = -1;
+    returnFreeMemory();
     QMetaObject::invokeMethod(
         &inbox,
         [this, scan, generation, runId, output, milliseconds] {
