@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/width_fit.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "core/base/statistics.h"
-#include "core/curve/width_profile.h"
 
 namespace batten {
 namespace {

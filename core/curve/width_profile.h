@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
 #include <vector>
 
 namespace batten {
@@ -38,13 +37,5 @@ WidthProfile startedAt(const WidthProfile&, double s);
 WidthProfile scaled(const WidthProfile&, double scale);
 /// Whether it is one: numbers that are finite, widths not negative, places ascending from 0.
 bool isValid(const WidthProfile&);
-
-/// The fewest samples that say of widths what is not noise.
-/// @param measured in any order.
-/// @param length of the curve. > 0.
-/// @param closed the end goes on at the start, and has its width.
-/// @param pixel the unit of noise, and about the distance of neighbouring measurements. > 0.
-/// @pre at least one measurement.
-WidthProfile fittedWidths(std::span<const WidthSample> measured, double length, bool closed, double pixel);
 
 }  // namespace batten

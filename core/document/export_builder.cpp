@@ -82,6 +82,17 @@ PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {
   return figures;
 }
 
+/// Where pieces follow each other at a corner the stroke has one width, as each of them knows it.
+void joinWidths(std::vector<ExportPiece>& pieces, bool closed) {
+  const std::size_t n = pieces.size();
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < n && n > 1; ++i) {
+    auto &before = pieces[i].width, &behind = pieces[(i + 1) % n].width;
+    if (!before || !behind) continue;
+    double &end = before->samples.back().width, &start = behind->samples.front().width;
+    end = start = 0.5 * (end + start);
+  }
+}
+
 /// Adds the lines of a run in one of their two kinds.
 void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& recipe, bool sketched, bool isBoth,
                ExportDocument& document) {
@@ -120,6 +131,7 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
       curve.strokeWidthMm = strokeWidth(line, output.frame);
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.closed = isWholeClosed(run, pieces, line.closed) && isLoop(curve.pieces);
+      joinWidths(curve.pieces, curve.closed);
     }
   }
 }

@@ -56,7 +56,13 @@ TEST_F(Options, WithAnEffectOnOneOutputAreTaken) {
 }
 
 TEST_F(Options, StrokesAreOutlinedOnRequest) {
-  const std::string start = "trace " + scene() + " --dpi 254 --set edges.mode=centreline ";
+  // A bar 5 px high on white paper.
+  std::string pixels(320 * 100, '\xff');
+  for (std::size_t y = 0; y < 100; ++y)
+    for (std::size_t x = 20; x < 300; ++x)
+      if (y >= 58 && y <= 62) pixels[y * 320 + x] = '\x10';
+  write("bar.pgm", "P5\n320 100\n255\n" + pixels);
+  const std::string start = "trace " + file("bar.pgm") + " --set filter.iterations=0 --dpi 254 ";
   ASSERT_EQ(run(start + " -o " + file("plain.svg")).code, 0);
   EXPECT_EQ(test::readFile(file("plain.svg")).find("width-of"), std::string::npos);
   const auto done = run(start + " --width-outline -o " + file("wide.svg") + " -o " + file("wide.json"));
@@ -67,8 +73,8 @@ TEST_F(Options, StrokesAreOutlinedOnRequest) {
   // The file opens again with its curves alone.
   ASSERT_EQ(run("trace " + file("wide.svg") + " -o " + file("again.json")).code, 0);
   const auto count = [&](const char* name) {
-    const auto json = nlohmann::json::parse(test::readFile(file(name)));
-    return json["curves"].size();
+    const auto read = json::parse(test::readFile(file(name)));
+    return read["curves"].size();
   };
   EXPECT_EQ(count("again.json"), count("wide.json"));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/base/cancel_check.h"
@@ -13,6 +14,7 @@ struct BorderPlace {
   Vec2 at = Vec2::Zero();
   Vec2 along = Vec2::UnitX();  ///< Unit direction.
   bool begins = false;         ///< The direction may jump here: cubics meet.
+  std::ptrdiff_t middle = 0;   ///< Index of the place of the middle that it lies beside.
   bool isBackwards = false;    ///< It runs against the middle of its stroke: inside a turn tighter than half the width.
 };
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "core/exchange/model/border_fit.h"
 #include "core/exchange/model/stroke_middle.h"
@@ -22,25 +23,36 @@ Vec2 turnedBy(const Vec2& v, double angle) {
   return {std::cos(angle) * v.x() - std::sin(angle) * v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.y()};
 }
 
-BorderPlace borderPlace(const MiddlePlace& middle, double side, bool begins) {
+BorderPlace borderPlace(const StrokeMiddle& stroke, std::ptrdiff_t i, double side) {
+  const MiddlePlace& middle = stroke.places[i];
   const Vec2 normal = side * leftNormal(middle.along);
   const double half = 0.5 * middle.width;
-  BorderPlace place{middle.at + half * normal,
-                    (1.0 - side * middle.kappa * half) * middle.along + 0.5 * middle.growth * normal, begins, false};
-  place.isBackwards = place.along.dot(middle.along) <= 0.0;
-  place.along = place.isBackwards || !(place.along.norm() > 0.0) ? middle.along : place.along.normalized();
+  BorderPlace place{.at = middle.at + half * normal, .begins = middle.begins, .middle = i};
+  const Vec2 along = (1.0 - side * middle.kappa * half) * middle.along + 0.5 * middle.growth * normal;
+  place.isBackwards = along.dot(middle.along) <= 0.0;
+  place.along = place.isBackwards ? middle.along : along.normalized();
   return place;
 }
 
-/// An arc about a place of the middle, from one direction on by an angle.
-void addArc(const Vec2& centre, const Vec2& out, double angle, double fromRadius, double toRadius,
-            std::vector<BorderPlace>& border) {
-  const int steps = std::max(4, static_cast<int>(std::ceil(std::abs(angle) / kArcStepRad)));
+/// An arc about a place of the middle from `out`, its radius going from one value to another.
+struct BorderArc {
+  Vec2 centre, out;
+  double angle, fromRadius, toRadius;
+  std::ptrdiff_t middle;
+};
+
+void addArc(const BorderArc& arc, std::vector<BorderPlace>& border) {
+  const int steps = std::max(4, static_cast<int>(std::ceil(std::abs(arc.angle) / kArcStepRad)));
+  const double turn = std::abs(arc.angle);
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    const Vec2 radius = turnedBy(out, t * angle);
-    border.push_back({centre + std::lerp(fromRadius, toRadius, t) * radius,
-                      (angle > 0.0 ? 1.0 : -1.0) * leftNormal(radius), i == 0, false});
+    const Vec2 radius = turnedBy(arc.out, t * arc.angle);
+    const double length = std::lerp(arc.fromRadius, arc.toRadius, t), growth = (arc.toRadius - arc.fromRadius) / turn;
+    border.push_back(
+        {.at = arc.centre + length * radius,
+         .along = (length * (arc.angle > 0.0 ? 1.0 : -1.0) * leftNormal(radius) + growth * radius).normalized(),
+         .begins = i == 0,
+         .middle = arc.middle});
   }
 }
 
@@ -48,25 +60,21 @@ void addArc(const Vec2& centre, const Vec2& out, double angle, double fromRadius
 std::vector<BorderPlace> sideOf(const StrokeMiddle& middle, double side) {
   std::vector<BorderPlace> border;
   const auto& places = middle.places;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::ptrdiff_t i = 0; i < std::ssize(places); ++i) {
     if (places[i].begins && i > 0) {
       const Vec2 &before = places[i - 1].along, &behind = places[i].along;
       const double turn = std::atan2(cross(before, behind), before.dot(behind));
       if (std::abs(turn) > kCornerRad && turn * side < 0.0) {
-        addArc(places[i].at, side * leftNormal(before), turn, 0.5 * places[i - 1].width, 0.5 * places[i].width, border);
+        addArc({places[i].at, side * leftNormal(before), turn, 0.5 * places[i - 1].width, 0.5 * places[i].width, i},
+               border);
       } else if (std::abs(turn) > kCornerRad && !border.empty()) {
         border.back().isBackwards = true;  // an inner corner: the borders of its sides cross
       }
     }
-    border.push_back(borderPlace(places[i], side, places[i].begins));
+    border.push_back(borderPlace(middle, i, side));
   }
   return border;
 }
-
-struct Crossing {
-  std::size_t first = 0, last = 0;  ///< Places before the two stretches that cross.
-  Vec2 at = Vec2::Zero();
-};
 
 std::optional<Vec2> crossingOf(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Vec2 ab = b - a, cd = d - c, ac = c - a;
@@ -77,55 +85,126 @@ std::optional<Vec2> crossingOf(const Vec2& a, const Vec2& b, const Vec2& c, cons
   return a + t * ab;
 }
 
-/// The outermost crossing of a border around a stretch that runs backwards.
-std::optional<Crossing> crossingAround(const std::vector<BorderPlace>& border, std::size_t from, std::size_t to,
-                                       double reach) {
-  std::size_t first = from, last = to;
-  for (double gone = 0.0; first > 0 && gone < reach; --first) gone += (border[first].at - border[first - 1].at).norm();
-  for (double gone = 0.0; last + 2 < border.size() && gone < reach; ++last)
-    gone += (border[last + 1].at - border[last].at).norm();
-  for (std::size_t i = first; i <= from && i + 1 < border.size(); ++i) {
-    for (std::size_t k = std::min(last, border.size() - 2); k > std::max(i + 1, to > 0 ? to - 1 : 0); --k) {
-      const auto at = crossingOf(border[i].at, border[i + 1].at, border[k].at, border[k + 1].at);
-      if (at) return Crossing{i, k, *at};
-    }
-  }
-  return std::nullopt;
-}
+/// Takes the loops out of a side that a turn tighter than half the width leaves on its inside.
+class LoopRemoval {
+ public:
+  LoopRemoval(const std::vector<BorderPlace>& border, const StrokeMiddle& middle, double reach)
+      : border_(border), middle_(middle), reach_(reach), exposed_(border.size()) {}
 
-/// The border without the loops that a turn tighter than half the width leaves on its inside.
-std::vector<BorderPlace> withoutLoops(const std::vector<BorderPlace>& border, double reach) {
-  std::vector<BorderPlace> kept;
-  std::size_t next = 0;
-  while (next < border.size()) {
-    if (!border[next].isBackwards) {
-      kept.push_back(border[next++]);
-      continue;
-    }
-    std::size_t to = next;
-    while (to + 1 < border.size() && border[to + 1].isBackwards) ++to;
-    const auto crossing = crossingAround(border, next, std::min(to + 1, border.size() - 1), reach);
-    if (!crossing) {  // near an end: what runs backwards goes
-      kept.push_back(border[next]);
-      kept.back().begins = true;
-      next = to + 1;
-      if (next < border.size()) {
-        kept.push_back(border[next++]);
-        kept.back().begins = true;
+  std::vector<BorderPlace> done() {
+    const std::ptrdiff_t n = std::ssize(border_);
+    for (std::ptrdiff_t next = 0; next < n;) {
+      if (!border_[next].isBackwards) {
+        keep(border_[next], next);
+        ++next;
+        continue;
       }
-      continue;
+      std::ptrdiff_t to = next;
+      while (to + 1 < n && border_[to + 1].isBackwards) ++to;
+      if (const auto crossing = crossingAround(next, std::min(to + 1, n - 1))) {
+        cutAt(*crossing);
+        next = crossing->last + 1;
+      } else {
+        next = bridge(next, to);
+      }
     }
-    if (crossing->first == next)
-      kept.push_back(border[next]);
-    else
-      kept.resize(std::max<std::ptrdiff_t>(1, std::ssize(kept) - std::ptrdiff_t(next - crossing->first - 1)));
-    const Vec2 in = (crossing->at - kept.back().at), out = border[crossing->last + 1].at - crossing->at;
-    if (in.norm() > 0.0) kept.push_back({crossing->at, in.normalized(), false, false});
-    if (out.norm() > 0.0) kept.push_back({crossing->at, out.normalized(), true, false});
-    next = crossing->last + 1;
+    std::vector<BorderPlace> places;
+    for (const Kept& one : kept_) places.push_back(one.place);
+    return places;
   }
-  return kept;
-}
+
+ private:
+  static constexpr double kCoveredShare = 0.01;  ///< Of the width: so deep in the ink a place is no border.
+  static constexpr double kNearShare = 0.15;     ///< Of the width: so near to a crossing a loop is not deep yet.
+
+  struct Crossing {
+    std::ptrdiff_t first = 0, last = 0;  ///< Places before the two stretches that cross.
+    Vec2 at = Vec2::Zero();
+  };
+  struct Kept {
+    BorderPlace place;
+    std::ptrdiff_t index;
+  };
+
+  void keep(const BorderPlace& place, std::ptrdiff_t index) { kept_.push_back({place, index}); }
+
+  void cutAt(const Crossing& crossing) {
+    while (!kept_.empty() && kept_.back().index > crossing.first) kept_.pop_back();
+    if (kept_.empty() || kept_.back().index < crossing.first) keep(border_[crossing.first], crossing.first);
+    const Vec2 in = crossing.at - kept_.back().place.at, out = border_[crossing.last + 1].at - crossing.at;
+    const std::ptrdiff_t middle = border_[crossing.last].middle;
+    if (in.norm() > 0.0) keep({.at = crossing.at, .along = in.normalized(), .middle = middle}, crossing.last);
+    if (out.norm() > 0.0)
+      keep({.at = crossing.at, .along = out.normalized(), .begins = true, .middle = middle}, crossing.last);
+  }
+
+  /// A loop too small to show a crossing, or one near an end: straight on from the last place before it from which the
+  /// border goes forwards to one behind it. @return the next place.
+  std::ptrdiff_t bridge(std::ptrdiff_t from, std::ptrdiff_t to) {
+    std::ptrdiff_t before = from - 1, behind = to + 1;
+    const std::ptrdiff_t n = std::ssize(border_);
+    const auto isForwards = [&] {
+      const Vec2 step = border_[behind].at - border_[before].at;
+      return step.dot(border_[before].along) > 0.0 && step.dot(border_[behind].along) > 0.0;
+    };
+    for (double gone = 0.0; before > 0 && behind + 1 < n && gone < reach_ && !isForwards(); --before, ++behind)
+      gone += (border_[behind + 1].at - border_[behind].at).norm();
+    while (!kept_.empty() && kept_.back().index > before) kept_.pop_back();
+    if (behind >= n) return n;
+    keep(border_[behind], behind);
+    kept_.back().place.begins = true;
+    return behind + 1;
+  }
+
+  /// Whether a place of the side is border of the stroke, not in its ink.
+  bool isExposed(std::ptrdiff_t i) {
+    if (exposed_[i]) return *exposed_[i];
+    bool isInk = false;
+    const auto& places = middle_.places;
+    for (const std::ptrdiff_t way : {-1, 1}) {
+      double gone = 0.0;
+      for (std::ptrdiff_t m = border_[i].middle; m >= 0 && m < std::ssize(places) && gone < reach_ && !isInk;
+           m += way) {
+        const double half = (0.5 - kCoveredShare) * places[m].width;
+        isInk = (places[m].at - border_[i].at).squaredNorm() < half * half;
+        if (m + way >= 0 && m + way < std::ssize(places)) gone += (places[m + way].at - places[m].at).norm();
+      }
+    }
+    exposed_[i] = !isInk;
+    return !isInk;
+  }
+
+  /// Nothing of the border is lost with the loop behind a crossing.
+  bool isLoopOnly(const Crossing& crossing) {
+    for (std::ptrdiff_t i = crossing.first + 1; i <= crossing.last; ++i) {
+      const double near = kNearShare * middle_.places[border_[i].middle].width;
+      if ((border_[i].at - crossing.at).norm() > near && isExposed(i)) return false;
+    }
+    return true;
+  }
+
+  /// The outermost crossing around a stretch that runs backwards with nothing but ink in its loop.
+  std::optional<Crossing> crossingAround(std::ptrdiff_t from, std::ptrdiff_t to) {
+    std::ptrdiff_t first = from, last = to;
+    const auto step = [&](std::ptrdiff_t i) { return (border_[i + 1].at - border_[i].at).norm(); };
+    for (double gone = 0.0; first > 0 && gone < reach_; gone += step(first)) --first;
+    for (double gone = 0.0; last + 2 < std::ssize(border_) && gone < reach_; gone += step(last)) ++last;
+    last = std::min(last, std::ssize(border_) - 2);
+    for (std::ptrdiff_t i = first; i <= from && i + 1 < std::ssize(border_); ++i) {
+      for (std::ptrdiff_t k = last; k >= std::max(i + 2, to - 1); --k) {
+        const auto at = crossingOf(border_[i].at, border_[i + 1].at, border_[k].at, border_[k + 1].at);
+        if (at && isLoopOnly({i, k, *at})) return Crossing{i, k, *at};
+      }
+    }
+    return std::nullopt;
+  }
+
+  const std::vector<BorderPlace>& border_;
+  const StrokeMiddle& middle_;
+  double reach_;
+  std::vector<std::optional<bool>> exposed_;
+  std::vector<Kept> kept_;
+};
 
 std::vector<BorderPlace> turnedRound(std::vector<BorderPlace> border) {
   std::reverse(border.begin(), border.end());
@@ -170,7 +249,11 @@ void addLoop(const std::vector<BorderPlace>& border, double tolerance, CancelChe
 void addOutline(StrokeMiddle middle, double tolerance, CancelCheck check, WidthOutline& outline) {
   const double reach = kLoopReachWidths * largestWidth(middle);
   if (middle.closed) beginStraight(middle);
-  const auto left = withoutLoops(sideOf(middle, 1.0), reach), right = withoutLoops(sideOf(middle, -1.0), reach);
+  const auto sideWithoutLoops = [&](double side) {
+    const std::vector<BorderPlace> border = sideOf(middle, side);
+    return LoopRemoval(border, middle, reach).done();
+  };
+  const auto left = sideWithoutLoops(1.0), right = sideWithoutLoops(-1.0);
   if (middle.closed) {
     addLoop(right, tolerance, check, outline);
     addLoop(turnedRound(left), tolerance, check, outline);
@@ -179,7 +262,7 @@ void addOutline(StrokeMiddle middle, double tolerance, CancelCheck check, WidthO
   // Anticlockwise: the right side, round the end, the left side back, round the start.
   std::vector<BorderPlace> border = right;
   const auto addCap = [&](const MiddlePlace& end, const Vec2& from) {
-    if (end.width > 0.0) addArc(end.at, from, std::numbers::pi, 0.5 * end.width, 0.5 * end.width, border);
+    if (end.width > 0.0) addArc({end.at, from, std::numbers::pi, 0.5 * end.width, 0.5 * end.width, 0}, border);
   };
   addCap(middle.places.back(), -leftNormal(middle.places.back().along));
   const auto back = turnedRound(left);
@@ -205,64 +288,84 @@ class MiddleWalk {
 
   /// How far a place is from the border of the stroke: 0 on it.
   double off(const Vec2& p) {
-    double least = std::numeric_limits<double>::infinity();
-    if (isBegun_) least = nearPlace(p);
+    double least = kFar;
+    if (isBegun_) least = offNear(p, middle_, at_ - kNear, at_ + kNear, kFar);
     // A larger distance than any before is not taken on trust: the border may have left its stretch.
-    if (!(least <= largest_)) least = std::min(least, anywhere(p));
+    if (!(least <= largest_)) {
+      // Stretch by stretch: where a stroke crosses itself, the other branch's ink does not count.
+      for (std::size_t m = 0; m < middles_.size(); ++m)
+        for (std::ptrdiff_t i = 0; i < std::ssize(middles_[m].places); i += kNear)
+          least = std::min(least, offNear(p, m, i - kNear, i + kNear, least));
+    }
     largest_ = std::max(largest_, least);
     isBegun_ = true;
     return least;
   }
 
  private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
   static constexpr std::ptrdiff_t kNear = 64;  ///< [places] to either side of the last one
+  /// Of the width: deeper in the ink a place is no border; of a stroke that grows by g the sides lie g^2 / 16 deep.
+  static constexpr double kDeepShare = 0.01, kDeepPerGrowth = 0.125;
 
-  double offAt(const std::vector<MiddlePlace>& places, std::ptrdiff_t i, const Vec2& p, double& nearest) const {
-    const MiddlePlace &a = places[i], &b = places[i + 1];
+  struct Foot {
+    double t = 0.0;  ///< 0..1 from one place to the next.
+    double distance = 0.0, half = 0.0;
+  };
+
+  /// The arc between two places, by its directions: the chord alone is off by a hundredth of the width.
+  static Foot footOn(const MiddlePlace& a, const MiddlePlace& b, const Vec2& p) {
     const Vec2 chord = b.at - a.at;
-    const double length = chord.norm();
-    if (!(length > 0.0)) return std::numeric_limits<double>::infinity();
-    // The arc between two places, by its curvature: the chord alone is off by a hundredth of the width.
-    double t = std::clamp((p - a.at).dot(chord) / (length * length), 0.0, 1.0);
-    Vec2 foot = Vec2::Zero();
-    for (int round = 0; round < 4; ++round) {
-      const double r = 1.0 - t;
-      foot = r * r * (1.0 + 2.0 * t) * a.at + t * t * (1.0 + 2.0 * r) * b.at +
-             length * t * r * (r * a.along - t * b.along);
+    const double length = std::max(chord.norm(), std::numeric_limits<double>::min());
+    Foot foot{std::clamp((p - a.at).dot(chord) / (length * length), 0.0, 1.0)};
+    Vec2 at = a.at;
+    constexpr int kRounds = 4;
+    for (int round = 0; round <= kRounds; ++round) {
+      const double t = foot.t, r = 1.0 - t;
+      at = r * r * (1.0 + 2.0 * t) * a.at + t * t * (1.0 + 2.0 * r) * b.at +
+           length * t * r * (r * a.along - t * b.along);
+      if (round == kRounds) break;
       const Vec2 along = (r * a.along + t * b.along).normalized();
-      const double kappa = std::lerp(a.kappa, b.kappa, t);
-      const double bend = std::max(0.2, 1.0 - kappa * (p - foot).dot(leftNormal(along)));
-      t = std::clamp(t + (p - foot).dot(along) / (length * bend), 0.0, 1.0);
+      const double bend = std::max(0.2, 1.0 - std::lerp(a.kappa, b.kappa, t) * (p - at).dot(leftNormal(along)));
+      foot.t = std::clamp(t + (p - at).dot(along) / (length * bend), 0.0, 1.0);
     }
-    const double distance = (p - foot).norm();
-    if (distance > nearest) return std::numeric_limits<double>::infinity();
-    nearest = distance;
-    return std::abs(distance - 0.5 * std::lerp(a.width, b.width, t));
+    foot.distance = (p - at).norm();
+    foot.half = 0.5 * std::lerp(a.width, b.width, foot.t);
+    return foot;
   }
-  double over(std::size_t middle, std::ptrdiff_t from, std::ptrdiff_t to, const Vec2& p, double& nearest) {
+
+  /// Over the feet of a place on a stretch of the middle: how far it is from half the width at one of them, or, in the
+  /// ink, how deep.
+  /// @param best where it is known to be nearer to a border: a stretch with a better one becomes the present one.
+  double offNear(const Vec2& p, std::size_t middle, std::ptrdiff_t from, std::ptrdiff_t to, double best) {
     const auto& places = middles_[middle].places;
-    double off = std::numeric_limits<double>::infinity();
-    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, from); i < std::min(to, std::ssize(places) - 1); ++i) {
-      // Far ones cannot be nearest.
-      const double step = (places[i + 1].at - places[i].at).norm();
-      if ((places[i].at - p).norm() - 2.0 * step > nearest) continue;
-      const double one = offAt(places, i, p, nearest);
-      if (!std::isfinite(one)) continue;
-      off = one;
-      middle_ = middle;
-      at_ = i;
+    const std::ptrdiff_t n = std::ssize(places), end = std::min(to, n - 1);
+    double least = kFar, depth = 0.0, slack = 0.0, before = 0.0;
+    std::optional<std::ptrdiff_t> place;
+    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, from); i < end; ++i) {
+      const MiddlePlace &a = places[i], &b = places[i + 1];
+      const double away = (a.at - p).norm(), step = (b.at - a.at).norm();
+      if (0.5 * a.width - away > depth) {
+        depth = 0.5 * a.width - away;
+        slack = a.width * std::max(kDeepShare, kDeepPerGrowth * a.growth * a.growth);
+      }
+      const double reach = (2.0 + std::abs(a.growth)) * step;
+      if (std::abs(away - 0.5 * a.width) - reach > least || !(step > 0.0)) {
+        if (step > 0.0) before = 0.5;
+        continue;
+      }
+      const Foot foot = footOn(a, b, p);
+      // The middle passes p between two of its places, at one of them, or ends.
+      const bool isFoot = foot.t > 0.0 ? foot.t < 1.0 || i + 2 == n : before == 1.0 || i == 0;
+      before = foot.t;
+      if (!isFoot || std::abs(foot.distance - foot.half) >= least) continue;
+      least = std::abs(foot.distance - foot.half);
+      place = i;
     }
-    return off;
-  }
-  double nearPlace(const Vec2& p) {
-    double nearest = std::numeric_limits<double>::infinity();
-    return over(middle_, at_ - kNear, at_ + kNear, p, nearest);
-  }
-  double anywhere(const Vec2& p) {
-    double nearest = std::numeric_limits<double>::infinity(), off = nearest;
-    for (std::size_t m = 0; m < middles_.size(); ++m) {
-      const double one = over(m, 0, std::ssize(middles_[m].places), p, nearest);
-      if (std::isfinite(one)) off = one;
+    const double off = depth > slack ? std::max(least, depth) : least;
+    if (place && off < best) {
+      middle_ = middle;
+      at_ = *place;
     }
     return off;
   }
@@ -286,8 +389,8 @@ double distanceFromWidth(const std::vector<std::array<Vec2, 4>>& border, const E
     if (check.isCancelled()) break;
     for (int k = 0; k < kPlacesPerCubic; ++k) {
       const double t = static_cast<double>(k) / kPlacesPerCubic, r = 1.0 - t;
-      worst =
-          std::max(worst, walk.off(r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3]));
+      const Vec2 q = r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3];
+      worst = std::max(worst, walk.off(q));
     }
   }
   return worst;

@@ -7,6 +7,7 @@
 #include "core/base/statistics.h"
 #include "core/contour/centreline/stroke_profile.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/width_fit.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -152,6 +153,8 @@ class MeasuredWidths {
 std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput& output, const Scan& scan, const TracedCurve& curve,
                                               const NurbsCurve& shape) {
   if (shape.isEmpty() || !output.pieces || !output.contours) return std::nullopt;
+  // Curves of an older run may be shown beside the pieces of a newer one, for a moment.
+  if (curve.piece < 0 || curve.piece >= std::ssize(output.pieces->pieces)) return std::nullopt;
   const Piece& piece = output.pieces->pieces[curve.piece];
   const Contour& line = output.contours->contours[piece.contour];
   if (strokeWidthsOf(line.points).empty() || piece.points.size() < 2) return std::nullopt;

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/curve/width_fit.h"
+
 namespace batten {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/pipeline/run/stroke_widths.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
@@ -136,6 +137,20 @@ void CurvesPanel::addWaitingRow() {
   waiting_->setToolTip(tr("A choice refers to a line that is missing now, for instance after a change of threshold."));
   forget_->setToolTip(tr("Removes these choices from the recipe."));
   connect(forget_, &QPushButton::clicked, this, [this] { forgetWaitingChoices(session_); });
+}
+
+void CurvesPanel::addWidthRow(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const {
+  if (!session_.scan()) return;
+  const auto width = strokeWidthsAlong(session_.output(), *session_.scan(), curve, curve.sketched);
+  if (!width) return;
+  const WidthFigures figures = figuresOf(*width);
+  rows.push_back(
+      {tr("Stroke width"),
+       {{tr("%1 mm (%2 to %3)")
+             .arg(figures.mean, 0, 'f', 2)
+             .arg(figures.least, 0, 'f', 2)
+             .arg(figures.largest, 0, 'f', 2)}},
+       tr("Mean over the length of the curve, least and largest. Export to JSON holds the width along it.")});
 }
 
 void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const {
@@ -284,6 +299,7 @@ void CurvesPanel::refreshFigures() {
                     {{QString::number(turns)}},
                     tr("At sharp features without a corner mark the curve follows the points closely: these "
                        "extrema are not tested for significance and cannot be removed individually.")});
+  addWidthRow(rows, *curve);
   addFitRows(rows, *curve);
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(curve->construct.note);

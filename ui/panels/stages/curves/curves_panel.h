@@ -38,6 +38,7 @@ class CurvesPanel : public QWidget {
   void addWaitingRow();
   /// What the fair fit says of the selected curve: noise, spared control points, dropped extrema.
   void addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
+  void addWidthRow(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
   EditorSession& session_;
   ParameterEditor* editor_;
   SegmentedControl* detailScope_;
