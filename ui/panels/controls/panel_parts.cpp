@@ -23,8 +23,10 @@ constexpr int kWideColumn = 72;  // where the heads of many columns would touch
 void addLaidOut(QLayout* layout, std::vector<QWidget*>& found);
 
 void addLaidOut(QWidget* widget, std::vector<QWidget*>& found) {
-  if (widget->focusPolicy() & Qt::TabFocus) found.push_back(widget);
-  if (widget->layout() != nullptr) addLaidOut(widget->layout(), found);
+  if (widget->focusPolicy() & Qt::TabFocus) return found.push_back(widget);
+  if (widget->layout() != nullptr) return addLaidOut(widget->layout(), found);
+  // What places its parts by itself has made them in their order.
+  for (auto* part : widget->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) addLaidOut(part, found);
 }
 
 void addLaidOut(QLayout* layout, std::vector<QWidget*>& found) {

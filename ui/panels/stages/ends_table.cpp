@@ -48,8 +48,9 @@ EndsTable::EndsTable(std::function<FairingParams()> shown, std::function<void(in
   const std::array<QString, 3> help = {tr("The end points of an open curve are always fixed."),
                                        tr("Holds the tangent at this end."),
                                        tr("Holds the tangent and the curvature at this end.")};
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t row = 0; row < 3; ++row) {
+  // Row by row, as Tab walks them.
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t end = 0; end < 2; ++end) {
       auto* dot = new HoldDot(this);
       dot->setObjectName(QStringLiteral("fairing.hold_%1.%2").arg(endNames[end], rowNames[row]));
       dot->setAccessibleName(tr("Hold %1 at %2").arg(rows[row].toLower(), ends[end]));
@@ -58,8 +59,8 @@ EndsTable::EndsTable(std::function<FairingParams()> shown, std::function<void(in
       connect(dot, &QAbstractButton::clicked, this,
               [this, end, row](bool on) { toggle(static_cast<int>(end), static_cast<int>(row), on); });
     }
-    dots_[end][0]->setEnabled(false);
   }
+  for (const auto& ofEnd : dots_) ofEnd[0]->setEnabled(false);
 }
 
 void EndsTable::refresh() {
