@@ -17,7 +17,7 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastStepPx = 6.0;             // of a search: shorter ones have no direction among the grain
+constexpr double kLeastTrailStepPx = 6.0;        // of a search: shorter ones have no direction among the grain
 constexpr double kStepWidths = 1.5;              // [stroke widths]
 constexpr double kTurnDeg = 10.0;                // to either side: a hand turns less on so short a way
 constexpr double kBesideWidths = 0.75;           // [stroke widths] from the middle to the paper at the sides,
@@ -28,14 +28,14 @@ constexpr double kMostAheadWidths = 1.5;         // [stroke widths] of ink befor
 // [standard deviations of a step on paper] The darkest of three directions is 0.85 darker than one on an average; what
 // is not clearly more speaks against the line.
 constexpr double kNoEvidence = 2.0;
-constexpr double kMostEvidence = 4.0;  // [the same] of one step: a dark speck is no line
-constexpr double kClear = 4.0;         // [the same] of all steps: two clear ones at least
-constexpr double kLeastShare = 0.25;   // of the stroke's own depth: half of the half level that tells ink,
-constexpr double kMostShare = 1.5;     // and what is darker than the stroke is not its weak end
-constexpr double kLeastDepth = 1.5;    // [grey] as of all ink
-constexpr double kLeastSigma = 0.3;    // [grey] of a step: whole greys, where the scanner clipped the paper to white
-constexpr int kSamplesPerSide = 12;    // of the paper, along each side of a region
-constexpr int kFewestSamples = 12;     // that tell the paper of a region
+constexpr double kMostEvidence = 4.0;      // [the same] of one step: a dark speck is no line
+constexpr double kClearTrail = 4.0;        // [the same] of all steps: two clear ones at least
+constexpr double kLeastTrailShare = 0.25;  // of the stroke's own depth: half of the half level that tells ink,
+constexpr double kMostTrailShare = 1.5;    // and what is darker than the stroke is not its weak end
+constexpr double kLeastTrailDepth = 1.5;   // [grey] as of all ink
+constexpr double kLeastSigma = 0.3;      // [grey] of a step: whole greys, where the scanner clipped the paper to white
+constexpr int kSamplesPerSide = 12;      // of the paper, along each side of a region
+constexpr int kFewestPaperSamples = 12;  // that tell the paper of a region
 
 // How much darker than both its sides a place is on paper, by region.
 struct PaperDepth {
@@ -49,7 +49,7 @@ class StepMeter {
       : grey_(grey),
         beside_(kBesideWidths * widthPx),
         core_(std::min(1.0, 0.25 * widthPx)),
-        step_(std::max(kLeastStepPx, kStepWidths * widthPx)) {}
+        step_(std::max(kLeastTrailStepPx, kStepWidths * widthPx)) {}
 
   double stepPx() const { return step_; }
   // [px] round the middle of a step that it looks at.
@@ -96,7 +96,7 @@ PaperDepth measurePaper(const StepMeter& meter, const BitImage& ink, const RunCo
         const Vec2 along(std::cos(angle), std::sin(angle));
         depths.push_back(meter.depth(at - 0.5 * meter.stepPx() * along, along));
       }
-      if (std::ssize(depths) < kFewestSamples) continue;
+      if (std::ssize(depths) < kFewestPaperSamples) continue;
       const double middle = upperMedian(depths);
       for (double& d : depths) d -= middle;
       mean[region] = static_cast<float>(middle);
@@ -156,8 +156,8 @@ class EndFollower {
       }
       const int region = regionOf(static_cast<int>(at.x()), static_cast<int>(at.y()), ink_.width, ink_.height);
       const double surplus = step.depth - static_cast<double>(paper_.mean[region]);
-      const bool isInk =
-          step.depth > std::max(kLeastShare * end.depth, kLeastDepth) && step.depth < kMostShare * end.depth;
+      const bool isInk = step.depth > std::max(kLeastTrailShare * end.depth, kLeastTrailDepth) &&
+                         step.depth < kMostTrailShare * end.depth;
       const double sigma = std::max(static_cast<double>(paper_.sigma[region]), kLeastSigma);
       score += (isInk ? std::min(surplus / sigma, kMostEvidence) : 0.0) - kNoEvidence;
       along = step.along;
@@ -166,9 +166,9 @@ class EndFollower {
         best = score;
         kept = std::ssize(trail);
       }
-      if (score < best - kClear) break;
+      if (score < best - kClearTrail) break;
     }
-    if (best < kClear) return {};
+    if (best < kClearTrail) return {};
     trail.resize(kept);
     return trail;
   }
