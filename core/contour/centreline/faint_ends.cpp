@@ -109,7 +109,7 @@ PaperDepth measurePaper(const StepMeter& meter, const BitImage& ink, const RunCo
           pushPull(sigma, weight, kRegionsPerSide, kRegionsPerSide)};
 }
 
-struct FreeEnd {
+struct FaintEnd {
   Vec2 at = Vec2::Zero(), out = Vec2::Zero();
   double depth = 0.0;   // [grey] of its stroke
   double mostPx = 0.0;  // to be followed
@@ -121,14 +121,14 @@ class EndFollower {
       : meter_(meter), paper_(paper), ink_(ink) {}
 
   // The end of a path beyond its ink; nothing where it has none.
-  std::optional<FreeEnd> endOf(const StrokePath& path, int side, double widthPx) const {
+  std::optional<FaintEnd> endOf(const StrokePath& path, int side, double widthPx) const {
     const int n = static_cast<int>(path.points.size());
     const auto at = [&](int k) -> const Vec2& { return path.points[side == 0 ? k : n - 1 - k].at; };
     const int back = std::min(n - 1, static_cast<int>(meter_.stepPx() + widthPx));
     const int hook = std::min(back / 3, static_cast<int>(0.5 * widthPx + 1.0));
     const Vec2 d = at(hook) - at(back);
     if (!(d.norm() > 0.0)) return std::nullopt;
-    FreeEnd end{at(0), d.normalized(), 0.0, path.length()};
+    FaintEnd end{at(0), d.normalized(), 0.0, path.length()};
     end.depth = depthOf(path);
     for (double ahead = 0.0; ink_.at(static_cast<int>(end.at.x()), static_cast<int>(end.at.y())); ahead += 0.5) {
       if (ahead > kMostAheadWidths * widthPx + 1.0) return std::nullopt;
@@ -138,7 +138,7 @@ class EndFollower {
     return end;
   }
 
-  std::vector<Vec2> follow(const FreeEnd& end) const {
+  std::vector<Vec2> follow(const FaintEnd& end) const {
     std::vector<Vec2> trail;
     std::ptrdiff_t kept = 0;
     Vec2 at = end.at, along = end.out;
