@@ -11,8 +11,6 @@
 namespace batten::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A course by its parameter 0..1, dense, with the arc length; `width` of the fraction of the length.
 WidthStroke strokeOf(const std::string& name, bool closed, const std::function<Vec2(double)>& at,
                      const std::function<double(double)>& width) {
@@ -72,7 +70,7 @@ std::vector<std::vector<Vec2>> WidthStroke::borders() const {
     const Vec2 from = border.back() - places[i].at;
     constexpr int kCapSteps = 64;
     for (int k = 1; k < kCapSteps; ++k) {
-      const double angle = -kPi * k / kCapSteps;
+      const double angle = -std::numbers::pi * k / kCapSteps;
       border.push_back(places[i].at + Vec2(std::cos(angle) * from.x() - std::sin(angle) * from.y(),
                                            std::sin(angle) * from.x() + std::cos(angle) * from.y()));
     }
@@ -90,26 +88,29 @@ double WidthStroke::area() const {
 
 std::vector<WidthStroke> widthStrokes() {
   const auto swelling = [](double mean, double swing, double waves) {
-    return [=](double f) { return mean + swing * std::sin(2.0 * kPi * waves * f); };
+    return [=](double f) { return mean + swing * std::sin(2.0 * std::numbers::pi * waves * f); };
   };
-  return {strokeOf(
-              "taper", false, [](double t) { return Vec2(60.3 + 700.0 * t, 120.4 + 40.0 * std::sin(kPi * t)); },
-              [](double f) { return 11.0 - 8.0 * f; }),
-          strokeOf(
-              "calligraphic", false,
-              [](double t) { return Vec2(60.7 + 760.0 * t, 300.2 + 70.0 * std::sin(2.0 * kPi * t)); },
-              swelling(8.0, 3.5, 3.0)),
-          strokeOf(
-              "tips", false, [](double t) { return Vec2(90.1 + 640.0 * t, 470.6 - 50.0 * std::sin(kPi * t)); },
-              [](double f) {
-                return 7.0 * std::min({1.0, f * 6.0, (1.0 - f) * 6.0});
-              }),
-          strokeOf(
-              "ring", true,
-              [](double t) {
-                return Vec2(450.4 + 220.0 * std::cos(2.0 * kPi * t), 680.8 + 140.0 * std::sin(2.0 * kPi * t));
-              },
-              swelling(7.0, 2.0, 2.0))};
+  return {
+      strokeOf(
+          "taper", false,
+          [](double t) { return Vec2(60.3 + 700.0 * t, 120.4 + 40.0 * std::sin(std::numbers::pi * t)); },
+          [](double f) { return 11.0 - 8.0 * f; }),
+      strokeOf(
+          "calligraphic", false,
+          [](double t) { return Vec2(60.7 + 760.0 * t, 300.2 + 70.0 * std::sin(2.0 * std::numbers::pi * t)); },
+          swelling(8.0, 3.5, 3.0)),
+      strokeOf(
+          "tips", false, [](double t) { return Vec2(90.1 + 640.0 * t, 470.6 - 50.0 * std::sin(std::numbers::pi * t)); },
+          [](double f) {
+            return 7.0 * std::min({1.0, f * 6.0, (1.0 - f) * 6.0});
+          }),
+      strokeOf(
+          "ring", true,
+          [](double t) {
+            return Vec2(450.4 + 220.0 * std::cos(2.0 * std::numbers::pi * t),
+                        680.8 + 140.0 * std::sin(2.0 * std::numbers::pi * t));
+          },
+          swelling(7.0, 2.0, 2.0))};
 }
 
 std::vector<float> widthCoverage(const std::vector<WidthStroke>& strokes) {

@@ -26,7 +26,7 @@ QString quantity(PlotTab tab, const QString& number) {
 }
 
 /// Between the two samples beside the place.
-double valueAt(const PlotSeries& series, double s) {
+double valueBetween(const PlotSeries& series, double s) {
   const auto next = std::lower_bound(series.s.begin(), series.s.end(), s) - series.s.begin();
   if (next == 0) return series.value.front();
   if (next == std::ssize(series.s)) return series.value.back();
@@ -48,7 +48,7 @@ QString valueText(const PlotData& data, PlotTab tab, double s, const NurbsCurve&
     const auto series = std::find_if(data.series.begin(), data.series.end(),
                                      [role](const PlotSeries& one) { return one.role == role; });
     if (series == data.series.end()) continue;
-    return place + quantity(tab, QString::number(valueAt(*series, s), 'g', 4));
+    return place + quantity(tab, QString::number(valueBetween(*series, s), 'g', 4));
   }
   return place;
 }

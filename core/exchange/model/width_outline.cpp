@@ -319,12 +319,12 @@ class MiddleWalk {
     const double length = std::max(chord.norm(), std::numeric_limits<double>::min());
     Foot foot{std::clamp((p - a.at).dot(chord) / (length * length), 0.0, 1.0)};
     Vec2 at = a.at;
-    constexpr int kRounds = 4;
-    for (int round = 0; round <= kRounds; ++round) {
+    constexpr int kLoopRounds = 4;
+    for (int round = 0; round <= kLoopRounds; ++round) {
       const double t = foot.t, r = 1.0 - t;
       at = r * r * (1.0 + 2.0 * t) * a.at + t * t * (1.0 + 2.0 * r) * b.at +
            length * t * r * (r * a.along - t * b.along);
-      if (round == kRounds) break;
+      if (round == kLoopRounds) break;
       const Vec2 along = (r * a.along + t * b.along).normalized();
       const double bend = std::max(0.2, 1.0 - std::lerp(a.kappa, b.kappa, t) * (p - at).dot(leftNormal(along)));
       foot.t = std::clamp(t + (p - at).dot(along) / (length * bend), 0.0, 1.0);
