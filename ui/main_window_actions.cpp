@@ -277,10 +277,13 @@ void MainWindow::connectLayers() {
   connect(&view_, &ViewSettings::changed, this, follow);
   connect(&view_, &ViewSettings::toolChanged, this, [this](Tool tool) {
     action(toolAction(tool))->setChecked(true);
-    // Where no curves are drawn there are none to click: the stage knows better what to do.
     const bool areCurvesShown = view_.isVisible(Layer::Curve) || view_.isVisible(Layer::Faired);
-    const bool isStage = tool == usualTool(stage()) || (tool == Tool::Select && !areCurvesShown);
-    parts_->status->setStageHint(isStage ? hint(stage(), session_.hasScan()) : actionInfo(toolAction(tool)).help);
+    if (tool == usualTool(stage()))
+      parts_->status->setStageHint(hint(stage(), session_.hasScan()));
+    else if (tool == Tool::Select && !areCurvesShown)
+      parts_->status->setStageHint(tr("No curves are shown in this stage."));
+    else
+      parts_->status->setStageHint(actionInfo(toolAction(tool)).help);
   });
   action(toolAction(view_.tool()))->setChecked(true);
   follow();

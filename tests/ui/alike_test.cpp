@@ -202,7 +202,7 @@ TEST_F(Alike, NoHintSpeaksOfCurvesWhereNoneAreDrawn) {
   auto* hint = find<QLabel>("status.hint");
   window_->setStage(PanelStage::Threshold);
   window_->action(ActionId::ToolSelect)->trigger();
-  EXPECT_EQ(hint->text(), batten::hint(PanelStage::Threshold, true));
+  EXPECT_FALSE(hint->text().contains(QStringLiteral("Click a curve"))) << hint->text().toStdString();
   window_->setStage(PanelStage::Corners);
   const QString ofStage = hint->text();
   window_->setStage(PanelStage::Curves);
