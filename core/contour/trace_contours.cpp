@@ -245,6 +245,21 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   return found;
 }
 
+// Where lines cross that are wider than the paper between them no stroke has a middle of its own: the borders of the
+// net are followed instead. Ink with fewer holes is none.
+Result<ContourSet> bordersOfNets(const BitImage& ink, const ContourParams& params, const RunContext& context) {
+  constexpr int kFewestHoles = 9;  // of a net: three lines across three are the least that could be a grid
+  Result<ContourSet> set = bordersOf(ink, true, params, 0.0, nullptr, context);
+  if (!set) return set;
+  const auto holes = std::count_if(set->contours.begin(), set->contours.end(), [](const Contour& c) { return c.hole; });
+  if (holes < kFewestHoles) {
+    set->contours.clear();
+  } else {
+    addNote(*set, "The lines are too close together to be told apart; the borders of their ink were traced.");
+  }
+  return set;
+}
+
 std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
@@ -260,6 +275,11 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   Result<FoundLines> found = findLines(ink, grey, edges, params, context);
   if (!found) return fail(found.error());
   ContourSet* set = &found->set;
+  if (set->contours.empty() && edges.mode == EdgeMode::Automatic) {
+    Result<ContourSet> net = bordersOfNets(ink, params, context);
+    if (!net) return fail(net.error());
+    if (!net->contours.empty()) *set = std::move(*net);
+  }
   noteChoices(*set, found->regions, edges.choices, found->blots, context);
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {

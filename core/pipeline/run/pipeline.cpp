@@ -175,7 +175,15 @@ class PipelineRun {
     const auto trace = [&](const BitImage& ink) {
       return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_);
     };
-    if (recipe_.regions.empty()) return trace(out_.filtered->ink);
+    if (recipe_.regions.empty()) {
+      auto set = trace(out_.filtered->ink);
+      if (!set && set.error().code == ErrorCode::NoCurve && !out_.page->rulings.empty())
+        return fail(ErrorCode::NoCurve,
+                    "No line was found beside the ruled lines: if these are the drawing, keep them "
+                    "(Ruled lines, paper.rulings=keep). " +
+                        set.error().message);
+      return set;
+    }
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
     if (set) {
       const double limit = recipe_.contours.minWidths * set->report.widthPx;

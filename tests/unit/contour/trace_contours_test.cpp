@@ -67,6 +67,21 @@ TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
   EXPECT_GT(set->report.refinedShare, 0.97);
 }
 
+// Lines of 6 px every 9 px, crossing: no middle can be told, but there is something to show.
+TEST(TraceContours, ANetThatIsMoreInkThanPaperGivesItsBorders) {
+  const OutlinePage net = render([](double x, double y) {
+    const bool inside = x > 40 && x < 360 && y > 40 && y < 260;
+    return inside && (std::fmod(x + y, 9.0) < 6.0 || std::fmod(x - y + 900.0, 9.0) < 6.0);
+  });
+  const auto set = traceContours(net.ink, net.grey, withMode(EdgeMode::Automatic), {}, {});
+  ASSERT_TRUE(set.has_value()) << set.error().message;
+  EXPECT_GT(set->contours.size(), 100u);
+  EXPECT_NE(set->report.note.find("too close together to be told apart"), std::string::npos) << set->report.note;
+  // Dots are no net.
+  const OutlinePage specks = render([](double x, double y) { return inDisc(x, y, 100, 100, 1.5); });
+  EXPECT_FALSE(traceContours(specks.ink, specks.grey, withMode(EdgeMode::Centreline), {}, {}).has_value());
+}
+
 TEST(TraceContours, ModesOverrideTheChoice) {
   const OutlinePage page = mixedPage();
   const auto outlines = traceContours(page.ink, page.grey, withMode(EdgeMode::Outline), {}, {});
