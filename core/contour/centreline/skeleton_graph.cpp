@@ -384,16 +384,22 @@ void SkeletonGraph::mergeJunctions(bool ofBundles) {
   }
   // The nearest first, as long as they are a crossing: all of a small drawing could be one.
   std::sort(links.begin(), links.end());
-  std::vector<int> inner;
+  std::vector<int> inner, outerEnds;  // of each group, at its root
+  for (const SkeletonNode& node : nodes_) outerEnds.push_back(static_cast<int>(node.ends.size()));
   for (const auto& [length, link] : links) {
     const int a = groups.root(*edges_[link].node[0]), b = groups.root(*edges_[link].node[1]);
     if (a != b) {
+      // Where four strokes leave each of them they are two crossings of a hatching.
+      const bool areWhole = std::min(outerEnds[a], outerEnds[b]) >= 4;
+      if (!ofBundles && areWhole && length > std::max(radius[a], radius[b])) continue;
       std::vector<int> all = members[a];
       all.insert(all.end(), members[b].begin(), members[b].end());
       if (!ofBundles && all.size() > 2 && !isOneCrossing(all)) continue;
       groups.join(a, b);
       members[groups.root(a)] = std::move(all);
+      outerEnds[groups.root(a)] = outerEnds[a] + outerEnds[b];
     }
+    outerEnds[groups.root(a)] -= 2;
     inner.push_back(link);
   }
   for (const int edge : inner) removeEdge(edge);

@@ -81,5 +81,27 @@ TEST(JunctionPairing, LinesAtSmallAnglesAreWhole) {
   }
 }
 
+// Two hatchings across one another: the crossings lie nearer than the discs of ink at them would allow for one
+// crossing.
+TEST(JunctionPairing, CrossHatchingIsWhole) {
+  constexpr int kWidth = 480, kHeight = 360;
+  for (const double spacingPx : {8.0, 9.0, 12.0}) {
+    std::vector<std::vector<Vec2>> lines = test::hatchLines({240, 180}, 45.0, 14, spacingPx, 200.0, 0.0);
+    const auto others = test::hatchLines({240, 180}, -45.0, 14, spacingPx, 200.0, 0.0);
+    lines.insert(lines.end(), others.begin(), others.end());
+    const Scan scan = test::scanOfLines(test::coverageOf(lines, 3.0, kWidth, kHeight), kWidth, kHeight, 4);
+    BitImage ink(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
+    const auto set = centrelines(ink, scan.grey, {}, {});
+    ASSERT_TRUE(set);
+    std::vector<std::vector<Vec2>> found;
+    for (const Contour& c : set->contours) found.push_back(positionsOf(c.points));
+    const test::DenseScore score = test::scoreDense(lines, found, 2.0, 6.0);
+    EXPECT_GE(score.whole, 27) << spacingPx;
+    EXPECT_EQ(score.bridges, 0) << spacingPx;
+  }
+}
+
 }  // namespace
 }  // namespace batten
