@@ -69,7 +69,7 @@ double noiseOf(const std::vector<WidthBin>& bins, double pixel) {
   constexpr std::array kFourth = {1.0, -4.0, 6.0, -4.0, 1.0};
   constexpr double kFourthVariance = 70.0;
   std::vector<double> differences;
-  for (std::ptrdiff_t i = 0; i + 4 * kNoiseLag < std::ssize(bins); ++i) {
+  for (std::ptrdiff_t i = 0; i + std::ptrdiff_t{4} * kNoiseLag < std::ssize(bins); ++i) {
     double sum = 0.0;
     for (std::ptrdiff_t k = 0; k < std::ssize(kFourth); ++k) sum += kFourth[k] * bins[i + k * kNoiseLag].width;
     differences.push_back(sum / std::sqrt(kFourthVariance));

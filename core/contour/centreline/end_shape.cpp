@@ -100,7 +100,10 @@ struct EndPatch {
   int rows = 0, columns = 0;
   double firstPx = 0.0;       // along the stroke, from the tip that was first thought
   std::vector<double> level;  // [grey]
-  double across(int k) const { return (k - columns / 2) * kEndStepPx; }
+  double across(int k) const {
+    const int middle = columns / 2;
+    return (k - middle) * kEndStepPx;
+  }
 };
 
 EndPatch patchAt(const EndCourse& end, double tipPx, double radius, const GreyImage& grey) {

@@ -86,8 +86,10 @@ PaperDepth measurePaper(const StepMeter& meter, const BitImage& ink, const RunCo
     for (int region = begin; region < end && !context.isCancelled(); ++region) {
       std::vector<double> depths;
       for (int i = 0; i < kSamplesPerSide * kSamplesPerSide; ++i) {
-        const double u = (region % kRegionsPerSide + (i % kSamplesPerSide + 0.5) / kSamplesPerSide) / kRegionsPerSide;
-        const double v = (region / kRegionsPerSide + (i / kSamplesPerSide + 0.5) / kSamplesPerSide) / kRegionsPerSide;
+        const int column = region % kRegionsPerSide, row = region / kRegionsPerSide;
+        const int across = i % kSamplesPerSide, down = i / kSamplesPerSide;
+        const double u = (column + (across + 0.5) / kSamplesPerSide) / kRegionsPerSide;
+        const double v = (row + (down + 0.5) / kSamplesPerSide) / kRegionsPerSide;
         const Vec2 at(u * ink.width, v * ink.height);
         const bool isInside =
             at.x() > reach && at.y() > reach && at.x() + reach < ink.width && at.y() + reach < ink.height;

@@ -147,6 +147,7 @@ std::vector<SmoothTone> smoothTones(const StrokeCourse& c) {
   const std::vector<float> sum = smoothValues(weight, c.closed, kToneSigma);
   for (float SmoothTone::*value : {&SmoothTone::contrast, &SmoothTone::paper, &SmoothTone::slope, &SmoothTone::width}) {
     std::vector<float> mean;
+    mean.reserve(tones.size());
     for (const SmoothTone& t : tones) mean.push_back(t.*value);
     mean = smoothValues(mean, c.closed, kToneSigma);
     for (int i = 0; i < c.count(); ++i) tones[i].*value = sum[i] > 0.0f ? mean[i] / sum[i] : 0.0f;
@@ -282,6 +283,7 @@ void moveBase(StrokeCourse& c, double blur) {
 
 void placeOnPixels(std::vector<StrokeCourse>& courses, const GreyImage& grey, const RunContext& context) {
   std::vector<Placer> placers;
+  placers.reserve(courses.size());
   for (const StrokeCourse& c : courses) placers.emplace_back(c, grey);
   const PixelResponse& response = PixelResponse::forBlur(pageBlur(courses, placers, context));
   const auto each = [&](std::ptrdiff_t count, int perBlock, const auto& body) {

@@ -79,6 +79,7 @@ struct SideLevels {
 void smoothLevel(std::vector<SideLevels>& levels, float SideLevels::*value, const std::vector<float>& smoothWeight,
                  bool closed) {
   std::vector<float> product;
+  product.reserve(levels.size());
   for (const SideLevels& side : levels) product.push_back(side.*value * side.weight);
   product = smoothValues(product, closed, kLevelSigma);
   for (int i = 0; i < std::ssize(levels); ++i)
@@ -100,6 +101,7 @@ void measureLevels(const EdgeProfiles& profiles, bool closed, MatchedEdges& m, c
                  static_cast<float>(sums.paper.model / sums.paper.count)};
   });
   std::vector<float> smoothWeight;
+  smoothWeight.reserve(levels.size());
   for (const SideLevels& side : levels) smoothWeight.push_back(side.weight);
   smoothWeight = smoothValues(smoothWeight, closed, kLevelSigma);
   for (float SideLevels::*value :

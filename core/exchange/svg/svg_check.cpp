@@ -108,7 +108,9 @@ Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame, double u
 /// Every outline belongs to a curve with a width and lies around it.
 Result<void> checkOutlines(const ReadSvg& svg, const ExportDocument& document, const RunContext& context,
                            SvgCheck& check) {
-  for (const auto& [id, data] : svg.outlines) {
+  for (const auto& outline : svg.outlines) {
+    const auto& id = outline.first;
+    const auto& data = outline.second;
     if (context.isCancelled()) return cancelled();
     const auto curve = std::find_if(document.curves.begin(), document.curves.end(),
                                     [&](const ExportCurve& one) { return one.id == id; });

@@ -130,7 +130,8 @@ std::string outlineLayer(const ExportDocument& document, std::size_t first, int 
     if (data.empty()) continue;
     ++svg.outlines;
     const std::string id = xmlText(curve.id);
-    paths += "    <path id=\"" + id + "-width\" batten:" + kWidthOf + "=\"" + id + "\" d=\"" + data + "\"/>\n";
+    paths.append("    <path id=\"").append(id).append("-width\" batten:").append(kWidthOf);
+    paths.append("=\"").append(id).append("\" d=\"").append(data).append("\"/>\n");
   }
   if (paths.empty()) return {};
   return "  <g id=\"widths" + (count == 1 ? std::string() : std::string("-").append(std::to_string(count))) +

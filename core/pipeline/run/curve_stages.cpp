@@ -28,6 +28,7 @@ Station stationToModel(const Station& s, const PageFrame& frame) {
 /// Where the user wants typical curves to meet on a piece.
 std::vector<Vec2> breakpointsOf(const std::vector<std::size_t>& points, const Recipe& recipe, const PageFrame& frame) {
   std::vector<Vec2> places;
+  places.reserve(points.size());
   for (const std::size_t point : points) places.push_back(frame.pointToModel(recipe.segmentPoints[point].positionPx));
   return places;
 }
