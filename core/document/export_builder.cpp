@@ -97,6 +97,7 @@ void joinWidths(std::vector<ExportPiece>& pieces, bool closed) {
 void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& recipe, bool sketched, bool isBoth,
                ExportDocument& document) {
   const DirectionOwners owners = assignDirections(*output.pieces, recipe);
+  StrokeWidths widths(output, scan);
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -119,7 +120,7 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
         ExportPiece& own = curve.pieces.emplace_back(
             ExportPiece{shapeOf(*piece, sketched), nameOfCurve(output, recipe, *piece), number});
         own.figures = figuresOf(*piece, sketched);
-        own.width = strokeWidthsAlong(output, scan, *piece, shapeOf(*piece, sketched));
+        own.width = widths.along(*piece, shapeOf(*piece, sketched));
         if (const auto& wanted = owners.ofPiece[piece->piece])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }

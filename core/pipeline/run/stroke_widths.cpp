@@ -116,17 +116,21 @@ class ThinPlaces {
   std::optional<double> inkLevel_;  ///< [grey] Of the full ink; absent: nowhere wide.
 };
 
-/// The widths of the points of a piece, where they are this stroke's alone.
-class MeasuredWidths {
+}  // namespace
+
+/// The widths of the points of a line, where they are this stroke's alone.
+class StrokeWidths::OfLine {
  public:
-  MeasuredWidths(const Contour& line, const Piece& piece, const GreyImage& grey)
-      : line_(line), piece_(piece), thin_(line, grey) {
+  OfLine(const Contour& line, const GreyImage& grey) : line_(line), thin_(line, grey) {
     std::vector<float> widths = strokeWidthsOf(line.points);
-    if (!widths.empty()) usualPx_ = upperMedian(widths);
+    isStroke_ = !widths.empty();
+    if (isStroke_) usualPx_ = upperMedian(widths);
     anyRefined_ = std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return p.refined; });
   }
+  bool isStroke() const { return isStroke_; }
   std::optional<double> usual() const { return usualPx_ > 0.0 ? std::optional(usualPx_) : std::nullopt; }
-  std::optional<double> widthAt(int index, double toStartPx, double toEndPx) const {
+  /// @param index of a point of the line, as its piece counts on from its first one.
+  std::optional<double> widthAt(const Piece& piece, int index, double toStartPx, double toEndPx) const {
     const int i = wrapIndex(index, static_cast<int>(line_.points.size()));
     const ContourPoint& point = line_.points[i];
     if (!point.widthPx || !std::isfinite(*point.widthPx)) return std::nullopt;
@@ -134,7 +138,7 @@ class MeasuredWidths {
                     [&](const auto& bridge) { return i >= bridge.first && i <= bridge.second; }))
       return std::nullopt;
     const double near = kCornerWidths * usualPx_;
-    if ((piece_.startIsCorner && toStartPx < near) || (piece_.endIsCorner && toEndPx < near)) return std::nullopt;
+    if ((piece.startIsCorner && toStartPx < near) || (piece.endIsCorner && toEndPx < near)) return std::nullopt;
     if (!anyRefined_) return *point.widthPx;  // pencil has no edges to measure between
     if (const auto thin = thin_.widthAt(i)) return thin;
     return point.refined ? std::optional<double>(*point.widthPx) : std::nullopt;
@@ -142,23 +146,29 @@ class MeasuredWidths {
 
  private:
   const Contour& line_;
-  const Piece& piece_;
   ThinPlaces thin_;
   double usualPx_ = 0.0;
-  bool anyRefined_ = false;
+  bool isStroke_ = false, anyRefined_ = false;
 };
 
-}  // namespace
+StrokeWidths::StrokeWidths(const PipelineOutput& output, const Scan& scan) : output_(output), scan_(scan) {}
+StrokeWidths::~StrokeWidths() = default;
 
-std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput& output, const Scan& scan, const TracedCurve& curve,
-                                              const NurbsCurve& shape) {
-  if (shape.isEmpty() || !output.pieces || !output.contours) return std::nullopt;
+const StrokeWidths::OfLine& StrokeWidths::ofLine(int contour) {
+  std::unique_ptr<OfLine>& known = lines_[contour];
+  if (!known) known = std::make_unique<OfLine>(output_.contours->contours[contour], tracedGrey(scan_, output_));
+  return *known;
+}
+
+std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const NurbsCurve& shape) {
+  if (shape.isEmpty() || !output_.pieces || !output_.contours) return std::nullopt;
   // Curves of an older run may be shown beside the pieces of a newer one, for a moment.
-  if (curve.piece < 0 || curve.piece >= std::ssize(output.pieces->pieces)) return std::nullopt;
-  const Piece& piece = output.pieces->pieces[curve.piece];
-  const Contour& line = output.contours->contours[piece.contour];
-  if (strokeWidthsOf(line.points).empty() || piece.points.size() < 2) return std::nullopt;
-  const double pixel = output.frame.mmPerPx;
+  if (curve.piece < 0 || curve.piece >= std::ssize(output_.pieces->pieces)) return std::nullopt;
+  const Piece& piece = output_.pieces->pieces[curve.piece];
+  if (piece.points.size() < 2) return std::nullopt;
+  const OfLine& widths = ofLine(piece.contour);
+  if (!widths.isStroke()) return std::nullopt;
+  const double pixel = output_.frame.mmPerPx;
   const CurveWalk walk(shape, curve.closed, pixel);
   if (!(walk.length() > 0.0)) return std::nullopt;
   const std::vector<double> along = cumulativeLength(piece.points);
@@ -166,18 +176,22 @@ std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput& output, cons
   if (!(whole > 0.0)) return std::nullopt;
   // A faired or simplified curve may be shorter or longer than its line.
   const double samplesPerPx = walk.length() / walk.step() / whole;
-  const MeasuredWidths widths(line, piece, tracedGrey(scan, output));
   std::vector<WidthSample> measured;
-  std::ptrdiff_t at = curve.closed ? walk.nearest(output.frame.pointToModel(piece.points[0])) : 0;
+  std::ptrdiff_t at = curve.closed ? walk.nearest(output_.frame.pointToModel(piece.points[0])) : 0;
   for (int i = 0; i < std::ssize(piece.points); ++i) {
     const double gone = i > 0 ? along[i] - along[i - 1] : 0.0;
-    at = walk.near(at + std::lround(gone * samplesPerPx), output.frame.pointToModel(piece.points[i]));
-    if (const auto px = widths.widthAt(piece.firstPoint + i, along[i], whole - along[i]))
-      measured.push_back({walk.arcLength(at), output.frame.lengthToModel(*px)});
+    at = walk.near(at + std::lround(gone * samplesPerPx), output_.frame.pointToModel(piece.points[i]));
+    if (const auto px = widths.widthAt(piece, piece.firstPoint + i, along[i], whole - along[i]))
+      measured.push_back({walk.arcLength(at), output_.frame.lengthToModel(*px)});
   }
   // A piece all of which is near corners or crossings: as wide as its line.
-  if (measured.empty()) measured.push_back({0.0, output.frame.lengthToModel(widths.usual().value_or(0.0))});
+  if (measured.empty()) measured.push_back({0.0, output_.frame.lengthToModel(widths.usual().value_or(0.0))});
   return fittedWidths(measured, walk.length(), curve.closed, pixel);
+}
+
+std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput& output, const Scan& scan, const TracedCurve& curve,
+                                              const NurbsCurve& shape) {
+  return StrokeWidths(output, scan).along(curve, shape);
 }
 
 }  // namespace batten
