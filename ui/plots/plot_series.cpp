@@ -16,6 +16,16 @@
 #include "ui/session/edits/fairing_edits.h"
 
 namespace batten {
+
+double PlotSeries::at(double place) const {
+  const auto next = std::lower_bound(s.begin(), s.end(), place) - s.begin();
+  if (next == 0) return value.front();
+  if (next == std::ssize(s)) return value.back();
+  const double from = s[next - 1], width = s[next] - from;
+  const double t = width > 0.0 ? (place - from) / width : 0.0;
+  return value[next - 1] + t * (value[next] - value[next - 1]);
+}
+
 namespace {
 
 constexpr double kLargestRadius = 20.0;  // extents that a plot shows

@@ -21,6 +21,9 @@ struct PlotSeries {
   PlotRole role = PlotRole::Sketched;
   int degree = 0;                ///< Targets: 1..6.
   std::vector<double> s, value;  ///< Same size, s ascending [mm]; only finite values.
+  /// Between the two samples beside the place; held beyond either end.
+  /// @pre not empty.
+  double at(double place) const;
 };
 
 /// Everything one plot draws of the selected curve.

@@ -21,15 +21,6 @@ bool isTarget(const PlotSeries& series) {
          series.role == PlotRole::HoveredTarget;
 }
 
-double valueAt(const PlotSeries& series, double s) {
-  const auto next = std::lower_bound(series.s.begin(), series.s.end(), s);
-  if (next == series.s.begin()) return series.value.front();
-  if (next == series.s.end()) return series.value.back();
-  const auto i = static_cast<std::size_t>(next - series.s.begin());
-  const double t = (s - series.s[i - 1]) / (series.s[i] - series.s[i - 1]);
-  return series.value[i - 1] + t * (series.value[i] - series.value[i - 1]);
-}
-
 }  // namespace
 
 void TargetLabels::show(const PlotData& data) {
@@ -69,13 +60,13 @@ bool TargetLabels::placeOne(std::size_t line, bool clear, std::vector<QPointF>& 
   const int first = (static_cast<int>(line) * kSlots / static_cast<int>(lines_.size()) + kSlots / 12) % kSlots;
   for (int k = 0; k < kSlots; ++k) {
     const double s = shown.lower + shown.size() * ((first + k) % kSlots + 0.5) / kSlots;
-    const double value = valueAt(lines_[line], s);
+    const double value = lines_[line].at(s);
     const QPointF at(plot_->xAxis->coordToPixel(s), plot_->yAxis->coordToPixel(value));
     const auto isNear = [&](const QPointF& other) {
       return std::hypot(other.x() - at.x(), other.y() - at.y()) < kApartPx;
     };
     const auto isOnCurve = [&](const PlotSeries& curve) {
-      return std::abs(plot_->yAxis->coordToPixel(valueAt(curve, s)) - at.y()) < kFromCurvePx;
+      return std::abs(plot_->yAxis->coordToPixel(curve.at(s)) - at.y()) < kFromCurvePx;
     };
     if (!std::isfinite(at.y()) || !inside.contains(at) || std::any_of(taken.begin(), taken.end(), isNear)) continue;
     if (clear && std::any_of(curves_.begin(), curves_.end(), isOnCurve)) continue;

@@ -25,16 +25,6 @@ QString quantity(PlotTab tab, const QString& number) {
   return {};
 }
 
-/// Between the two samples beside the place.
-double valueBetween(const PlotSeries& series, double s) {
-  const auto next = std::lower_bound(series.s.begin(), series.s.end(), s) - series.s.begin();
-  if (next == 0) return series.value.front();
-  if (next == std::ssize(series.s)) return series.value.back();
-  const double from = series.s[next - 1], width = series.s[next] - from;
-  const double t = width > 0.0 ? (s - from) / width : 0.0;
-  return series.value[next - 1] + t * (series.value[next] - series.value[next - 1]);
-}
-
 }  // namespace
 
 QString valueText(const PlotData& data, PlotTab tab, double s, const NurbsCurve& shown) {
@@ -48,7 +38,7 @@ QString valueText(const PlotData& data, PlotTab tab, double s, const NurbsCurve&
     const auto series = std::find_if(data.series.begin(), data.series.end(),
                                      [role](const PlotSeries& one) { return one.role == role; });
     if (series == data.series.end()) continue;
-    return place + quantity(tab, QString::number(valueBetween(*series, s), 'g', 4));
+    return place + quantity(tab, QString::number(series->at(s), 'g', 4));
   }
   return place;
 }
