@@ -20,7 +20,7 @@ std::optional<FairingTarget> targetOfNumber(int number) {
 }
 
 std::optional<Error> validate(const FairingParams& params) {
-  if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
+  if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= kLargestToleranceMm)) {
     return Error{ErrorCode::BadParameter,
                  "The fairing tolerance must be between 0.001 and 20 mm, not " + numberToText(params.toleranceMm) + ".",
                  {}};

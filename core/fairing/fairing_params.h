@@ -60,6 +60,8 @@ inline bool isPolynomial(FairingTarget target) {
 }
 
 inline constexpr double kLeastAlpha = -3.0, kMostAlpha = 6.0;
+/// [mm] Of FairingParams::toleranceMm.
+inline constexpr double kLargestToleranceMm = 20.0;
 /// FairingParams::keepExtrema: as few as the tolerance allows.
 inline constexpr int kKeepSignificant = -1;
 

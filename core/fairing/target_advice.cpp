@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/curve/curvature.h"
+#include "core/fairing/fairing_params.h"
 
 namespace batten {
 namespace {
@@ -14,7 +15,6 @@ constexpr double kStillTarget = 1e-3;
 constexpr double kLeastSimilarity = 0.2;
 /// Of the extent: a car's roof of 250 mm may move by 5 mm.
 constexpr double kSensibleShare = 0.02;
-constexpr double kLargestToleranceMm = 20.0;  // of the parameter
 
 }  // namespace
 

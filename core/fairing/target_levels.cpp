@@ -18,9 +18,6 @@ namespace {
 /// A profile of more polynomials says nothing that the curve does not say itself.
 constexpr std::size_t kMostSplits = 24;
 
-/// [mm] The largest tolerance there is: what a target needs beyond it is not looked for more closely.
-constexpr double kLargestNeedMm = 20.0;
-
 bool hasNaturalSpans(const TargetParams& params) {
   return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
 }
@@ -104,7 +101,7 @@ class LevelFairing {
   /// Of the most spans, which every tolerance has, and of those that need less than they do.
   /// @return the level that needs least.
   std::optional<std::size_t> findNeed() {
-    const double claimed = setup_->claimedMm(), largest = kLargestNeedMm - claimed;
+    const double claimed = setup_->claimedMm(), largest = kLargestToleranceMm - claimed;
     std::optional<std::size_t> least;
     const auto offer = [&](std::size_t i, double most) {
       const auto need = needOf(i, most);

@@ -103,7 +103,7 @@ void appendToleranceAndMeans(std::vector<Parameter>& table) {
       kFaired,
       {"fairing.tolerance", "Tolerance", "mm",
        "Maximum distance of the faired curve from the sketched one. Larger: fairer, less faithful."},
-      {0.001, 20.0, 0.01, 3, true}, [](auto& r) -> auto& { return r.fairing.toleranceMm; }));
+      {0.001, kLargestToleranceMm, 0.01, 3, true}, [](auto& r) -> auto& { return r.fairing.toleranceMm; }));
   table.push_back(choice<TolerancePolicy>(
       kFaired,
       {"fairing.spend", "Use the tolerance", "",
