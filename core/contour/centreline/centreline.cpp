@@ -47,12 +47,7 @@ std::vector<StrokePath> centrelinesOf(const BitImage& ink, const CentrelineOptio
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
   const bool isKnown = options.known != nullptr && options.known->ink == all;
   if (isKnown && shapes == nullptr) return std::move(options.known->paths);
-  BitImage skeleton;
-  if (isKnown) {
-    skeleton = std::move(options.known->skeleton);
-  } else {
-    skeleton = all;
-  }
+  BitImage skeleton = isKnown ? std::move(options.known->skeleton) : BitImage(all);
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
   if (shapes == nullptr) return findStrokePaths(skeleton, all, params, context);
   std::vector<StrokePath> paths = findStrokePaths(without(std::move(skeleton), *shapes), all, params, context);

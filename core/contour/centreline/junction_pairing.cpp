@@ -92,21 +92,21 @@ std::vector<std::pair<int, int>> greedyPairs(int ends, std::vector<PairCost> cos
 }
 
 // The first point from `first` on where the stroke is as wide as usual; `first`, where it is nowhere.
-int withoutFatInk(const EndPoints& points, int first) {
+int withoutFatInk(const EdgeFromEnd& points, int first) {
   std::vector<float> radii;
-  for (int k = first; k < std::ssize(points); ++k) radii.push_back(points[k].radius);
+  for (int k = first; k < points.size(); ++k) radii.push_back(points[k].radius);
   const double usual = static_cast<double>(upperMedian(radii));
   double arc = 0.0;
-  for (int k = first; k < std::ssize(points) && arc <= kFatReach * usual; ++k) {
+  for (int k = first; k < points.size() && arc <= kFatReach * usual; ++k) {
     if (static_cast<double>(points[k].radius) <= kFatRadius * usual + 0.25) return k;
-    if (k + 1 < std::ssize(points)) arc += (points[k + 1].at - points[k].at).norm();
+    if (k + 1 < points.size()) arc += (points[k + 1].at - points[k].at).norm();
   }
   return first;
 }
 
-MeetingEnd measureFrom(int first, const EndPoints& points, const SkeletonNode& node, double usualRadius) {
+MeetingEnd measureFrom(int first, const EdgeFromEnd& points, const SkeletonNode& node, double usualRadius) {
   MeetingEnd e;
-  const int n = static_cast<int>(points.size());
+  const int n = points.size();
   // An edge that hardly leaves the disc keeps its far half.
   e.first = first == n - 1 ? n / 2 : first;
   const double reach = std::max(kLeastTangentPx, kTangentRadii * usualRadius);
@@ -131,18 +131,18 @@ MeetingEnd measureFrom(int first, const EndPoints& points, const SkeletonNode& n
 
 }  // namespace
 
-std::vector<MeetingEnd> measureEnds(std::span<const EndPoints> points, const SkeletonNode& node, double usualRadius) {
+std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const SkeletonNode& node, double usualRadius) {
   std::vector<MeetingEnd> ends;
-  for (const EndPoints& p : points) {
+  for (const EdgeFromEnd& p : edges) {
     int first = 0;
-    while (first < std::ssize(p) - 1 && (p[first].at - node.centre).norm() < kTrimRadii * node.radius) ++first;
+    while (first < p.size() - 1 && (p[first].at - node.centre).norm() < kTrimRadii * node.radius) ++first;
     ends.push_back(measureFrom(first, p, node, usualRadius));
   }
   if (ends.size() != 3) return ends;
   const std::array<Vec2, 3> out = {ends[0].out, ends[1].out, ends[2].out};
   for (int i = 0; i < 3; ++i) {
     if (out[(i + 1) % 3].dot(out[(i + 2) % 3]) > kForkCos)
-      ends[i] = measureFrom(withoutFatInk(points[i], ends[i].first), points[i], node, usualRadius);
+      ends[i] = measureFrom(withoutFatInk(edges[i], ends[i].first), edges[i], node, usualRadius);
   }
   return ends;
 }

@@ -18,13 +18,10 @@ struct MeetingEnd {
   double radius = 0.5;      ///< [px] usual half-width beyond it.
 };
 
-/// Points of an edge, the junction's first.
-using EndPoints = std::vector<StrokePathPoint>;
-
-/// The ends of a junction, as `points` come to it. Where two of three ends leave it side by side, the third begins
-/// beyond the ink that is wider than usual: two strokes share it, and its middle is that of neither.
+/// The ends of a junction, by the points of their edges from it on. Where two of three ends leave it side by side, the
+/// third begins beyond the ink that is wider than usual: two strokes share it, and its middle is that of neither.
 /// @param usualRadius [px] of the strokes of the page.
-std::vector<MeetingEnd> measureEnds(std::span<const EndPoints> points, const SkeletonNode& node, double usualRadius);
+std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const SkeletonNode& node, double usualRadius);
 
 /// Which ends of a junction are one stroke: over all of it at once, by their bend, by how far one lies aside of the
 /// other's course, and by how alike their widths are. An end that bends to every other by more than `maxBendDeg` stays

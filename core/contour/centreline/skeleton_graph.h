@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/contour/centreline/stroke_paths.h"
@@ -16,6 +17,18 @@ struct SkeletonEdge {
   double length = 0.0;
   bool alive = true;
   bool ring = false;  ///< A closed loop without a node.
+};
+
+/// The points of an edge from one of its ends on.
+class EdgeFromEnd {
+ public:
+  EdgeFromEnd(const std::vector<StrokePathPoint>& points, int side) : points_(points), isReversed_(side == 1) {}
+  int size() const { return static_cast<int>(points_.size()); }
+  const StrokePathPoint& operator[](int k) const { return points_[isReversed_ ? size() - 1 - k : k]; }
+
+ private:
+  std::span<const StrokePathPoint> points_;
+  bool isReversed_;
 };
 
 struct SkeletonNode {

@@ -41,19 +41,14 @@ class StrokePathMaker {
 
  private:
   const SkeletonEdge& edge_(int i) const { return graph_.edges()[i]; }
-  const StrokePathPoint& point(int end, int k) const {
-    const auto& p = edge_(end / 2).points;
-    return p[end % 2 == 0 ? k : std::ssize(p) - 1 - k];
-  }
+  EdgeFromEnd fromEnd(int end) const { return {edge_(end / 2).points, end % 2}; }
+  const StrokePathPoint& point(int end, int k) const { return fromEnd(end)[k]; }
 
   void pair(const SkeletonNode& node) {
     if (node.ends.size() < 2) return;
-    std::vector<EndPoints> points;
-    for (const int end : node.ends) {
-      points.push_back(edge_(end / 2).points);
-      if (end % 2 == 1) std::reverse(points.back().begin(), points.back().end());
-    }
-    const std::vector<MeetingEnd> meeting = measureEnds(points, node, graph_.medianRadius());
+    std::vector<EdgeFromEnd> edges;
+    for (const int end : node.ends) edges.push_back(fromEnd(end));
+    const std::vector<MeetingEnd> meeting = measureEnds(edges, node, graph_.medianRadius());
     for (int i = 0; i < std::ssize(meeting); ++i) ends_[node.ends[i]] = meeting[i];
     for (const auto& [a, b] : pairEnds(meeting, node.radius, graph_.medianRadius(), maxBendDeg_)) {
       partner_[node.ends[a]] = node.ends[b];
