@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/run/pipeline.h"
+#include "tests/bench/traced_lines.h"
 #include "tests/support/dense_page.h"
 
 using namespace batten;
@@ -119,21 +119,6 @@ std::vector<Drawn> pairsOf(const Kind& kind, Random& random) {
   return drawn;
 }
 
-std::vector<Line> tracedOn(const Scan& scan) {
-  StageCache cache;
-  PipelineRequest request;
-  request.upTo = StageId::Contours;
-  request.needEdges = false;
-  const PipelineOutput out = runPipeline(scan, Recipe{}, cache, request, {});
-  std::vector<Line> lines;
-  if (!out.contours) return lines;
-  for (const Contour& c : out.contours->contours) {
-    lines.push_back(positionsOf(c.points));
-    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front().at);
-  }
-  return lines;
-}
-
 DenseScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed) {
   std::vector<float> cover(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
   std::vector<Line> truth;
@@ -144,7 +129,7 @@ DenseScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed) {
     truth.push_back(d.points);
     widest = std::max(widest, d.widthPx);
   }
-  return scoreDense(truth, tracedOn(scanOfLines(std::move(cover), kWidth, kHeight, seed)), widest, 3.0 * widest);
+  return scoreDense(truth, tracedLines(scanOfLines(std::move(cover), kWidth, kHeight, seed), {}), widest, 3.0 * widest);
 }
 
 }  // namespace

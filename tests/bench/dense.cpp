@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/pipeline/recipe/parameter_table.h"
-#include "core/pipeline/run/pipeline.h"
+#include "tests/bench/traced_lines.h"
 #include "tests/support/dense_page.h"
 
 using namespace batten;
@@ -41,21 +41,6 @@ struct Sum {
   }
 };
 
-Lines tracedOn(const Scan& scan, const Recipe& recipe) {
-  StageCache cache;
-  PipelineRequest request;
-  request.upTo = StageId::Contours;
-  request.needEdges = false;
-  const PipelineOutput out = runPipeline(scan, recipe, cache, request, {});
-  Lines lines;
-  if (!out.contours) return lines;
-  for (const Contour& c : out.contours->contours) {
-    lines.push_back(positionsOf(c.points));
-    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front().at);
-  }
-  return lines;
-}
-
 void hatching(bool pencil, const Recipe& recipe) {
   std::printf("\n%s hatching, %d lines a field, straight and curved\n", pencil ? "Pencil" : "Pen", kCount);
   std::printf("%-34s %12s %6s %6s %8s %8s\n", "", "whole", "pieces", "lost", "bridges", "rms px");
@@ -71,7 +56,7 @@ void hatching(bool pencil, const Recipe& recipe) {
             grainCoverage(
                 cover, kWidth, kHeight, [](double, double) { return 1.0; }, seed);
           const Scan scan = scanOfLines(std::move(cover), kWidth, kHeight, seed);
-          sum.add(scoreDense(lines, tracedOn(scan, recipe), 0.5 * spacing * width, 2.0 * width));
+          sum.add(scoreDense(lines, tracedLines(scan, recipe), 0.5 * spacing * width, 2.0 * width));
         }
       }
       char name[64];
@@ -102,7 +87,7 @@ void halfAndHalf(const Recipe& recipe) {
         }
         grainCoverage(
             cover, kWidth, kHeight, [](double x, double) { return std::clamp((x - 315.0) / 10.0, 0.0, 1.0); }, seed);
-        const Lines found = tracedOn(scanOfLines(std::move(cover), kWidth, kHeight, seed), recipe);
+        const Lines found = tracedLines(scanOfLines(std::move(cover), kWidth, kHeight, seed), recipe);
         if (through) {
           const Lines all = hatchLines({320.0, 240.0}, 7.0, kCount, spacing, 600.0, 0.0);
           pen.add(scoreDense(all, found, 0.5 * spacing, 2.0 * width));
@@ -137,7 +122,7 @@ void curveThrough(const Recipe& recipe) {
         grainCoverage(
             penCurve ? below : above, kWidth, kHeight, [](double, double) { return 1.0; }, seed);
         for (std::size_t i = 0; i < below.size(); ++i) below[i] = std::max(below[i], above[i]);
-        const Lines found = tracedOn(scanOfLines(std::move(below), kWidth, kHeight, seed), recipe);
+        const Lines found = tracedLines(scanOfLines(std::move(below), kWidth, kHeight, seed), recipe);
         curve.add(scoreDense(one, found, 4.0, 8.0));
         hatch.add(scoreDense(lines, found, 1.5 * spacing, 6.0));
       }

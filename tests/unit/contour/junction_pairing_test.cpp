@@ -59,6 +59,22 @@ TEST(JunctionPairing, ManyEndsArePairedToo) {
   for (const auto& [a, b] : pairs) EXPECT_EQ(b - a, 8);
 }
 
+// How lines of a width are found on a scan of them, by the middles of what is darker than half-way.
+test::DenseScore scoreOf(const std::vector<std::vector<Vec2>>& lines, double widthPx, double tolerancePx, double endsPx,
+                         int width, int height, std::uint32_t seed) {
+  const Scan scan = test::scanOfLines(test::coverageOf(lines, widthPx, width, height), width, height, seed);
+  BitImage ink(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
+  const auto set = centrelines(ink, scan.grey, {}, {});
+  EXPECT_TRUE(set);
+  std::vector<std::vector<Vec2>> found;
+  if (set) {
+    for (const Contour& c : set->contours) found.push_back(positionsOf(c.points));
+  }
+  return test::scoreDense(lines, found, tolerancePx, endsPx);
+}
+
 // Straight lines of 4 px that cross, or branch off, at a small angle: every one is found as one line.
 TEST(JunctionPairing, LinesAtSmallAnglesAreWhole) {
   constexpr int kWidth = 640, kHeight = 480;
@@ -66,15 +82,7 @@ TEST(JunctionPairing, LinesAtSmallAnglesAreWhole) {
     for (const double firstDeg : {4.0, 37.0, 81.0}) {
       std::vector<std::vector<Vec2>> lines = test::hatchLines({320, 240}, firstDeg, 1, 1.0, 360.0, 0.0);
       lines.push_back(test::hatchLines({320, 240}, firstDeg + angleDeg, 1, 1.0, 360.0, 0.0).front());
-      const Scan scan = test::scanOfLines(test::coverageOf(lines, 4.0, kWidth, kHeight), kWidth, kHeight, 3);
-      BitImage ink(kWidth, kHeight);
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
-      const auto set = centrelines(ink, scan.grey, {}, {});
-      ASSERT_TRUE(set);
-      std::vector<std::vector<Vec2>> found;
-      for (const Contour& c : set->contours) found.push_back(positionsOf(c.points));
-      const test::DenseScore score = test::scoreDense(lines, found, 4.0, 12.0);
+      const test::DenseScore score = scoreOf(lines, 4.0, 4.0, 12.0, kWidth, kHeight, 3);
       EXPECT_EQ(score.whole, 2) << angleDeg << " degrees at " << firstDeg;
       EXPECT_EQ(score.bridges, 0) << angleDeg << " degrees at " << firstDeg;
     }
@@ -89,15 +97,7 @@ TEST(JunctionPairing, CrossHatchingIsWhole) {
     std::vector<std::vector<Vec2>> lines = test::hatchLines({240, 180}, 45.0, 14, spacingPx, 200.0, 0.0);
     const auto others = test::hatchLines({240, 180}, -45.0, 14, spacingPx, 200.0, 0.0);
     lines.insert(lines.end(), others.begin(), others.end());
-    const Scan scan = test::scanOfLines(test::coverageOf(lines, 3.0, kWidth, kHeight), kWidth, kHeight, 4);
-    BitImage ink(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
-    const auto set = centrelines(ink, scan.grey, {}, {});
-    ASSERT_TRUE(set);
-    std::vector<std::vector<Vec2>> found;
-    for (const Contour& c : set->contours) found.push_back(positionsOf(c.points));
-    const test::DenseScore score = test::scoreDense(lines, found, 2.0, 6.0);
+    const test::DenseScore score = scoreOf(lines, 3.0, 2.0, 6.0, kWidth, kHeight, 4);
     EXPECT_GE(score.whole, 27) << spacingPx;
     EXPECT_EQ(score.bridges, 0) << spacingPx;
   }

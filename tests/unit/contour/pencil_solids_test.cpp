@@ -7,10 +7,9 @@
 
 #include "core/contour/blots.h"
 #include "core/contour/ink_split.h"
-#include "core/contour/trace_contours.h"
-#include "core/image/binarize.h"
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/dense_page.h"
+#include "tests/unit/contour/traced_page.h"
 
 namespace batten {
 namespace {
@@ -70,14 +69,6 @@ GreyImage pencilPage(const std::vector<std::vector<Vec2>>& lines, std::uint32_t 
   return test::scanOfLines(std::move(cover), kSolidPageWidth, kSolidPageHeight, seed).grey;
 }
 
-ContourSet tracedPencil(const GreyImage& grey) {
-  const ThresholdParams params;
-  const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
-  const auto set = traceContours(ink, grey, {}, {}, {});
-  EXPECT_TRUE(set);
-  return set ? *set : ContourSet{};
-}
-
 TEST(PencilSolids, ADotAloneIsFollowedByItsBorderAndSpecksAreNot) {
   constexpr double kDotRadius = 11.0;
   const std::vector<Vec2> dots = {{100, 83}, {380, 270}};
@@ -87,7 +78,7 @@ TEST(PencilSolids, ADotAloneIsFollowedByItsBorderAndSpecksAreNot) {
       return std::any_of(dots.begin(), dots.end(), [&](const Vec2& d) { return (p - d).norm() < kDotRadius; });
     });
     std::vector<int> borders(dots.size(), 0);
-    for (const Contour& c : tracedPencil(grey).contours) {
+    for (const Contour& c : tracedPage(grey).contours) {
       if (c.kind != ContourKind::Outline) continue;
       bool isOfDot = false;
       for (std::size_t i = 0; i < dots.size(); ++i) {
@@ -118,7 +109,7 @@ TEST(PencilSolids, LeaveTheLinesBesideThemStrokes) {
   auto lines = test::hatchLines({400, 180}, 80.0, 4, 30.0, 300.0, 0.0);
   for (auto& line : test::hatchLines({60, 180}, 80.0, 3, 30.0, 300.0, 0.0)) lines.push_back(std::move(line));
   for (const std::uint32_t seed : {2u, 3u, 5u}) {
-    const ContourSet set = tracedPencil(pencilPage(lines, seed, [&](const Vec2& p) { return tone.contains(p); }));
+    const ContourSet set = tracedPage(pencilPage(lines, seed, [&](const Vec2& p) { return tone.contains(p); }));
     double centrePx = 0.0;
     for (const Contour& c : set.contours) {
       const double x = c.points.front().at.x();

@@ -6,9 +6,8 @@
 #include <algorithm>
 
 #include "core/contour/contour_set.h"
-#include "core/contour/trace_contours.h"
-#include "core/image/binarize.h"
 #include "tests/support/dense_page.h"
+#include "tests/unit/contour/traced_page.h"
 
 namespace batten {
 namespace {
@@ -27,14 +26,6 @@ std::vector<Vec2> straight(const Vec2& a, const Vec2& b) {
 void ink(std::vector<float>& cover, const Lines& lines, double widthPx, float most) {
   const std::vector<float> added = test::coverageOf(lines, widthPx, kLadderWidth, kLadderHeight);
   for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], most * added[i]);
-}
-
-ContourSet traced(const GreyImage& grey) {
-  const ThresholdParams params;
-  const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
-  const auto set = traceContours(ink, grey, {}, {}, {});
-  EXPECT_TRUE(set);
-  return set ? *set : ContourSet{};
 }
 
 // Share of a line's middle three quarters that found lines of its direction cover within `nearPx`.
@@ -87,7 +78,7 @@ TEST(ShortStrokes, AWeakStrokeBetweenStrongOnesHasALine) {
   for (int k = 0; k < 7; ++k)
     rungs.push_back(straight({100.0 + 40.0 * k, 30.6 + 40.4 * k}, {100.0 + 40.0 * k, 70.6 + 40.4 * k}));
   int found = 0;
-  for (const std::uint32_t seed : kSeeds) found += linesFound(rungs, traced(pencilPage(rails, rungs, seed)), 0.7);
+  for (const std::uint32_t seed : kSeeds) found += linesFound(rungs, tracedPage(pencilPage(rails, rungs, seed)), 0.7);
   EXPECT_GE(found, 25) << "of 28";
 }
 
@@ -103,7 +94,7 @@ TEST(ShortStrokes, ARungBetweenBroadRailsHasALine) {
   ink(cover, rungs, kRungPx, 1.0f);
   ink(cover, thin, kRailPx, 1.0f);
   int found = 0;
-  for (const std::uint32_t seed : kSeeds) found += linesFound(rungs, traced(pencilScan(cover, seed)), 0.9);
+  for (const std::uint32_t seed : kSeeds) found += linesFound(rungs, tracedPage(pencilScan(cover, seed)), 0.9);
   EXPECT_GE(found, 10) << "of 16: grain tears some of them";
 }
 
@@ -114,7 +105,7 @@ TEST(ShortStrokes, AWeakStrokeAloneHasALine) {
   for (int k = 0; k < 8; ++k)
     ticks.push_back(straight({70.0 + 45.0 * k, 50.0 + 70.0 * (k % 4)}, {72.0 + 45.0 * k, 82.0 + 70.0 * (k % 4)}));
   int found = 0;
-  for (const std::uint32_t seed : kSeeds) found += linesFound(ticks, traced(pencilPage(rails, ticks, seed)), 0.6);
+  for (const std::uint32_t seed : kSeeds) found += linesFound(ticks, tracedPage(pencilPage(rails, ticks, seed)), 0.6);
   EXPECT_GE(found, 30) << "of 32";
 }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "core/contour/trace_contours.h"
+#include "core/image/binarize.h"
+
+namespace batten {
+
+/// The lines of a page, all parameters as they are by default.
+inline ContourSet tracedPage(const GreyImage& grey) {
+  const ThresholdParams params;
+  const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
+  const auto set = traceContours(ink, grey, {}, {}, {});
+  EXPECT_TRUE(set);
+  return set ? *set : ContourSet{};
+}
+
+}  // namespace batten
