@@ -4,10 +4,10 @@
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QFile>
-#include <QPointer>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <atomic>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -191,16 +191,21 @@ TEST(EditorSession, ClosesWhileItWorks) {
   ASSERT_TRUE(waitUntil([&] { return session->hasScan(); }));
   EXPECT_TRUE(session->isBusy());
   // Another session, opened afterwards, gets all its stages while the abandoned run ends: nothing of the first one is
-  // posted to an object that is gone (address sanitizer), and nothing waits for it.
-  const QPointer<EditorSession> watched = session.get();
+  // posted to an object that is gone (address sanitizer too), and no job of it keeps its scan.
+  int delivered = 0;
+  QObject::connect(session.get(), &EditorSession::stageReady, qApp, [&delivered] { ++delivered; });
+  QObject::connect(session.get(), &EditorSession::runFinished, qApp, [&delivered] { ++delivered; });
+  const std::weak_ptr<const Scan> scan = session->scan();
   QElapsedTimer closing;
   closing.start();
   session.reset();
-  EXPECT_TRUE(watched.isNull());
   EXPECT_LT(closing.elapsed(), 2000) << "closing waits at most for the step that runs";
+  const int beforeItsDeath = delivered;
   OpenSession next(test::zigzagPage());
   ASSERT_TRUE(next.isReady);
   EXPECT_FALSE(next.session.isStale(StageId::Faired));
+  EXPECT_TRUE(waitUntil([&] { return scan.expired(); })) << "something still works on the closed drawing";
+  EXPECT_EQ(delivered, beforeItsDeath) << "stages of the closed drawing were delivered";
 }
 
 TEST(EditorSession, TheSelectionStaysWithItsPlace) {
