@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/construct/light/bezier_spans.h"
 #include "core/construct/light/light_reference.h"
-#include "core/construct/light/span_basis.h"
 #include "core/curve/nurbs_curve.h"
 
 namespace batten {

@@ -5,10 +5,10 @@
 #include <array>
 #include <vector>
 
+#include "core/construct/light/bezier_spans.h"
 #include "core/construct/light/light_fit.h"
 #include "core/construct/light/light_matrix.h"
 #include "core/construct/light/light_rows.h"
-#include "core/construct/light/span_basis.h"
 #include "core/construct/light/span_system.h"
 #include "core/construct/light/switch_places.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/vec2.h"
-#include "core/construct/light/span_basis.h"
+#include "core/construct/light/bezier_spans.h"
 
 /// The loops that a light fit spends its time in, on plain arrays of known widths; every element is computed by itself,
 /// so that wider vectors give the same bits.

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/construct/light/bezier_spans.h"
 #include "core/construct/light/light_rows.h"
-#include "core/construct/light/span_basis.h"
 #include "core/construct/light/span_kernels.h"
 
 namespace batten {

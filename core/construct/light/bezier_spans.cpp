@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/light/span_basis.h"
+#include "core/construct/light/bezier_spans.h"
 
 namespace batten {
 namespace {
