@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/run/curve_stages.h"
-#include "core/pipeline/run/piece_construction.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -109,11 +108,6 @@ PieceRange rangeOf(const PieceSet& set, int contour) {
   return {0, 0};
 }
 
-struct ContourOutcome {
-  std::vector<TracedCurve> curves;
-  std::vector<Error> failures;
-};
-
 class ContourBuilder {
  public:
   ContourBuilder(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
@@ -139,11 +133,11 @@ class ContourBuilder {
   }
 
   /// From the points of the line, whatever the user chose for its curves.
-  ContourOutcome buildFromPoints(PieceRange range) const { return buildAlike(range); }
+  ConstructedSet buildFromPoints(PieceRange range) const { return buildAlike(range); }
 
-  ContourOutcome build(PieceRange range) const {
+  ConstructedSet build(PieceRange range) const {
     auto imported = buildImported(range);
-    ContourOutcome outcome = imported ? std::move(*imported) : buildAlike(range);
+    ConstructedSet outcome = imported ? std::move(*imported) : buildAlike(range);
     if (choices_.empty()) return outcome;
     for (TracedCurve& curve : outcome.curves) {
       const auto& choice = choices_[curve.piece];
@@ -155,8 +149,8 @@ class ContourBuilder {
   }
 
  private:
-  ContourOutcome buildAlike(PieceRange range) const {
-    ContourOutcome outcome;
+  ConstructedSet buildAlike(PieceRange range) const {
+    ConstructedSet outcome;
     if (auto all = constructRange(range, recipe_.construct)) {
       for (std::size_t i = range.first; i < range.last; ++i) add(outcome, i, std::move((*all)[i - range.first]));
       return outcome;
@@ -216,12 +210,12 @@ class ContourBuilder {
 
   /// Curves of other programs stay what they are, until the user chooses a method for one of them. Nothing for other
   /// lines.
-  std::optional<ContourOutcome> buildImported(PieceRange range) const {
+  std::optional<ConstructedSet> buildImported(PieceRange range) const {
     const Contour& contour = contours_.contours[pieces_.pieces[range.first].contour];
     const ImportedLine* line = importedLineOf(contour, recipe_.imports);
     if (line == nullptr || line->curves.empty()) return std::nullopt;
     const std::span<const Piece> pieces(pieces_.pieces.data() + range.first, range.last - range.first);
-    ContourOutcome outcome;
+    ConstructedSet outcome;
     const auto exact = importedCurves(*line, pieces, frame_, importStepPx_);
     for (std::size_t i = 0; i < exact.size(); ++i) {
       if (!exact[i]) return std::nullopt;
@@ -238,7 +232,7 @@ class ContourBuilder {
     return error;
   }
 
-  void add(ContourOutcome& outcome, std::size_t index, ConstructedPiece made) const {
+  void add(ConstructedSet& outcome, std::size_t index, ConstructedPiece made) const {
     const Piece& piece = pieces_.pieces[index];
     TracedCurve curve;
     curve.contour = piece.contour;
@@ -312,12 +306,12 @@ Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& 
   const std::vector<PieceRange> ranges = rangesByContour(pieces);
   const RunContext inner = itemContext(context, ranges.size());
   const ContourBuilder builder(contours, pieces, segments, recipe, frame, inner);
-  std::vector<ContourOutcome> outcomes(ranges.size());
+  std::vector<ConstructedSet> outcomes(ranges.size());
   forEachItem(context, ranges.size(), [&](std::size_t i) { outcomes[i] = builder.build(ranges[i]); });
   if (context.isCancelled()) return cancelled();
 
   ConstructedSet set;
-  for (ContourOutcome& outcome : outcomes) {
+  for (ConstructedSet& outcome : outcomes) {
     std::move(outcome.curves.begin(), outcome.curves.end(), std::back_inserter(set.curves));
     std::move(outcome.failures.begin(), outcome.failures.end(), std::back_inserter(set.failures));
   }
@@ -336,15 +330,20 @@ ConstructContour lineInput(const PipelineOutput& out, int contour) {
   return inputOf(*out.contours, *out.pieces, *out.segments, range, out.frame);
 }
 
+ConstructedSet constructFromPoints(const PipelineOutput& out, const Recipe& recipe, std::size_t first, std::size_t last,
+                                   const RunContext& context) {
+  Recipe alike = recipe;
+  alike.choices.clear();
+  const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
+  return builder.buildFromPoints({first, last});
+}
+
 Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const Recipe& recipe, int contour,
                                                const RunContext& context) {
   if (lineInput(out, contour).pieces.empty()) return fail(ErrorCode::NoCurve, "There is no such line.");
   try {
-    Recipe alike = recipe;
-    alike.choices.clear();
     const PieceRange range = rangeOf(*out.pieces, contour);
-    const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
-    ContourOutcome outcome = builder.buildFromPoints(range);
+    ConstructedSet outcome = constructFromPoints(out, recipe, range.first, range.last, context);
     if (context.isCancelled()) return cancelled();
     std::vector<TracedCurve> curves(range.last - range.first);
     for (TracedCurve& curve : outcome.curves) {
@@ -352,27 +351,6 @@ Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const 
       curves[at] = std::move(curve);
     }
     return curves;
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
-  }
-}
-
-Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& recipe, int piece,
-                                   const RunContext& context) {
-  if (!out.pieces || !out.segments || !out.contours || piece < 0 ||
-      static_cast<std::size_t>(piece) >= out.pieces->pieces.size())
-    return fail(ErrorCode::NoCurve, "There is no such line.");
-  try {
-    Recipe alike = recipe;
-    alike.choices.clear();
-    const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
-    ContourOutcome outcome =
-        builder.buildFromPoints({static_cast<std::size_t>(piece), static_cast<std::size_t>(piece) + 1});
-    if (context.isCancelled()) return cancelled();
-    if (outcome.curves.empty())
-      return fail(outcome.failures.empty() ? Error{ErrorCode::NoCurve, "No curve could be made from this line.", {}}
-                                           : outcome.failures.front());
-    return std::move(outcome.curves.front());
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
   }

@@ -22,4 +22,9 @@ ConstructPiece typicalPieceOf(const PieceSet&, const SegmentSet&, const Recipe&,
 Result<ConstructedSet> constructAll(const ContourSet&, const PieceSet&, const SegmentSet&, const Recipe&,
                                     const PageFrame&, const RunContext&);
 
+/// The pieces [first, last) of one line constructed from their points, whatever the user chose for its curves. What
+/// gave no curve is listed.
+ConstructedSet constructFromPoints(const PipelineOutput&, const Recipe&, std::size_t first, std::size_t last,
+                                   const RunContext&);
+
 }  // namespace batten

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/piece_construction.h"
+
+#include <cstddef>
+#include <iterator>
+#include <new>
+#include <utility>
+
+#include "core/pipeline/run/curve_stages.h"
+
+namespace batten {
+
+Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& recipe, int piece,
+                                   const RunContext& context) {
+  if (!out.pieces || !out.segments || !out.contours || piece < 0 || piece >= std::ssize(out.pieces->pieces))
+    return fail(ErrorCode::NoCurve, "There is no such line.");
+  try {
+    const auto first = static_cast<std::size_t>(piece);
+    ConstructedSet made = constructFromPoints(out, recipe, first, first + 1, context);
+    if (context.isCancelled()) return cancelled();
+    if (!made.curves.empty()) return std::move(made.curves.front());
+    if (!made.failures.empty()) return fail(made.failures.front());
+    return fail(ErrorCode::NoCurve, "No curve could be made from this line.");
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
+  }
+}
+
+}  // namespace batten
