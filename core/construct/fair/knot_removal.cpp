@@ -23,6 +23,7 @@ constexpr double kFirstGuess = 0.25;  // of the spans
 constexpr int kTrials = 6;
 constexpr double kCloseEnough = 0.06;  // of the spans: that many more or less are not worth a trial
 constexpr double kTurnExcess = 1.6, kNoFit = 20.0;
+constexpr double kLeastExcess = 0.05;     // taken of a fit: a trial then has half the spans at least (fourth root)
 constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth another solution
 constexpr int kFreeSpans = 1;             // of the full curve on either side of a turn
 constexpr double kEndHold = 1e4;          // relative weight of exact ends in the frame
@@ -116,7 +117,7 @@ class KnotRemoval {
       const Fit fit = tried(spans);
       if (check_.isCancelled()) return std::nullopt;
       // The error of the curvature goes with the fourth power of the length of the spans.
-      const double wanted = spans * std::pow(std::clamp(fit.excess, 0.05, 20.0), 0.25);
+      const double wanted = spans * std::pow(std::clamp(fit.excess, kLeastExcess, kNoFit), 0.25);
       if (fit.excess <= 1.0) {
         best = made(fit, spans);
         high = spans - 1;

@@ -14,12 +14,14 @@ namespace batten {
 namespace {
 
 constexpr double kArmPx = 6.0;       // chords whose directions are compared
+constexpr double kArmPoints = 3.0;   // and where points are sparse: chords of fewer have no direction
 constexpr double kSharpRad = 0.6;    // between the two chords: an arc of less than 10 px radius, or a corner
 constexpr double kMarginPx = 3.0;    // of line on either side that blur has rounded
 constexpr double kEndGuardPx = 5.0;  // an end has hooks of its own
 constexpr double kFarPx = 1.5, kVeryFarPx = 4.0, kOutlierPx = 1.2, kBackPx = 0.5;
 constexpr double kFarShare = 0.02;
 constexpr double kLongestRatio = 1.15;
+constexpr double kLoosePx = 4.0;  // that a curve may be longer than its points: of short lines noise makes length
 constexpr double kLongRunPx = 30.0;
 
 /// The points of a piece in px with lengths along them; outliers stand aside.
@@ -147,7 +149,7 @@ std::vector<PointRange> sharpTurns(const ConstructPiece& piece, bool isStroke, d
   const int n = course.count();
   std::vector<PointRange> turns;
   if (n < 5) return turns;
-  const double arm = std::max(kArmPx, 3.0 * course.total / n);
+  const double arm = std::max(kArmPx, kArmPoints * course.total / n);
   const std::vector<double> angle = turning(course, arm);
   const auto sharp = [&](int i) { return angle[i % n] > kSharpRad; };
   int begin = 0;
@@ -242,7 +244,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   }
   if (n > 0) pointLength += (piece.points[n - 1] - piece.points[(n - 1) / kStride * kStride]).norm() / pixelMm;
   if (piece.closed && n > 0) pointLength += (piece.points.front() - piece.points.back()).norm() / pixelMm;
-  result.lengthRatio = length / (pointLength + 4.0);
+  result.lengthRatio = length / (pointLength + kLoosePx);
   std::size_t at = 0;
   if (piece.closed && n > 0) {
     follow(polygon, piece.points.front() / pixelMm, at, 2 * polygon.size());
@@ -290,7 +292,7 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
       std::any_of(close.distancePx.begin(), close.distancePx.end(), [](double d) { return !(d <= kOutlierPx); });
   if (!outliers && close.lengthRatio < kLongestRatio) return out;
   const Course course = courseOf(piece, pixelMm, 0.0);
-  const std::vector<double> angle = turning(course, std::max(kArmPx, 3.0 * course.total / n));
+  const std::vector<double> angle = turning(course, std::max(kArmPx, kArmPoints * course.total / n));
   if (course.count() != n) return {{0, n - 1}};
   const auto distance = [&](int i) { return close.distancePx[((i % n) + n) % n]; };
   const auto middle = [&](int i) {

@@ -25,7 +25,8 @@ constexpr double kApart = 3.4;                           // scales between two c
 constexpr double kHardTurn = 40.0 * kRadPerDeg, kHardChords = 48.0 * kRadPerDeg;
 constexpr double kChordFrom = 1.2, kChordTo = 7.2;  // scales
 constexpr int kFewestLinePlaces = 24;
-constexpr double kMouth = 0.8, kLongestNeck = 16.0;  // scales
+constexpr double kMouth = 0.8, kShortestNeck = 2.0, kLongestNeck = 16.0;  // scales
+constexpr double kNeckDepth = 3.0;  // mouths: the line leaves and comes back, and does not only bend
 
 class CornerSearch {
  public:
@@ -190,10 +191,11 @@ int cutNecks(EvenLine& line, double scale, const RunContext& context) {
   for (int i = 0; i < n; ++i) {
     if (context.isCancelled()) return 0;
     Neck found{i, 0};
-    for (int length = static_cast<int>(2.0 * scale / line.step); length <= longest; ++length) {
+    for (int length = static_cast<int>(kShortestNeck * scale / line.step); length <= longest; ++length) {
       if (!line.closed && i + length >= n) break;
       const double mouth = (line.points[(i + length) % n] - line.points[i]).norm();
-      if (mouth < kMouth * scale && length * line.step > 3.0 * mouth + 2.0 * scale) found.length = length;
+      if (mouth < kMouth * scale && length * line.step > kNeckDepth * mouth + kShortestNeck * scale)
+        found.length = length;
     }
     if (found.length > 0) necks.push_back(found);
   }

@@ -20,6 +20,8 @@ constexpr int kBlendSamples = 64, kRadiusSamples = 200;
 constexpr double kTurnsBackPrice = 20.0;
 /// Lengths of the first derivative to begin with, in distances to where the tangents meet.
 constexpr std::array kFirstSpeeds = {1.2, 1.8, 2.6};
+/// A slower start than this, in the same unit, is a cusp: its curvature there has no limit.
+constexpr double kLeastBlendSpeed = 0.05;
 /// Steps of the search, in the same unit.
 constexpr double kFirstStep = 0.4, kLastStep = 1e-3;
 constexpr int kMostBlendRounds = 400;
@@ -112,7 +114,7 @@ class BlendSearch {
   }
 
   double cost(const std::vector<double>& x) const {
-    if (!(x[0] > 0.05 && x[1] > 0.05)) return std::numeric_limits<double>::infinity();
+    if (!(x[0] > kLeastBlendSpeed && x[1] > kLeastBlendSpeed)) return std::numeric_limits<double>::infinity();
     const std::vector<Vec2> points = pointsOf(x);
     std::vector<double> bend;
     for (int i = 0; i <= kBlendSamples; ++i)

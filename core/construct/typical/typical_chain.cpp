@@ -22,6 +22,8 @@ namespace batten {
 
 namespace {
 
+/// Standard deviations of the noise of its points that a path on its line may be off beside kLostRmsPx.
+constexpr double kLostSigmas = 3.0;
 /// A path laid along the fair fit is held to it by this [px].
 constexpr double kHoldPx = 0.01;
 /// A joint is put in no nearer to its neighbours than this part of their distance.
@@ -77,7 +79,7 @@ PathData dataOf(const TypicalLine& line) {
 
 /// True when a fitted path is still on its line.
 bool isOnLine(const std::optional<PathFit>& fit, const PathData& data) {
-  return fit && fit->rms < kLostRmsPx + 3.0 * data.noise;
+  return fit && fit->rms < kLostRmsPx + kLostSigmas * data.noise;
 }
 
 /// Two places of the user mean one segment between them: a typical curve where the line bends one way, else a Hermite

@@ -18,6 +18,10 @@ namespace {
 /// Of a segment: a joint is passed if a grown curve ends less than this before it.
 constexpr double kPassedShare = 0.3;
 
+/// [parameter] A maximum as near to an end of an element lies at it: both parts of a division must be long enough to
+/// fit.
+constexpr double kAtEndOfElement = 1e-3;
+
 std::complex<double> complexOf(const Vec2& v) { return {v.x(), v.y()}; }
 
 std::vector<Vec2> pointsBetween(const TypicalLine& line, std::size_t firstJoint, std::size_t lastJoint) {
@@ -122,7 +126,7 @@ void divideAtMaxima(TypicalPath& path) {
   for (std::size_t e = 0; e < path.elements.size(); ++e) {
     if (!path.elements[e].typical || path.elements[e].isMonotone()) continue;
     const double top = placeOfMaximum(path.elements[e]);
-    if (top > 1e-3 && top < 1.0 - 1e-3) {
+    if (top > kAtEndOfElement && top < 1.0 - kAtEndOfElement) {
       path.split(e++, top);
     } else {
       // So near to an end that a hair of shape makes up for it.

@@ -28,6 +28,8 @@ constexpr double kSureRise = 1.2;
 constexpr double kLeastNoise = 0.05;
 /// Points farther off than this many robust standard deviations count less, which are no less than this.
 constexpr double kOutlierSigmas = 5.0, kLeastOutlierSigma = 0.1;
+/// Of the mean square of the path: an element whose systematic misfit is less (twice the rms) is not divided.
+constexpr double kSystematicMisfit = 4.0;
 /// [parameter] An element is not divided nearer to its ends, and an extremum nearer to them is none inside.
 constexpr double kDivideFrom = 0.2, kInsideFrom = 0.05;
 /// [rad] Half the change of direction of one curve in place of two.
@@ -120,7 +122,7 @@ class StructureSearch {
       const auto misfit = systematicMisfit(path_, fit_);
       std::optional<std::size_t> worst;
       for (std::size_t e = 0; e < misfit.size(); ++e) {
-        if (tried.contains(e) || misfit[e] < 4.0 * fit_.rms * fit_.rms) continue;
+        if (tried.contains(e) || misfit[e] < kSystematicMisfit * fit_.rms * fit_.rms) continue;
         if (!worst || misfit[e] > misfit[*worst]) worst = e;
       }
       if (!worst) return;

@@ -26,6 +26,10 @@ constexpr double kCutSlopes[] = {-kMostSkewed, -kLessSkewed, 0.0, kLessSkewed, k
 constexpr double kLeastEndBlurPx = 0.4, kMostEndBlurPx = 2.4, kBlurStepPx = 0.1;  // standard deviations
 constexpr double kThinnerPx = 0.75, kThickerPx = 0.25, kRadiusStepPx = 0.1;       // than half the width at half level
 
+// [stroke widths] and [px] beyond the end of a skeleton in which the end of the ink is looked for: the skeleton stops
+// up to a width before it, a worn mask up to another, and half the profile of the end lies behind it.
+constexpr double kBeyondEndWidths = 2.0, kBeyondEndPx = 3.0;
+
 constexpr double kLeastRadiusPx = 0.3;
 constexpr double kRuledOut = 6.0;           // [nats] less likely than the best: not tried
 constexpr double kLeastEndVariance = 0.25;  // [grey^2] of the rounding to whole levels and of the model
@@ -244,7 +248,7 @@ FittedEnd fittedEnd(const EndPatch& patch, const PenModel& pen, EndModel model) 
 }  // namespace
 
 std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside, const GreyImage& grey) {
-  const double farthest = inside + 2.0 * widthPx + 3.0;
+  const double farthest = inside + kBeyondEndWidths * widthPx + kBeyondEndPx;
   const int samples = static_cast<int>(farthest / kStrokeStepPx) + 1;
   const int lanes = std::max(1, static_cast<int>(std::lround(0.5 * widthPx)));
   std::vector<float> level(samples, 0.0f);

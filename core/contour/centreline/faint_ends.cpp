@@ -22,6 +22,8 @@ constexpr double kStepWidths = 1.5;              // [stroke widths]
 constexpr double kTurnDeg = 10.0;                // to either side: a hand turns less on so short a way
 constexpr double kBesideWidths = 0.75;           // [stroke widths] from the middle to the paper at the sides,
 constexpr double kBesidePx[] = {1.5, 2.5, 3.5};  // and so much more
+constexpr double kTrailCoreWidths = 0.25;        // [stroke widths] to both sides of the middle, where all is ink,
+constexpr double kMostTrailCorePx = 1.0;         // and of wide ones: three lanes see what there is
 constexpr double kSoftEndPx = 2.0;               // beyond its mask a stroke fades by the blur of the scan
 constexpr double kLeastEndWidths = 3.0;          // [stroke widths] a shorter stroke has no direction
 constexpr double kMostAheadWidths = 1.5;         // [stroke widths] of ink before a free end: more is others'
@@ -48,7 +50,7 @@ class StepMeter {
   StepMeter(const GreyImage& grey, double widthPx)
       : grey_(grey),
         beside_(kBesideWidths * widthPx),
-        core_(std::min(1.0, 0.25 * widthPx)),
+        core_(std::min(kMostTrailCorePx, kTrailCoreWidths * widthPx)),
         step_(std::max(kLeastTrailStepPx, kStepWidths * widthPx)) {}
 
   double stepPx() const { return step_; }

@@ -28,8 +28,10 @@ constexpr double kLeastStrokeWidths = 3.0;  // [stroke widths] a shorter stroke 
 constexpr double kBridgedWidthRatio = 1.5;  // of two strokes that may be one; and a pixel more
 constexpr double kOctaveCost = 2.0;         // of twice the width, as of so many widths of gap
 constexpr double kGreyCost = 0.02;          // [1/grey] of ends that differ in darkness
-constexpr int kBridgeRounds = 4;            // an end whose best partner is taken may find another
-constexpr int kEndsPerLook = 256;           // between polls of the cancel token
+constexpr double kAcrossRadii = 4.0;        // [radii] and [px] to one side of a middle: beyond two widths the ink is
+constexpr double kAcrossPx = 4.0;  // that of others, which a mean over the middle half of the chords leaves out
+constexpr int kBridgeRounds = 4;   // an end whose best partner is taken may find another
+constexpr int kEndsPerLook = 256;  // between polls of the cancel token
 
 struct OpenEnd {
   int path = 0, side = 0;  ///< side 0: the start.
@@ -78,7 +80,7 @@ double inkWidthOf(const StrokePath& s, const BitImage& ink) {
     const Vec2 along = s.points[i + kReach].at - s.points[i - kReach].at;
     if (!(along.norm() > 0.0)) continue;
     const Vec2 across = leftNormal(along.normalized());
-    const double most = 4.0 * static_cast<double>(s.points[i].radius) + 4.0;
+    const double most = kAcrossRadii * static_cast<double>(s.points[i].radius) + kAcrossPx;
     chords.push_back(inkTowards(ink, s.points[i].at, across, most) + inkTowards(ink, s.points[i].at, -across, most));
   }
   if (std::ssize(chords) < kFewestChords) return s.widthPx();

@@ -17,11 +17,14 @@ constexpr double kTrimRadii = 1.1;           // [radii of the junction] beyond i
 constexpr double kTangentRadii = 8.0;        // [half stroke widths] over which the direction of an end is taken,
 constexpr double kLeastTangentPx = 8.0;      // and of thin strokes
 constexpr double kForkCos = 0.64;            // 50 degrees: two ends side by side
-constexpr double kFatRadius = 1.15;          // of the usual half-width of the edge, and a quarter of a pixel
+constexpr double kFatRadius = 1.15;          // of the usual half-width of the edge,
+constexpr double kFatSlackPx = 0.25;         // and [px] what the grid of pixels changes of a half-width
 constexpr double kFatReach = 6.0;            // [half-widths] that two strokes share at most: they part at 20 degrees
 constexpr double kMissPerWidthDeg = 20.0;    // what a stroke that goes on a width aside costs, against a bend
 constexpr double kWidthPerOctaveDeg = 40.0;  // and one whose width changes to the double
-constexpr int kMostEnds = 10;                // of a junction that is looked at as a whole: 9496 ways to pair them
+// More than a pair that may go on can cost: beside each other by as many [stroke widths], one [octaves] as much wider.
+constexpr double kWorstMissWidths = 4.0, kWorstOctaves = 4.0;
+constexpr int kMostEnds = 10;  // of a junction that is looked at as a whole: 9496 ways to pair them
 
 struct PairCost {
   int a = 0, b = 0;
@@ -98,7 +101,7 @@ int withoutFatInk(const EdgeFromEnd& points, int first) {
   const double usual = static_cast<double>(upperMedian(radii));
   double arc = 0.0;
   for (int k = first; k < points.size() && arc <= kFatReach * usual; ++k) {
-    if (static_cast<double>(points[k].radius) <= kFatRadius * usual + 0.25) return k;
+    if (static_cast<double>(points[k].radius) <= kFatRadius * usual + kFatSlackPx) return k;
     if (k + 1 < points.size()) arc += (points[k + 1].at - points[k].at).norm();
   }
   return first;
@@ -152,7 +155,7 @@ std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, doub
   const int n = static_cast<int>(ends.size());
   std::vector<PairCost> costs;
   // Whatever may go on does: the worst two pairs are better than one good one.
-  const double worst = maxBendDeg + 4.0 * kMissPerWidthDeg + 4.0 * kWidthPerOctaveDeg;
+  const double worst = maxBendDeg + kWorstMissWidths * kMissPerWidthDeg + kWorstOctaves * kWidthPerOctaveDeg;
   for (int a = 0; a < n; ++a) {
     for (int b = a + 1; b < n; ++b) {
       const auto cost = costOf(ends[a], ends[b], nodeRadius, usualRadius, maxBendDeg);

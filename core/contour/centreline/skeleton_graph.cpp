@@ -24,6 +24,9 @@ constexpr double kLeavingWidths = 4.0;     // [stroke widths] over which the dir
 constexpr double kOnwardCos = 0.7;         // 45 degrees: what turns more at a link does not go on through it
 constexpr double kOneJunction = 1.5;       // of the radii of two junctions: nearer ones are one crossing
 constexpr double kWithinDisc = 1.1;        // of its radius: what stays within is part of the junction
+// Out of the disc and as far again; 3 px keep a single step of a skeleton below 20 degrees where strokes are thin.
+constexpr double kCornerReachRadii = 2.0, kCornerReachPx = 3.0;
+constexpr double kAcute = 0.26;  // cos 75 deg
 
 double lengthOf(const std::vector<StrokePathPoint>& points, bool closed) {
   double sum = 0.0;
@@ -64,7 +67,7 @@ struct NodePixels {
 
 bool isLink(const SkeletonChain& c) { return !c.closed && c.pixels.size() == 2 && !c.freeStart && !c.freeEnd; }
 
-// Direction in which an edge leaves its end `side`, looked at over about `reach` px.
+// Direction in which an edge leaves its end `side`: of the chord of about `reach` px from there.
 Vec2 leaving(const SkeletonEdge& edge, int side, const Vec2& from, double reach) {
   const int n = static_cast<int>(edge.points.size());
   Vec2 at = from;
@@ -193,7 +196,7 @@ void SkeletonGraph::removeEdge(int edge) {
 bool SkeletonGraph::closesCorner(int edge, int node) const {
   const SkeletonNode& n = nodes_[node];
   if (n.ends.size() != 3) return false;
-  const double reach = 2.0 * n.radius + 3.0;
+  const double reach = kCornerReachRadii * n.radius + kCornerReachPx;
   Vec2 spur = Vec2::Zero(), other[2];
   int k = 0;
   for (const int end : n.ends) {
@@ -205,7 +208,6 @@ bool SkeletonGraph::closesCorner(int edge, int node) const {
     }
   }
   if (k != 2) return false;
-  constexpr double kAcute = 0.26;  // cos 75 deg
   return other[0].dot(other[1]) > kAcute && spur.dot(other[0] + other[1]) < 0.0;
 }
 

@@ -23,14 +23,17 @@ constexpr double kSameContrast = 0.6;      // of the stroke's contrast: less is 
 constexpr double kSameWider = 1.4, kSameNarrower = 0.6;  // of its width
 constexpr double kLargestSidestepPx = 0.75;              // from one pixel to the next
 constexpr double kLargestTurnRad = 0.5;                  // 30 degrees
-constexpr double kRoundEndWidths = 0.06;    // [stroke widths] the half level over the middle half of a round end lies
-                                            // so much before its tip
-constexpr double kAnchorWidths = 1.5;       // [stroke widths]
-constexpr double kCornerWidths = 0.3;       // [stroke widths] a course into a corner is longer than the stroke
-constexpr double kOffCourseWidths = 0.15;   // [stroke widths] between a course and its parabola
-constexpr double kTurnsAsideWidths = 0.75;  // [stroke widths] before the end of the ink a course may turn to a corner
-constexpr double kSkeletonOffWidths = 0.6;  // [stroke widths]
-constexpr double kLeastStepPx = 0.35;       // between neighbours on a contour, of about 1 px
+constexpr double kRoundEndWidths = 0.06;  // [stroke widths] the half level over the middle half of a round end lies
+                                          // so much before its tip
+constexpr double kAnchorWidths = 1.5;     // [stroke widths] and
+constexpr double kAnchorPx = 3.0;         // [px] inside, from where an end is seen; of thin strokes the hook is px long
+constexpr double kEndApproachWidths = 4.0;   // [stroke widths] over which the course towards an end is fitted,
+constexpr double kLeastEndApproachPx = 8.0;  // and of thin strokes: over less, a parabola follows the steps of pixels
+constexpr double kCornerWidths = 0.3;        // [stroke widths] a course into a corner is longer than the stroke
+constexpr double kOffCourseWidths = 0.15;    // [stroke widths] between a course and its parabola
+constexpr double kTurnsAsideWidths = 0.75;   // [stroke widths] before the end of the ink a course may turn to a corner
+constexpr double kSkeletonOffWidths = 0.6;   // [stroke widths]
+constexpr double kLeastStepPx = 0.35;        // between neighbours on a contour, of about 1 px
 constexpr float kLeastWidthPx = 0.1f;
 
 std::optional<StrokeCentre> centreAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction,
@@ -103,7 +106,7 @@ std::optional<FreeEnd> endSeenFrom(const StrokeCourse& c, int inside, double w, 
   FreeEnd found;
   found.inside = inside;
   found.widthPx = w;
-  const auto a = approachAt(c, c.count() - 1 - inside, -1, std::max(8.0, 4.0 * w));
+  const auto a = approachAt(c, c.count() - 1 - inside, -1, std::max(kLeastEndApproachPx, kEndApproachWidths * w));
   if (!a) return std::nullopt;
   found.course = {a->at, a->direction, a->bend};
   // No turn of more than about 30 degrees is read from a parabola beyond its points.
@@ -121,7 +124,7 @@ std::optional<FreeEnd> endSeenFrom(const StrokeCourse& c, int inside, double w, 
 std::optional<FreeEnd> lastEnd(const StrokeCourse& c, const GreyImage& grey) {
   const double w = endWidth(c);
   for (const double widths : {kAnchorWidths, 1.0}) {
-    const int inside = std::min(c.count() / 2, static_cast<int>(std::lround(widths * w + 3.0)));
+    const int inside = std::min(c.count() / 2, static_cast<int>(std::lround(widths * w + kAnchorPx)));
     std::optional<FreeEnd> found = endSeenFrom(c, inside, w, grey);
     if (!found) continue;
     found->stop = penStop(found->course, w, found->tipPx, grey);

@@ -18,6 +18,7 @@ constexpr double kWidthLimit = 1.5;      // of the usual width: at a junction th
 constexpr double kSharpRadius = 1.5;     // units
 constexpr double kSharpSlackPx = 0.4;    // a vertex is known to that
 constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute tips
+constexpr double kPointsPerPx = 4.0;     // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
 constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                      // units: ends have hooks of their own
 constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;
@@ -91,7 +92,8 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
   if (e.isLocated) {
     double off = std::numeric_limits<double>::infinity();
-    const int n = static_cast<int>(contour_.points.size()), reach = static_cast<int>(4.0 * kFarthestVertex * unit);
+    const int n = static_cast<int>(contour_.points.size()),
+              reach = static_cast<int>(kPointsPerPx * kFarthestVertex * unit);
     for (int k = -reach; k <= reach; ++k) {
       const int i = contour_.closed ? wrapIndex(e.pointIndex + k, n) : e.pointIndex + k;
       if (i >= 0 && i < n) off = std::min(off, (contour_.points[i].at - e.positionPx).norm());

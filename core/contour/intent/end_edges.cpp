@@ -15,12 +15,26 @@ namespace {
 
 constexpr double kEndReach = 8.0, kEndReachLater = 10.0;
 constexpr double kNoCandidateDeg = 180.0;
-constexpr double kDirectionFrom = 6.0, kDirectionTo = 1.0;  // inside, of the chord that gives the direction
-constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;       // of the chord before it
+constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;  // of the chord before the one that gives the direction
+constexpr double kLeastBendChord = 3.0;                // samples: a shorter one has no direction, as of a stroke
 constexpr double kLongFrom = 25.0, kLongTo = 2.0;
 constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;
 constexpr double kLinkReach = 4.0;
 constexpr double kTouchingEnds = 1.5;  // the way between them has no direction
+
+// Cost of a pair beside its turn. A gap weighs as a turn of so many degrees per stroke width, less between bundles,
+// whose ends lie scattered; the way across it counts half as much as the turn itself, and from kWholeMissGap on, as a
+// shorter way has hardly a direction. Bundles that the trace links have one reason more to go on.
+constexpr double kGapCostDeg = 4.0, kGapCostLaterDeg = 3.0, kMissShare = 0.5, kWholeMissGap = 2.0, kLinkGainDeg = 10.0;
+
+// Of the features. The weights (intent_weights.h) were learned with these units and caps: they change together only.
+constexpr double kEndAngleUnitDeg = 30.0, kMissUnitDeg = 60.0;
+constexpr double kNoWidth = 0.5;                               // [stroke widths] added, for the logarithm of nothing
+constexpr double kFirstBendDeg = 20.0, kSecondBendDeg = 40.0;  // from where on a turn weighs more, and more again
+constexpr double kUnlikeBendDeg = 25.0, kLongBendDeg = 30.0;   // the same of other angles
+constexpr double kMostLinkedTurnDeg = 150.0, kMostLongTurnDeg = 120.0, kMostAdvantageDeg = 90.0;
+constexpr double kBackDeg = 120.0;  // what turns more runs back
+constexpr int kMostArms = 6, kMostLinks = 4;
 
 double signedDeg(const Vec2& a, const Vec2& b) { return kDegPerRad * std::atan2(cross(a, b), a.dot(b)); }
 
@@ -38,7 +52,7 @@ Vec2 outOf(const EndView& v, int end) {
 double bendAt(const EndView& v, int end) {
   const Strip& s = stripOf(v, end);
   const double scale = farInside(v, end) / kDirectionFrom;
-  if (s.length() < kBendMiddle * scale + 3.0) return 0.0;
+  if (s.length() < kBendMiddle * scale + kLeastBendChord) return 0.0;
   return signedDeg(directionOut(s, end % 2, kBendFrom * scale, kBendMiddle * scale), outOf(v, end));
 }
 
@@ -115,9 +129,9 @@ std::vector<double> laterEndFeatures(const EndPair& p, const EndView& v, bool is
   const double w = std::log(a.spread + b.spread + 1.0), beside = isBesideToo ? 1.0 : 0.0;
   const auto fewer = static_cast<double>(std::min(a.members.size(), b.members.size()));
   const auto more = static_cast<double>(std::max(a.members.size(), b.members.size()));
-  return {static_cast<double>(std::min(p.links, 4)),
-          std::min(longTurn, 120.0) / 30.0,
-          std::max(0.0, longTurn - 30.0) / 30.0,
+  return {static_cast<double>(std::min(p.links, kMostLinks)),
+          std::min(longTurn, kMostLongTurnDeg) / kEndAngleUnitDeg,
+          std::max(0.0, longTurn - kLongBendDeg) / kEndAngleUnitDeg,
           w,
           std::abs(a.spread - b.spread) / (a.spread + b.spread + 1.0),
           std::log(fewer),
@@ -169,8 +183,8 @@ std::vector<EndPair> findEndPairs(const EndView& v, const RunContext& context) {
   setLinks(pairs, v);
   for (EndPair& p : pairs) {
     const double linked = p.links > 0 ? 1.0 : 0.0;
-    p.cost = p.turnDeg + 0.5 * missDeg(p, v) * std::min(1.0, 0.5 * p.gap) +
-             (v.view.isLater ? 3.0 * p.gap - 10.0 * linked : 4.0 * p.gap);
+    p.cost = p.turnDeg + kMissShare * missDeg(p, v) * std::min(1.0, p.gap / kWholeMissGap) +
+             (v.view.isLater ? kGapCostLaterDeg * p.gap - kLinkGainDeg * linked : kGapCostDeg * p.gap);
   }
   setRivals(pairs, v);
   return pairs;
@@ -179,9 +193,12 @@ std::vector<EndPair> findEndPairs(const EndView& v, const RunContext& context) {
 std::vector<double> endFeatures(const EndPair& p, const EndView& v, bool isBesideToo) {
   const Strip &a = stripOf(v, p.a), &b = stripOf(v, p.b);
   const double linked = p.links > 0 ? 1.0 : 0.0, corner = p.links > 0 && p.corners == p.links ? 1.0 : 0.0;
-  const double t = p.turnDeg / 30.0, g = v.view.scale, gap = std::log(p.gap + 0.5), offset = std::log(p.offset + 0.5);
+  const double t = p.turnDeg / kEndAngleUnitDeg, g = v.view.scale;
+  const double gap = std::log(p.gap + kNoWidth), offset = std::log(p.offset + kNoWidth);
   const double best = p.cost <= p.bestOther ? 1.0 : 0.0, alone = p.arms == 0 ? 1.0 : 0.0;
-  const auto advantage = [&](double other) { return std::clamp(other - p.cost, -90.0, 90.0) / 30.0; };
+  const auto advantage = [&](double other) {
+    return std::clamp(other - p.cost, -kMostAdvantageDeg, kMostAdvantageDeg) / kEndAngleUnitDeg;
+  };
   const double bendA = bendAt(v, p.a), bendB = bendAt(v, p.b);
   // In the direction of travel from a into b.
   const double expected = 0.5 * (bendA - bendB);
@@ -190,10 +207,10 @@ std::vector<double> endFeatures(const EndPair& p, const EndView& v, bool isBesid
   const double shorter = std::log(std::min(a.count(), b.count())), longer = std::log(std::max(a.count(), b.count()));
   const double freeA = a.isFree[p.a % 2] ? 1.0 : 0.0, freeB = b.isFree[p.b % 2] ? 1.0 : 0.0;
   std::vector<double> f = {t,
-                           std::max(0.0, p.turnDeg - 20.0) / 30.0,
-                           std::max(0.0, p.turnDeg - 40.0) / 30.0,
-                           linked * std::min(p.turnDeg, 150.0) / 30.0,
-                           p.gap > kTouchingEnds ? missDeg(p, v) / 60.0 : 0.0,
+                           std::max(0.0, p.turnDeg - kFirstBendDeg) / kEndAngleUnitDeg,
+                           std::max(0.0, p.turnDeg - kSecondBendDeg) / kEndAngleUnitDeg,
+                           linked * std::min(p.turnDeg, kMostLinkedTurnDeg) / kEndAngleUnitDeg,
+                           p.gap > kTouchingEnds ? missDeg(p, v) / kMissUnitDeg : 0.0,
                            gap,
                            p.gap * (1.0 - linked),
                            offset,
@@ -204,9 +221,9 @@ std::vector<double> endFeatures(const EndPair& p, const EndView& v, bool isBesid
                            advantage(p.bestOther),
                            advantage(p.worseOther),
                            best * linked,
-                           unlike / 30.0,
-                           std::max(0.0, unlike - 25.0) / 30.0,
-                           static_cast<double>(std::min(p.arms, 6)),
+                           unlike / kEndAngleUnitDeg,
+                           std::max(0.0, unlike - kUnlikeBendDeg) / kEndAngleUnitDeg,
+                           static_cast<double>(std::min(p.arms, kMostArms)),
                            alone,
                            linked * alone,
                            shorter,
@@ -214,10 +231,10 @@ std::vector<double> endFeatures(const EndPair& p, const EndView& v, bool isBesid
                            freeA * freeB,
                            freeA + freeB,
                            std::log(g),
-                           bend / 30.0,
-                           offset - std::log(g + 0.5),
-                           gap - std::log(g + 0.5),
-                           p.turnDeg > 120.0 ? 1.0 : 0.0,
+                           bend / kEndAngleUnitDeg,
+                           offset - std::log(g + kNoWidth),
+                           gap - std::log(g + kNoWidth),
+                           p.turnDeg > kBackDeg ? 1.0 : 0.0,
                            t * shorter};
   const std::vector<double> merged = mergeFeatures(a.merged, b.merged, t);
   f.insert(f.end(), merged.begin(), merged.end());

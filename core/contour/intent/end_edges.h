@@ -37,6 +37,9 @@ std::vector<EndPair> findEndPairs(const EndView& view, const RunContext& context
 /// The numbers that the log-odds are a weighted sum of (intent_weights.h).
 std::vector<double> endFeatures(const EndPair& pair, const EndView& view, bool isBesideToo);
 
+/// [stroke widths] inside of the tip: the chord that gives the direction of an end. The last width turns to a corner of
+/// the pen's end.
+inline constexpr double kDirectionFrom = 6.0, kDirectionTo = 1.0;
 /// Where a strip ends and the unit direction in which it does, out of it, from the chord between two places inside.
 Vec2 directionOut(const Strip& strip, int side, double fromInside, double toInside);
 const Vec2& tipOf(const Strip& strip, int side);

@@ -19,6 +19,7 @@ namespace batten {
 namespace {
 
 // In stroke widths.
+constexpr double kLeastAlone = 0.9;   // of the ink of its pieces: a shorter mean has some of them side by side
 constexpr double kReachShare = 0.95;  // of the strokes' samples lie within the reach of the band
 constexpr double kBandMargin = 1.0;
 constexpr double kClosing = 3.0;     // ends as near as this, and the spread, close a line
@@ -42,7 +43,7 @@ std::optional<std::pair<int, int>> oneStretch(const PieceMean& mean, const Strok
     const StrokePiece &before = set.pieces[members[i - 1]], &after = set.pieces[members[i]];
     if (members[i] != members[i - 1] + 1 || before.line != after.line) return std::nullopt;
     // Pieces that lie over each other are no stretch of the line.
-    if (static_cast<double>(mean.strip.count()) < 0.9 * mean.strip.inkPerLength * mean.strip.count())
+    if (static_cast<double>(mean.strip.count()) < kLeastAlone * mean.strip.inkPerLength * mean.strip.count())
       return std::nullopt;
   }
   return std::pair(members.front(), members.back());

@@ -26,6 +26,13 @@ constexpr int kLevelEnds = 4;          // samples: by less, ends are level
 constexpr double kCrossingSide = 0.3;  // farther to both sides: they cross
 constexpr int kStripsPerBlock = 8;
 
+// Of the features. The weights (intent_weights.h) were learned with these: they change together only.
+constexpr double kSideAngleUnitDeg = 10.0;
+constexpr double kNoDistance = 0.5;     // [stroke widths] added, for the logarithm of nothing
+constexpr double kNoSample = 1.0;       // the same of a count
+constexpr double kPenOfBundle = 1.0;    // [stroke widths] by which two bundles are wider than their spreads
+constexpr double kBesideBundles = 2.0;  // of that width: bundles farther apart lie clear of each other
+
 struct StripPlace {
   int strip, sample;
 };
@@ -163,7 +170,7 @@ SideMeasures measureSide(const StripPair& pair, const PairView& view) {
   m.isCrossing = toLeft && toRight;
   m.shareSeen = static_cast<double>(seen) / static_cast<double>(apart.size());
   m.middle = upperMedian(apart);
-  m.most = lowerQuantile(apart, 0.9);
+  m.most = lowerQuantile(apart, kMostQuantile);
   m.least = *std::ranges::min_element(apart);
   m.overlap = static_cast<double>(longer.size());
   m.angleDeg = kDegPerRad * upperMedian(angles);
@@ -185,22 +192,23 @@ SideMeasures measureSide(const StripPair& pair, const PairView& view) {
 
 std::vector<double> sideFeatures(const SideMeasures& m, const StripPair& pair, const PairView& view, bool sameLine) {
   constexpr double kTouching = 1.5, kSmallAngleDeg = 12.0;
+  constexpr int kMostEndsBeside = 2;
   const Strip &a = view.strips[pair.a], &b = view.strips[pair.b];
   const Strip &shorter = a.count() <= b.count() ? a : b, &longer = a.count() <= b.count() ? b : a;
   const double shortest = shorter.count(), longest = longer.count(), g = view.scale;
-  const double d = std::log(m.middle + 0.5), overlap = std::log(m.overlap + 1.0);
-  const double share = std::min(1.0, m.overlap / shortest), parting = std::log(m.parting + 0.5);
-  const double ends = std::min(2, view.isLater ? m.endsBeside : m.freeEndsBeside);
-  const double scale = std::log(g + 0.5);
+  const double d = std::log(m.middle + kNoDistance), overlap = std::log(m.overlap + kNoSample);
+  const double share = std::min(1.0, m.overlap / shortest), parting = std::log(m.parting + kNoDistance);
+  const double ends = std::min(kMostEndsBeside, view.isLater ? m.endsBeside : m.freeEndsBeside);
+  const double scale = std::log(g + kNoDistance);
   std::vector<double> f = {d,
-                           std::log(m.most + 0.5),
-                           std::log(m.least + 0.5),
+                           std::log(m.most + kNoDistance),
+                           std::log(m.least + kNoDistance),
                            overlap,
                            d - overlap,
                            share,
                            share * d,
-                           m.angleDeg / 10.0,
-                           share * m.angleDeg / 10.0,
+                           m.angleDeg / kSideAngleUnitDeg,
+                           share * m.angleDeg / kSideAngleUnitDeg,
                            parting,
                            parting - overlap,
                            ends,
@@ -217,17 +225,17 @@ std::vector<double> sideFeatures(const SideMeasures& m, const StripPair& pair, c
                            std::max(m.shareA, m.shareB),
                            sameLine && !view.isLater ? 1.0 : 0.0,
                            std::max(0.0, m.most / g - 1.0),
-                           std::max(0.0, m.angleDeg - kSmallAngleDeg) / 10.0,
+                           std::max(0.0, m.angleDeg - kSmallAngleDeg) / kSideAngleUnitDeg,
                            d * d};
   const std::vector<double> merged = mergeFeatures(a.merged, b.merged, d);
   f.insert(f.end(), merged.begin(), merged.end());
   if (!view.isLater) return f;
-  const double w = shorter.spread + longer.spread + 1.0, alone = shorter.members.size() == 1 ? 1.0 : 0.0;
+  const double w = shorter.spread + longer.spread + kPenOfBundle, alone = shorter.members.size() == 1 ? 1.0 : 0.0;
   const double within = m.isWithin ? 1.0 : 0.0;
   int freeOfShorter = 0;
   for (const bool isFree : shorter.isFree) freeOfShorter += isFree ? 1 : 0;
   const std::vector<double> later = {d - std::log(w),
-                                     std::max(0.0, m.middle - 2.0 * w) / w,
+                                     std::max(0.0, m.middle - kBesideBundles * w) / w,
                                      std::log(w),
                                      std::log(static_cast<double>(shorter.members.size())),
                                      std::log(static_cast<double>(longer.members.size())),
@@ -238,7 +246,7 @@ std::vector<double> sideFeatures(const SideMeasures& m, const StripPair& pair, c
                                      within * d,
                                      static_cast<double>(freeOfShorter),
                                      alone * d,
-                                     std::log(longer.spread + 0.5) - std::log(shorter.spread + 0.5)};
+                                     std::log(longer.spread + kNoDistance) - std::log(shorter.spread + kNoDistance)};
   f.insert(f.end(), later.begin(), later.end());
   return f;
 }

@@ -23,6 +23,9 @@ struct StripPair {
   std::vector<StripCrossing> fromA, fromB;  ///< In the order of the samples.
 };
 
+/// Quantile of the distances of a pair that stands for the largest: one crossing in ten may be that of another loop.
+inline constexpr double kMostQuantile = 0.9;
+
 /// All pairs of strips of about the same direction (within 30 degrees) no farther apart than `reach`, that see each
 /// other in at least a third of the crossings; `all`: whatever lies between them. Not complete when cancelled.
 std::vector<StripPair> findStripPairs(const std::vector<Strip>& strips, double reach, bool all,
@@ -40,7 +43,7 @@ struct PairView {
 
 /// Numbers of a pair: distances in stroke widths, counts, angles in degrees.
 struct SideMeasures {
-  double middle = 0.0, most = 0.0, least = 0.0;  ///< Distance: median, the 90 % point, the least.
+  double middle = 0.0, most = 0.0, least = 0.0;  ///< Distance: median, kMostQuantile, the least.
   double overlap = 0.0;                          ///< Samples, in the direction in which it is longer.
   double angleDeg = 0.0;
   double parting = 0.0;  ///< By how much farther apart they are at one end than at the other.

@@ -36,7 +36,7 @@ constexpr int kHannReach = 3;  // samples to either side
 struct Relation {
   int a = 0, b = 0;  // of the group
   double direction = 1.0, offset = 0.0, cost = 0.0, weight = 0.0;
-  double apart = 0.0;  // side by side: the 90 % point
+  double apart = 0.0;  // side by side: kMostQuantile of the distances
   bool isTrace = false;
   int endA = 0, endB = 0;  // of a trace: which ends meet
 };
@@ -56,7 +56,7 @@ std::optional<Relation> besideRelation(const StripPair& pair, int a, int b, bool
   r.offset = upperMedian(offsets);
   r.cost = upperMedian(apart) + kFewCrossings / (1.0 + r.weight);
   if (isOne && upperMedian(apart) < kSurelyNear) r.cost *= kOverdrawnPart;
-  r.apart = lowerQuantile(apart, 0.9);
+  r.apart = lowerQuantile(apart, kMostQuantile);
   return r;
 }
 
@@ -64,7 +64,8 @@ std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, i
   const Vec2 way = tipOf(b, sideB) - tipOf(a, sideA);
   const double gap = way.norm();
   if (gap > kMostGap) return std::nullopt;
-  const Vec2 out = directionOut(a, sideA, 6.0, 1.0), in = -directionOut(b, sideB, 6.0, 1.0);
+  const Vec2 out = directionOut(a, sideA, kDirectionFrom, kDirectionTo);
+  const Vec2 in = -directionOut(b, sideB, kDirectionFrom, kDirectionTo);
   const double c = out.dot(in);
   if (c < kMostTurnCos) return std::nullopt;
   Relation r;

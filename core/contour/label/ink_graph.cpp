@@ -19,6 +19,9 @@ constexpr double kStraightDeg = 45.0;  // legs that bend more are no single stro
 constexpr double kWidthRatio = 1.6;    // nor those whose widths differ more, and a pixel
 constexpr double kDegPerOctave = 40.0;
 constexpr double kLevelPx = 1.0;  // of a width, that the grid of pixels explains
+// Beyond the disc of a junction, over which the direction and the width of a leg are taken: [stroke widths], and where
+// strokes are thin as many pixels as keep a single step of the skeleton below 15 degrees.
+constexpr double kLegReachWidths = 2.0, kLeastLegReachPx = 4.0;
 constexpr double kPathCoreWidths = 2.5;
 
 InkPixel measured(const SkeletonPixel& p, const BitImage& ink) {
@@ -117,7 +120,7 @@ Leg legAt(const InkChain& chain, int end, const InkNode& node) {
   int first = 0;
   while (first < n - 1 && (at(first).centre() - node.centre).norm() < node.radius) ++first;
   const double from = (at(first).centre() - node.centre).norm();
-  const double reach = std::max(4.0, 2.0 * at(first).widthPx());
+  const double reach = std::max(kLeastLegReachPx, kLegReachWidths * at(first).widthPx());
   Vec2 sum = Vec2::Zero();
   std::vector<double> widths;
   for (int k = first; k < n && (at(k).centre() - node.centre).norm() <= from + reach; ++k) {

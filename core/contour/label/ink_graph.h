@@ -18,6 +18,10 @@ enum class InkLabel {
   Shape,   ///< Along its border.
 };
 
+/// [px] By which two radii (to the nearest centre of a paper pixel) exceed the width of a stroke: that centre lies up
+/// to half the diagonal of a pixel outside the edge, on both sides together half a diagonal on an average.
+inline constexpr double kRadiiBeyondWidthPx = 0.7;
+
 /// A skeleton pixel with its room in the ink.
 struct InkPixel {
   int x = 0, y = 0;
@@ -26,7 +30,7 @@ struct InkPixel {
   InkLabel label = InkLabel::Stroke;
   Vec2 centre() const { return {x + 0.5, y + 0.5}; }
   /// [px] stroke width, corrected for the pixel grid.
-  double widthPx() const { return 2.0 * static_cast<double>(radius) - 0.7; }
+  double widthPx() const { return 2.0 * static_cast<double>(radius) - kRadiiBeyondWidthPx; }
 };
 
 /// A stretch of skeleton between two nodes. Its ends are numbered 2 * chain + side.
@@ -49,7 +53,7 @@ struct InkNode {
   std::vector<int> ends;
   bool isJunction() const { return ends.size() > 1; }
   /// [px] of the ink at the junction.
-  double widthPx() const { return 2.0 * radius - 0.7; }
+  double widthPx() const { return 2.0 * radius - kRadiiBeyondWidthPx; }
 };
 
 /// Chains joined straight through junctions: what one movement of a pen may have drawn.

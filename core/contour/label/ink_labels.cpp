@@ -178,7 +178,7 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
   auto regions = measureShapes(graph, shapes, mouths);
   measureMouths(regions, shapes, border, rim);
   const auto isBundle = [&](const ShapeRegion& r) {
-    const double width = 2.0 * r.largestRadiusPx - 0.7;
+    const double width = 2.0 * r.largestRadiusPx - kRadiiBeyondWidthPx;
     if (r.mouths == 0 || width <= 0.0) return false;
     if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * labels.penPx + 1.0) return true;
     if (r.mouths < 2 || width > std::min(kBundlePens * labels.penPx + 1.0, page.widestPenPx)) return false;

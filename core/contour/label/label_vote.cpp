@@ -10,9 +10,12 @@
 namespace batten {
 namespace {
 
-constexpr double kLetterOfPage = 0.25;      // [page diagonals] larger pieces are no letters
-constexpr double kLetterRadii = 4.0;        // smaller pieces, against their largest disc, are dots
-constexpr double kLetterLength = 40.0;      // [pen widths] four or five lines of a letter, each of at most ten
+constexpr double kLetterOfPage = 0.25;  // [page diagonals] larger pieces are no letters
+constexpr double kLetterRadii = 4.0;    // smaller pieces, against their largest disc, are dots
+constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a letter, each of at most ten
+// [pen widths] three strokes with paper between them, as an E has, are so high. What is lower is a dash or a letter
+// lying down, and as large as it is long; what is as high is a row of joined letters, each about as wide as high.
+constexpr double kLetterHeight = 5.0;
 constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexplained in an alphabet
 constexpr double kHairWidths = 0.5;
 constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib
@@ -20,6 +23,9 @@ constexpr int kLeastVoters = 5;
 // Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
 // them.
 constexpr double kOneLineShare = 0.75;
+
+// Of the area of the letters: from here to a half, neither strokes nor shapes have it, and every piece keeps its label.
+constexpr double kFewShapes = 0.4;
 
 // What the vote looks at in one piece.
 struct Voter {
@@ -46,7 +52,7 @@ double unevennessOf(const LabelledPiece& piece, const InkGraph& graph) {
 
 std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, double pageDiagonalPx) {
   const double w = piece.x1 - piece.x0, h = piece.y1 - piece.y0, diagonal = std::hypot(w, h);
-  const double size = std::min(w, h) >= 5.0 * piece.mainPenPx ? std::sqrt(2.0) * std::min(w, h) : diagonal;
+  const double size = std::min(w, h) >= kLetterHeight * piece.mainPenPx ? std::sqrt(2.0) * std::min(w, h) : diagonal;
   if (size >= kLetterOfPage * pageDiagonalPx || size <= kLetterRadii * piece.largestRadiusPx || piece.paths.empty())
     return {};
   Voter v;
@@ -100,7 +106,7 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
   const bool mayBeLetters = t.oneLine < kOneLineShare * t.voters;
   if (mayBeLetters && weightedMedian(t.uneven) >= limit && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
-  if (t.shape < 0.4 * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
+  if (t.shape < kFewShapes * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
   return {};
 }
 
