@@ -93,12 +93,12 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
     }
   }
   std::vector<bool> hasLine(pieces.runs.size(), false);
-  std::vector<Run> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
+  std::vector<InkRun> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const Run& run = pieces.runs[i];
+    const InkRun& run = pieces.runs[i];
     if (countBits(beside, run) > 0 || (grainy.width > 0 && countBits(grainy, run) > 0)) hasLine[pieces.piece[i]] = true;
-    Run& b = box[pieces.piece[i]];
-    b = pieces.piece[i] == static_cast<int>(i) ? run : Run{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
+    InkRun& b = box[pieces.piece[i]];
+    b = pieces.piece[i] == static_cast<int>(i) ? run : InkRun{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
     const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);
     if (minWidths > kBlotWidths && size > kBlotWidths * split.penPx) hasLine[pieces.piece[i]] = true;
   }

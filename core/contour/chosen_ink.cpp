@@ -9,7 +9,7 @@
 namespace batten {
 namespace {
 
-double squaredDistance(const Run& run, const Vec2& px) {
+double squaredDistance(const InkRun& run, const Vec2& px) {
   const double x = std::clamp(px.x(), static_cast<double>(run.x0), static_cast<double>(run.x1));
   const double y = std::clamp(px.y(), static_cast<double>(run.y), run.y + 1.0);
   return (px - Vec2(x, y)).squaredNorm();
@@ -18,7 +18,7 @@ double squaredDistance(const Run& run, const Vec2& px) {
 /// The nearest piece within reach, if there is one. Runs are in reading order, so that rows out of reach are passed
 /// over.
 std::optional<int> nearestPiece(const RunPieces& pieces, const Vec2& px) {
-  const auto above = [](const Run& run, double y) { return run.y < y; };
+  const auto above = [](const InkRun& run, double y) { return run.y < y; };
   auto run = std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::floor(px.y() - kInkReachPx - 1.0), above);
   double least = kInkReachPx * kInkReachPx;
   std::optional<int> piece;

@@ -56,14 +56,14 @@ class PencilPieces {
   std::map<int, Drawn> byPiece_;
 };
 
-void move(const BitImage& ink, const Run& run, bool isShape, InkSplit& split) {
+void move(const BitImage& ink, const InkRun& run, bool isShape, InkSplit& split) {
   clearBits(isShape ? split.strokes : split.shapes, run);
   copyBits(ink, run, isShape ? split.shapes : split.strokes);
 }
 
 RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunContext& context) {
   struct Marked {
-    Run run;
+    InkRun run;
     std::pair<bool, int> region;
   };
   std::vector<Marked> marked;

@@ -68,8 +68,8 @@ FrameStation makeStation(const UniformQuintic& base, double u, bool bendOnly) {
 void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions& options, const std::vector<double>& e,
                    double limit) {
   const double length = frame.base.knots().length;
-  const double wished = std::max(options.blockPx, kPointsPerBlock / data.density);
-  const int count = std::max(1, static_cast<int>(std::lround(length / wished)));
+  const double wanted = std::max(options.blockPx, kPointsPerBlock / data.density);
+  const int count = std::max(1, static_cast<int>(std::lround(length / wanted)));
   frame.blockLength = length / count;
   struct Sum {
     double e = 0.0, t = 0.0, w = 0.0;

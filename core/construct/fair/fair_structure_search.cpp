@@ -29,10 +29,11 @@ struct StructureCandidate {
   double change = 0.0;    ///< [1/px] difference of curvature that disappears.
 };
 
-class Search {
+/// Removes extrema as long as the misfit rises too little to keep them.
+class ExtremumRemoval {
  public:
-  Search(const FairFrame& frame, const FairPosterior& posterior, double keepCost,
-         const std::vector<PlacedConstraint>& constraints, const RunContext& context)
+  ExtremumRemoval(const FairFrame& frame, const FairPosterior& posterior, double keepCost,
+                  const std::vector<PlacedConstraint>& constraints, const RunContext& context)
       : frame_(frame), posterior_(posterior), keepCost_(keepCost), constraints_(constraints), context_(context) {
     closed_ = frame.base.knots().closed;
     std::vector<double> sigma;
@@ -358,7 +359,7 @@ class Search {
 std::optional<StructureResult> findStructure(const FairFrame& frame, const FairPosterior& posterior, double keepCost,
                                              const std::vector<PlacedConstraint>& constraints,
                                              const RunContext& context) {
-  return Search(frame, posterior, keepCost, constraints, context).run();
+  return ExtremumRemoval(frame, posterior, keepCost, constraints, context).run();
 }
 
 }  // namespace batten

@@ -116,7 +116,7 @@ FatCells fatCells(const BitImage& ink, double limitPx) {
   return cells;
 }
 
-std::int64_t fatPart(const Run& run, const FatCells& cells) {
+std::int64_t fatPart(const InkRun& run, const FatCells& cells) {
   std::int64_t sum = 0;
   const std::uint8_t* row = cells.fat.ptr<std::uint8_t>(run.y / cells.factor);
   for (int x = run.x0; x < run.x1;) {
@@ -143,7 +143,7 @@ std::vector<bool> shapesByWidth(const BitImage& ink, const RunPieces& pieces, do
   std::vector<Bulk> bulk(pieces.runs.size());
   bool anyThick = false;
   for (int i = 0; i < std::ssize(pieces.runs); ++i) {
-    const Run& r = pieces.runs[i];
+    const InkRun& r = pieces.runs[i];
     Bulk& b = bulk[pieces.piece[i]];
     b.area += r.x1 - r.x0;
     // The chords of a disc that are longer than .7 diameters make up 4/5 of it.

@@ -138,7 +138,7 @@ std::unordered_map<int, ShapeRegion> measureShapes(const InkGraph& graph, const 
   for (const InkNode& node : graph.nodes()) addPixels(node.pixels);
   for (std::size_t i = 0; i < mouths.runs.size(); ++i) {
     if (mouths.piece[i] != static_cast<int>(i)) continue;
-    const Run& run = mouths.runs[i];
+    const InkRun& run = mouths.runs[i];
     if (const auto piece = pieceBeside(shapes, {run.x0, run.y})) ++regions[*piece].mouths;
   }
   return regions;

@@ -21,7 +21,7 @@ bool isExplained(const InkPath& s) { return s.elongation() >= kStrokeWidths && s
 std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int, int>& number) {
   std::vector<LabelledPiece> pieces;
   for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-    const Run& r = runs.runs[i];
+    const InkRun& r = runs.runs[i];
     const auto [it, isNew] = number.try_emplace(runs.piece[i], static_cast<int>(pieces.size()));
     if (isNew) {
       pieces.emplace_back();

@@ -79,7 +79,7 @@ bool isFaintlySeen(const RedrawnCurve& c, std::size_t first, std::size_t last, c
   constexpr std::size_t kFewestPoints = 6;
   constexpr double kClear = 3.0;          // [standard deviations of the mean]
   constexpr double kNoiseLengthPx = 3.0;  // along which the noise of the smoothed page is alike
-  constexpr double kFaintShare = 0.25;    // of the contrast asked of reference ink
+  constexpr double kFaintShare = 0.25;    // of the minimum contrast of reference ink
   if (last - first < kFewestPoints) return false;
   double depth = 0.0, contrast = 0.0;
   for (std::size_t i = first; i < last; ++i) {

@@ -73,16 +73,16 @@ void addPiece(const ExportPiece& piece, CancelCheck check, std::vector<MiddlePla
 
 std::vector<StrokeMiddle> strokeMiddles(const ExportCurve& line, CancelCheck check) {
   std::vector<StrokeMiddle> middles;
-  bool goesOn = false;
+  bool hasWidthBefore = false;
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
     const ExportPiece& piece = line.pieces[i];
     if (!piece.width) {
-      goesOn = false;
+      hasWidthBefore = false;
       continue;
     }
-    if (!goesOn || !doMeet(line.pieces[i - 1].curve, piece.curve)) middles.emplace_back();
+    if (!hasWidthBefore || !doMeet(line.pieces[i - 1].curve, piece.curve)) middles.emplace_back();
     addPiece(piece, check, middles.back().places);
-    goesOn = true;
+    hasWidthBefore = true;
   }
   std::erase_if(middles, [](const StrokeMiddle& middle) { return middle.places.size() < 2; });
   const bool isWhole = std::all_of(line.pieces.begin(), line.pieces.end(), [](const auto& p) { return p.width; });

@@ -20,7 +20,7 @@ bool forRowsOfDisc(const BitImage& image, const Vec2& at, double radius, const B
     const double half = std::sqrt(rest);
     const int x0 = std::max(0, static_cast<int>(std::ceil(at.x() - half - 0.5)));
     const int x1 = std::min(image.width, static_cast<int>(std::floor(at.x() + half - 0.5)) + 1);
-    if (x0 < x1 && body(Run{y, x0, x1})) return true;
+    if (x0 < x1 && body(InkRun{y, x0, x1})) return true;
   }
   return false;
 }
@@ -28,14 +28,14 @@ bool forRowsOfDisc(const BitImage& image, const Vec2& at, double radius, const B
 }  // namespace
 
 void setDisc(BitImage& image, const Vec2& at, double radius) {
-  forRowsOfDisc(image, at, radius, [&](const Run& run) {
+  forRowsOfDisc(image, at, radius, [&](const InkRun& run) {
     setBits(image, run);
     return false;
   });
 }
 
 bool anyInDisc(const BitImage& image, const Vec2& at, double radius) {
-  return forRowsOfDisc(image, at, radius, [&](const Run& run) { return countBits(image, run) > 0; });
+  return forRowsOfDisc(image, at, radius, [&](const InkRun& run) { return countBits(image, run) > 0; });
 }
 
 }  // namespace batten

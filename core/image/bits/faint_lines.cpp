@@ -44,7 +44,7 @@ std::vector<Piece> measure(const RunPieces& found, const BitImage& interior, con
                            const BitImage& wide) {
   std::vector<Piece> pieces(found.runs.size());
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    const Run& run = found.runs[i];
+    const InkRun& run = found.runs[i];
     Piece& piece = pieces[found.piece[i]];
     piece.area += run.x1 - run.x0;
     piece.interior += countBits(interior, run);

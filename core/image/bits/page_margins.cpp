@@ -16,7 +16,7 @@ BitImage withoutMargins(BitImage ink, const RunContext& context) {
   const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
   std::vector<Extent> extents(pieces.runs.size());
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const Run& run = pieces.runs[i];
+    const InkRun& run = pieces.runs[i];
     Extent& e = extents[pieces.piece[i]];
     if (pieces.piece[i] == static_cast<int>(i)) e = {run.x0, run.x1, run.y, run.y + 1, 0, 0};
     e = {std::min(e.x0, run.x0), std::max(e.x1, run.x1), e.y0, run.y + 1, e.rows, e.columns};

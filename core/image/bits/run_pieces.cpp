@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kRowsPerStrip = 256;
 
-void appendRuns(const BitImage& image, int y, std::vector<Run>& runs) {
+void appendRuns(const BitImage& image, int y, std::vector<InkRun>& runs) {
   const std::uint64_t* row = image.row(y);
   std::uint64_t carry = 0;
   bool open = false;
@@ -47,11 +47,11 @@ struct RowRuns {
 };
 
 /// Joins the runs of two neighbouring rows where they touch. @param slack [px] 1: corners touch, too; else 0.
-void joinRows(const std::vector<Run>& runs, RowRuns upper, RowRuns lower, int slack, std::vector<int>& parent) {
+void joinRows(const std::vector<InkRun>& runs, RowRuns upper, RowRuns lower, int slack, std::vector<int>& parent) {
   int a = upper.first, b = lower.first;
   while (a < upper.last && b < lower.last) {
-    const Run& above = runs[a];
-    const Run& below = runs[b];
+    const InkRun& above = runs[a];
+    const InkRun& below = runs[b];
     if (above.x0 < below.x1 + slack && below.x0 < above.x1 + slack) {
       const int rootA = findRoot(parent, a), rootB = findRoot(parent, b);
       parent[std::max(rootA, rootB)] = std::min(rootA, rootB);
@@ -88,16 +88,16 @@ void setBits(std::uint64_t* row, int x0, int x1) {
 
 struct Strips {
   std::vector<int> rowStart;  ///< Index of the first run of every row, and the total at the end.
-  std::vector<Run> runs;
+  std::vector<InkRun> runs;
 };
 
 Strips gatherRuns(const BitImage& image, const RunContext& context) {
   const int strips = (image.height + kRowsPerStrip - 1) / kRowsPerStrip;
-  std::vector<std::vector<Run>> parts(strips);
+  std::vector<std::vector<InkRun>> parts(strips);
   Strips all;
   all.rowStart.assign(static_cast<std::size_t>(image.height) + 1, 0);
   parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
-    std::vector<Run>& part = parts[begin / kRowsPerStrip];
+    std::vector<InkRun>& part = parts[begin / kRowsPerStrip];
     for (int y = begin; y < end; ++y) {
       const std::size_t before = part.size();
       appendRuns(image, y, part);
@@ -136,10 +136,10 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
   return result;
 }
 
-void setBits(BitImage& image, const Run& run) { setBits(image.row(run.y), run.x0, run.x1); }
+void setBits(BitImage& image, const InkRun& run) { setBits(image.row(run.y), run.x0, run.x1); }
 
 std::optional<int> pieceAt(const RunPieces& pieces, int x, int y) {
-  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
+  const auto before = [](const InkRun& run, const std::pair<int, int>& yx) {
     return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
   };
   const auto run = std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::pair(y, x), before);
@@ -147,18 +147,18 @@ std::optional<int> pieceAt(const RunPieces& pieces, int x, int y) {
   return pieces.piece[run - pieces.runs.begin()];
 }
 
-void clearBits(BitImage& image, const Run& run) {
+void clearBits(BitImage& image, const InkRun& run) {
   std::uint64_t* row = image.row(run.y);
   forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { row[i] &= ~bits; });
 }
 
-void copyBits(const BitImage& from, const Run& run, BitImage& to) {
+void copyBits(const BitImage& from, const InkRun& run, BitImage& to) {
   const std::uint64_t* source = from.row(run.y);
   std::uint64_t* row = to.row(run.y);
   forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { row[i] |= source[i] & bits; });
 }
 
-int countBits(const BitImage& image, const Run& run) {
+int countBits(const BitImage& image, const InkRun& run) {
   const std::uint64_t* row = image.row(run.y);
   int count = 0;
   forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { count += std::popcount(row[i] & bits); });
@@ -174,7 +174,7 @@ BitImage keepPieces(const BitImage& image, const PieceRule& rule, const RunConte
   const RunPieces found = findPieces(image, Connectivity::Eight, context);
   std::vector<Piece> pieces(found.runs.size());
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    const Run& run = found.runs[i];
+    const InkRun& run = found.runs[i];
     Piece& piece = pieces[found.piece[i]];
     piece.area += run.x1 - run.x0;
     piece.x0 = std::min(piece.x0, run.x0);
@@ -198,7 +198,7 @@ void fillHoles(BitImage& image, int area, const RunContext& context) {
   // A hole of fewer than `area` pixels has only shorter gaps: everything else of the paper need not be looked at.
   BitImage gaps(image.width, image.height);
   parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
-    std::vector<Run> runs;
+    std::vector<InkRun> runs;
     for (int y = begin; y < end; ++y) {
       runs.clear();
       appendRuns(image, y, runs);
@@ -210,7 +210,7 @@ void fillHoles(BitImage& image, int area, const RunContext& context) {
   const RunPieces found = findPieces(gaps, Connectivity::Four, context);
   if (context.isCancelled()) return;
   std::vector<std::int64_t> size(found.runs.size(), 0);
-  const auto openTowards = [&](const Run& run, int y) {
+  const auto openTowards = [&](const InkRun& run, int y) {
     if (y < 0 || y >= image.height) return true;
     bool isOpen = false;
     forWords(run.x0, run.x1,
@@ -218,7 +218,7 @@ void fillHoles(BitImage& image, int area, const RunContext& context) {
     return isOpen;
   };
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    const Run& run = found.runs[i];
+    const InkRun& run = found.runs[i];
     const bool open = openTowards(run, run.y - 1) || openTowards(run, run.y + 1);
     size[found.piece[i]] += open ? area : run.x1 - run.x0;
   }

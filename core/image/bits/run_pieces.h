@@ -11,14 +11,14 @@
 namespace batten {
 
 /// A horizontal run of ink: pixels [x0, x1) of row y.
-struct Run {
+struct InkRun {
   int y, x0, x1;
 };
 
 /// The connected pieces of a bit image, found on runs and not on pixels.
 struct RunPieces {
-  std::vector<Run> runs;   ///< In reading order.
-  std::vector<int> piece;  ///< For every run, the index of the first run of its piece.
+  std::vector<InkRun> runs;  ///< In reading order.
+  std::vector<int> piece;    ///< For every run, the index of the first run of its piece.
 };
 
 enum class Connectivity { Four, Eight };
@@ -27,13 +27,13 @@ std::optional<int> pieceAt(const RunPieces& pieces, int x, int y);
 RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context);
 
 /// Sets the pixels of a run.
-void setBits(BitImage& image, const Run& run);
+void setBits(BitImage& image, const InkRun& run);
 /// Clears the pixels of a run.
-void clearBits(BitImage& image, const Run& run);
+void clearBits(BitImage& image, const InkRun& run);
 /// Sets in `to` the pixels of the run that are set in `from`, which is as large.
-void copyBits(const BitImage& from, const Run& run, BitImage& to);
+void copyBits(const BitImage& from, const InkRun& run, BitImage& to);
 /// How many pixels of the run are set.
-int countBits(const BitImage& image, const Run& run);
+int countBits(const BitImage& image, const InkRun& run);
 
 /// What a piece of ink must have to stay.
 struct PieceRule {

@@ -30,11 +30,11 @@ enum class ThresholdMode {
 struct ThresholdParams {
   ThresholdMode mode = ThresholdMode::Automatic;
   double manualLevel = 128.0;  ///< [grey 0..255] Threshold of every region in Manual mode.
-  double strength = 1.0;    ///< [-] 0.2..3. Scales the automatic contrast asked of ink: larger keeps only darker lines.
+  double strength = 1.0;  ///< [-] 0.2..3. Scales the automatic minimum contrast of ink: larger keeps only darker lines.
   bool interpolate = true;  ///< Bilinear between region centres (no seams); off: blocks, as in the paper.
   bool smooth = true;  ///< A Gaussian as wide as the paper's noise asks for comes before the thresholds; off: none,
                        ///< as in the papers.
-  double reach = 0.0;  ///< [-] 0..1. Share of the contrast asked of ink that thin, long faint lines need; smaller
+  double reach = 0.0;  ///< [-] 0..1. Share of the minimum contrast of ink that thin, long faint lines need; smaller
                        ///< keeps fainter ones, 1 = ink as it is, 0 = chosen by the program.
   int speckArea = 20;  ///< [px] >= 0. Smaller pieces of ink are specks and are dropped; 0 keeps all.
   int holeArea = 10;   ///< [px] >= 0. Smaller holes inside ink are filled; 0 keeps all.

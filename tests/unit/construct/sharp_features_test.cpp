@@ -55,7 +55,7 @@ double lengthOf(const NurbsCurve& curve) {
   return length;
 }
 
-TEST(FairTurns, UnmarkedCornersStayOnTheirPoints) {
+TEST(SharpFeatures, UnmarkedCornersStayOnTheirPoints) {
   const std::vector<Vec2> square{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
   const std::vector<Vec2> zigzag{{0, 0}, {120, 30}, {20, 60}, {140, 95}, {60, 98}};
   for (const bool closed : {true, false}) {
@@ -74,7 +74,7 @@ TEST(FairTurns, UnmarkedCornersStayOnTheirPoints) {
   }
 }
 
-TEST(FairTurns, TheCurveIsSmoothAcrossItsJoints) {
+TEST(SharpFeatures, TheCurveIsSmoothAcrossItsJoints) {
   const auto fit = test::fitOne(alongPolygon({{0, 0}, {200, 0}, {200, 200}, {0, 200}}, true, 0.1), true);
   ASSERT_TRUE(fit.has_value());
   const NurbsCurve& curve = fit->front().curve;
@@ -90,7 +90,7 @@ TEST(FairTurns, TheCurveIsSmoothAcrossItsJoints) {
   for (std::size_t d = 0; d < 5; ++d) EXPECT_LT((start[d] - end[d]).norm(), 1e-6) << d;
 }
 
-TEST(FairTurns, FairLinesHaveNoSharpTurns) {
+TEST(SharpFeatures, FairLinesHaveNoSharpTurns) {
   for (const double radius : {15.0, 40.0, 300.0}) {
     const auto truth = test::curveOfCurvature(5.0 * radius, [&](double) { return 1.0 / radius; });
     ConstructPiece piece;
@@ -99,7 +99,7 @@ TEST(FairTurns, FairLinesHaveNoSharpTurns) {
   }
 }
 
-TEST(FairTurns, TightCurvesMeetTheirNeighbours) {
+TEST(SharpFeatures, TightCurvesMeetTheirNeighbours) {
   const CurveEnd before{Vec2(0, 0), Vec2(1, 0), Vec2(0, 0.01)}, after{Vec2(8, 8), Vec2(0, 1.1), Vec2(0.02, 0)};
   const std::vector<Vec2> points{{1, 0},   {2, 0},   {3, 0},   {4, 0}, {5, 0.2},
                                  {6, 0.6}, {7, 1.5}, {7.6, 3}, {8, 5}, {8, 7}};
@@ -128,7 +128,7 @@ std::vector<Vec2> bulged(std::vector<Vec2> points, const std::vector<Vec2>& norm
   return points;
 }
 
-TEST(FairTurns, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
+TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
   constexpr int kCount = 1256, kAt = 300;
   std::vector<Vec2> circle, out;
   for (int i = 0; i < kCount; ++i) {

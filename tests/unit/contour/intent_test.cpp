@@ -120,7 +120,7 @@ TEST(Intent, PiecesFollowEachOtherRoundARing) {
   for (const StrokePiece& p : set.pieces) EXPECT_NEAR(p.strip.length(), 50.0, 2.0);
 }
 
-TEST(Intent, MeasuresOfTwoStraightStrokesSideBySide) {
+TEST(Intent, MeasuresOfTwoStraightParallelStrokes) {
   // 12 px apart are 3 widths; the second begins 80 px later and runs back.
   const std::vector<Contour> lines{penLine({{40, 100}, {440, 100}}), penLine({{440, 112}, {120, 112}})};
   const StrokePieceSet set = cutIntoPieces(lines, kIntentPenPx, {});

@@ -43,7 +43,7 @@ Contour line(const Vec2& a, const Vec2& b) {
   return strokeOf(std::move(points));
 }
 
-TEST(StrokeMerge, StrokesSideBySideBecomeTheirMean) {
+TEST(StrokeMerge, ParallelStrokesBecomeTheirMean) {
   const std::vector<Contour> strokes{line({40, 97}, {360, 97}), line({360, 104}, {40, 104}),
                                      line({40, 110}, {360, 110})};
   const auto merged = mergeStrokes(strokes, 12.0, {});

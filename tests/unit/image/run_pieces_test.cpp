@@ -58,8 +58,8 @@ TEST(RunPieces, KeepsWhatFloodFillKeeps) {
 
 TEST(RunPieces, CopiesClearsAndCountsTheBitsOfARun) {
   const BitImage image = test::randomImage(200, 4, 0.5, 9);
-  for (const batten::Run& run :
-       std::vector<batten::Run>{{0, 0, 200}, {1, 3, 60}, {2, 63, 65}, {3, 64, 128}, {1, 127, 129}}) {
+  for (const batten::InkRun& run :
+       std::vector<batten::InkRun>{{0, 0, 200}, {1, 3, 60}, {2, 63, 65}, {3, 64, 128}, {1, 127, 129}}) {
     BitImage copied = test::randomImage(200, 4, 0.2, 10), cleared = image;
     BitImage expected = copied, without = image;
     int count = 0;

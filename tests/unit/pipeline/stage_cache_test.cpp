@@ -51,7 +51,7 @@ TEST(StageCache, DropsTheLeastRecentlyUsed) {
   EXPECT_LE(cache.bytesUsed(), 100u);
 }
 
-TEST(StageCache, DoesNotKeepWhatIsLargerThanTheBudget) {
+TEST(StageCache, DoesNotKeepWhatIsLargerThanItsLimit) {
   StageCache cache(100);
   cache.store(key(1), value(1), 60);
   cache.store(key(2), value(2), 101);
