@@ -174,8 +174,8 @@ void MainWindow::trigger(ActionId id) {
       return setStage(PanelStage::Export);
     case ActionId::CopySvg:
       return parts_->exportPanel->copy();
-    case ActionId::TurnDirection:
-      return turnCurve(session_, session_.selectedCurve());
+    case ActionId::ReverseCurve:
+      return reverseCurve(session_, session_.selectedCurve());
     case ActionId::Quit:
       return void(close());
     case ActionId::Undo:
@@ -306,7 +306,7 @@ void MainWindow::refreshActions() {
   const bool curves = !session_.curves().empty();
   for (const ActionId id : {ActionId::NextCurve, ActionId::PreviousCurve, ActionId::CopySvg, ActionId::ToolDirection})
     action(id)->setEnabled(curves);
-  action(ActionId::TurnDirection)->setEnabled(session_.selected() != nullptr);
+  action(ActionId::ReverseCurve)->setEnabled(session_.selected() != nullptr);
   action(ActionId::Pin)->setEnabled(curves || session_.pinned());
   action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);
   for (int degree = 1; degree <= 6; ++degree)

@@ -34,9 +34,9 @@ bool isControl(std::uint32_t code) { return code < 0x20 || (code >= 0x7f && code
 
 bool isShown(std::uint32_t code) {
   const bool isLineMark = code == 0x2028 || code == 0x2029;
-  const bool turnsDirection = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+  const bool setsDirection = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
   const bool isNoCharacter = (code & 0xfffeu) == 0xfffe || (code >= 0xfdd0 && code <= 0xfdef);
-  return !isControl(code) && !isLineMark && !turnsDirection && !isNoCharacter;
+  return !isControl(code) && !isLineMark && !setsDirection && !isNoCharacter;
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ struct ConstructReport {
   Termination why = Termination::NotRun;
   std::string note;                     ///< One line for the user when a fallback was used; else empty.
   std::vector<ExtremumNote> extrema;    ///< Fair fit only.
-  int extremaInTurns = 0;               ///< Fair fit: at sharp features, where significance is not tested.
+  int extremaInSharpFeatures = 0;       ///< Fair fit: at sharp features, where significance is not tested.
   std::vector<int> unmetConstraints;    ///< Ids of constraints that found no extremum, or one that cannot go.
   std::vector<double> bandS;            ///< [mm] arc lengths at which the band is given (fair fit only).
   std::vector<double> bandSigma;        ///< [1/mm] standard deviation of the curvature there.

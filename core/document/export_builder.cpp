@@ -122,7 +122,7 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
         own.figures = figuresOf(*piece, sketched);
         own.width = widths.along(*piece, shapeOf(*piece, sketched));
         if (const auto& wanted = owners.ofPiece[piece->piece])
-          own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
+          own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isReversed};
       }
       if (const ImportedLine* imported = importedLineOf(line, recipe.imports))
         takeOrigin(*imported, sketched, isBoth, curve);

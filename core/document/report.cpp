@@ -104,7 +104,7 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
                                {"at_px", pointToJson(frame.pointToImage(e.point))},
                                {"chosen_by_user", e.constraint.has_value()}});
   }
-  json["extrema_in_turns"] = r.extremaInTurns;
+  json["extrema_in_turns"] = r.extremaInSharpFeatures;
   json["unmet_choices"] = r.unmetConstraints;
   return json;
 }

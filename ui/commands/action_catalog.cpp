@@ -131,7 +131,7 @@ std::vector<ActionInfo> toolActions() {
        tr("Click a curve to reverse its direction; drag the ring of a closed curve to its start "
           "point."),
        true},
-      {TurnDirection, "turn-direction", menu, tr("Reverse curve"), keys({"Shift+F"}),
+      {ReverseCurve, "turn-direction", menu, tr("Reverse curve"), keys({"Shift+F"}),
        tr("Reverse the direction of the selected curve.")},
       {ClearRegions, "clear-regions", menu, tr("Clear regions"), keys({"Ctrl+Shift+R"}),
        tr("Trace the whole page again.")},

@@ -73,7 +73,7 @@ enum class ActionId {
   ImportCurves,
   PasteScan,
   CopySvg,
-  TurnDirection,
+  ReverseCurve,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

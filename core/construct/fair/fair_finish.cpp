@@ -271,8 +271,8 @@ class FinishedFit {
     return curve;
   }
 
-  /// True if the curvature itself (the programs see it to first order) turns more often than the structure has extrema.
-  bool turnsTooOften(const UniformQuintic& curve, const FairStructure& structure) const {
+  /// True if the curvature itself (the programs see it to first order) has more extrema than the structure.
+  bool hasMoreExtrema(const UniformQuintic& curve, const FairStructure& structure) const {
     const auto stations = checkStations(curve, kFineChecksPerSpan, context_);
     Vec2 low = curve.at(0.0, 0)[0], high = low;
     for (const FrameStation& s : stations) {
@@ -288,7 +288,7 @@ class FinishedFit {
 
   bool finishCurve(const FairPosterior& posterior, StructureResult& found, double circleCost) {
     auto curve = structuredCurve(posterior, found);
-    for (int pass = 0; curve && pass < kRefinements && turnsTooOften(*curve, found.structure); ++pass) {
+    for (int pass = 0; curve && pass < kRefinements && hasMoreExtrema(*curve, found.structure); ++pass) {
       // About the curve itself, with its own knots, the linear constraints are exact but for a tiny remainder.
       frame_ = assembleFrame(*curve, piece_.data, options_, kFineChecksPerSpan, context_);
       if (context_.isCancelled()) return false;
@@ -304,7 +304,7 @@ class FinishedFit {
       FairStructure structure = found.structure;
       const StructureFit lifted = withoutPlateaus(frame_, pinned_, structure, *last_, context_);
       auto steady = structure.leastSlope.empty() ? std::nullopt : offsetCurve(frame_.base, lifted.c, context_);
-      if (steady && !turnsTooOften(*steady, structure)) {
+      if (steady && !hasMoreExtrema(*steady, structure)) {
         curve = std::move(steady);
         found.structure = std::move(structure);
       }

@@ -22,10 +22,10 @@ constexpr double kLeastGain = 0.85;   // of the spans: more are not worth anothe
 constexpr double kFirstGuess = 0.25;  // of the spans
 constexpr int kTrials = 6;
 constexpr double kCloseEnough = 0.06;  // of the spans: that many more or less are not worth a trial
-constexpr double kTurnExcess = 1.6, kNoFit = 20.0;
+constexpr double kExtremaExcess = 1.6, kNoFit = 20.0;
 constexpr double kLeastExcess = 0.05;     // taken of a fit: a trial then has half the spans at least (fourth root)
 constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth another solution
-constexpr int kFreeSpans = 1;             // of the full curve on either side of a turn
+constexpr int kFreeSpans = 1;             // of the full curve on either side of an extremum
 constexpr double kEndHold = 1e4;          // relative weight of exact ends in the frame
 constexpr double kMonitorFloor = 0.2;     // of the mean density of knots
 constexpr double kWrongWayKept = 3e-3;    // [1/diagonal] curvature that may turn back
@@ -99,7 +99,7 @@ class KnotRemoval {
       high = high.cwiseMax(p);
     }
     least_ = kWrongWayKept / std::max((high - low).norm(), 1e-12);
-    turns_ = countExtrema(kappas_, least_);
+    extrema_ = countExtrema(kappas_, least_);
     if (!limits.distancePx.empty()) nearest_ = *std::min_element(limits.distancePx.begin(), limits.distancePx.end());
     findCourses();
   }
@@ -142,8 +142,8 @@ class KnotRemoval {
       if (!closed_) {
         knots.push_back(inner[std::clamp(i, 0, spans)]);
       } else {
-        const int turn = i < 0 ? -1 : i >= spans ? 1 : 0;
-        knots.push_back(inner[i - turn * spans] + turn * length);
+        const int lap = i < 0 ? -1 : i >= spans ? 1 : 0;
+        knots.push_back(inner[i - lap * spans] + lap * length);
       }
     }
     return knots;
@@ -159,8 +159,8 @@ class KnotRemoval {
   struct Fit {
     Eigen::VectorXd x, y;
     double moved = 0.0;
-    double excess = kNoFit;  ///< Largest deviation in units of its limit; more than 1 when turns come or go.
-    bool turns = false;      ///< As often as the full curve.
+    double excess = kNoFit;     ///< Largest deviation in units of its limit; more than 1 when extrema come or go.
+    bool keepsExtrema = false;  ///< As many as the full curve.
   };
 
   /// Least squares on `spans` spans, of places and second derivatives, each in units of its limit.
@@ -192,12 +192,12 @@ class KnotRemoval {
     cholesky.solveInPlace(fit.y);
     if (!fit.x.allFinite() || !fit.y.allFinite()) return fit;
     measure(fit, rows);
-    if (!fit.turns && fit.excess <= kStraightenBelow) {
+    if (!fit.keepsExtrema && fit.excess <= kStraightenBelow) {
       Fit monotone = fit;
       if (makeMonotone(monotone, knots)) measure(monotone, rows);
-      if (monotone.turns) fit = std::move(monotone);
+      if (monotone.keepsExtrema) fit = std::move(monotone);
     }
-    if (!fit.turns) fit.excess = std::max(fit.excess, kTurnExcess);
+    if (!fit.keepsExtrema) fit.excess = std::max(fit.excess, kExtremaExcess);
     return fit;
   }
 
@@ -259,10 +259,10 @@ class KnotRemoval {
     return true;
   }
 
-  /// Whether the curvature of the full curve rises (1) or falls (-1) at each station; 0 next to where it turns.
+  /// Whether the curvature of the full curve rises (1) or falls (-1) at each station; 0 next to its extrema.
   void findCourses() {
     const int count = static_cast<int>(kappas_.size());
-    const std::vector<int> turns = extremaOfSamples(kappas_, least_);
+    const std::vector<int> extrema = extremaOfSamples(kappas_, least_);
     courses_.assign(kappas_.size(), 0);
     const auto stretch = [&](int from, int to, bool isFirst, bool isLast) {
       const auto &a = kappas_[from], &b = kappas_[to];
@@ -271,10 +271,10 @@ class KnotRemoval {
       for (int i = low; i <= high; ++i) courses_[i] = b > a ? 1 : -1;
     };
     int from = 0;
-    for (std::size_t k = 0; k <= turns.size(); ++k) {
-      const int to = k < turns.size() ? turns[k] : count - 1;
-      // Where a closed curve begins it may turn as well: its first and last stretch are left alone.
-      if (!closed_ || (k > 0 && k < turns.size())) stretch(from, to, k == 0, k == turns.size());
+    for (std::size_t k = 0; k <= extrema.size(); ++k) {
+      const int to = k < extrema.size() ? extrema[k] : count - 1;
+      // Where a closed curve begins there may be an extremum as well: its first and last stretch are left alone.
+      if (!closed_ || (k > 0 && k < extrema.size())) stretch(from, to, k == 0, k == extrema.size());
       from = to;
     }
   }
@@ -298,7 +298,7 @@ class KnotRemoval {
       excess = std::max(excess, std::abs(kappa.back() - kappas_[i]) / std::max(kappaLimit(i), 1e-300));
     }
     fit.excess = excess;
-    fit.turns = countExtrema(kappa, least_) == turns_;
+    fit.keepsExtrema = countExtrema(kappa, least_) == extrema_;
   }
 
   std::optional<KnotRemovalResult> made(const Fit& fit, int spans) const {
@@ -324,7 +324,7 @@ class KnotRemoval {
   std::vector<double> parameters_, kappas_;
   std::vector<Vec2> targets_, normals_, bends_;
   double least_ = 0.0, nearest_ = 1.0;
-  int turns_ = 0;
+  int extrema_ = 0;
   std::vector<int> courses_;
 };
 
@@ -338,9 +338,9 @@ std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, con
 }
 
 std::vector<int> extremaOfSamples(std::span<const double> kappa, double least) {
-  std::vector<int> turns;
-  for (const TurningPoint& turning : turningPoints(kappa, least, TurningStart::AtEnd)) turns.push_back(turning.index);
-  return turns;
+  std::vector<int> extrema;
+  for (const TurningPoint& turning : turningPoints(kappa, least, TurningStart::AtEnd)) extrema.push_back(turning.index);
+  return extrema;
 }
 
 int countExtrema(std::span<const double> kappa, double least) {

@@ -26,13 +26,13 @@ struct KnotRemovalResult {
   double movedPx = 0.0;  ///< Farthest that it lies from the full curve.
 };
 
-/// The quintic with the fewest spans that stays within the limits and whose curvature turns back as often as that of
+/// The quintic with the fewest spans that stays within the limits and whose curvature has as many extrema as that of
 /// the full curve: least squares on knots that share out the sixth derivative evenly (de Boor, A Practical Guide to
 /// Splines, ch. XII), their number found by trial. Absent when nothing is gained.
 std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits&,
                                                  CancelCheck check = {});
 
-/// Where sampled curvature turns back by more than `least`: indices, ascending.
+/// The extrema of sampled curvature that rise or fall by more than `least`: indices, ascending.
 std::vector<int> extremaOfSamples(std::span<const double> kappa, double least);
 /// How often it does.
 int countExtrema(std::span<const double> kappa, double least);

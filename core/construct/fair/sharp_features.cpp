@@ -35,8 +35,8 @@ struct Course {
   Vec2 at(int i) const { return p[((i % count()) + count()) % count()]; }
   double length(int i) const {
     const int n = count();
-    const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
-    return s[i - turns * n] + turns * total;
+    const int laps = static_cast<int>(std::floor(static_cast<double>(i) / n));
+    return s[i - laps * n] + laps * total;
   }
 };
 
@@ -95,8 +95,8 @@ PointRange widened(const Course& course, const ConstructPiece& piece, int a, int
   while ((course.closed ? b < a + n - 1 : b + 1 < n) && course.length(b) < to) ++b;
   const int size = static_cast<int>(piece.points.size());
   const auto original = [&](int i) {
-    const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
-    return course.index[i - turns * n] + turns * size;
+    const int laps = static_cast<int>(std::floor(static_cast<double>(i) / n));
+    return course.index[i - laps * n] + laps * size;
   };
   PointRange range{original(a), original(b)};
   while (range.first < 0) range = {range.first + size, range.last + size};
@@ -143,12 +143,12 @@ Passing follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at,
 
 }  // namespace
 
-std::vector<PointRange> sharpTurns(const ConstructPiece& piece, bool isStroke, double pixelMm,
-                                   const FairFitOptions& options) {
+std::vector<PointRange> sharpFeatures(const ConstructPiece& piece, bool isStroke, double pixelMm,
+                                      const FairFitOptions& options) {
   const Course course = courseOf(piece, pixelMm, isStroke ? options.gateStrokePx : options.gateOutlinePx);
   const int n = course.count();
-  std::vector<PointRange> turns;
-  if (n < 5) return turns;
+  std::vector<PointRange> features;
+  if (n < 5) return features;
   const double arm = std::max(kArmPx, kArmPoints * course.total / n);
   const std::vector<double> angle = turning(course, arm);
   const auto sharp = [&](int i) { return angle[i % n] > kSharpRad; };
@@ -163,11 +163,11 @@ std::vector<PointRange> sharpTurns(const ConstructPiece& piece, bool isStroke, d
     while (j + 1 < begin + n && sharp(j + 1)) ++j;
     const double from = course.length(i), to = course.length(j);
     if (piece.closed || (from > kEndGuardPx && to < course.total - kEndGuardPx)) {
-      turns.push_back(widened(course, piece, i, j, kMarginPx));
+      features.push_back(widened(course, piece, i, j, kMarginPx));
     }
     i = j;
   }
-  return turns;
+  return features;
 }
 
 std::vector<PointRange> united(std::vector<PointRange> ranges, const ConstructPiece& piece, double pixelMm,
@@ -201,19 +201,19 @@ std::vector<PointRange> united(std::vector<PointRange> ranges, const ConstructPi
   return out;
 }
 
-std::vector<PointRange> between(const std::vector<PointRange>& turns, const ConstructPiece& piece) {
+std::vector<PointRange> between(const std::vector<PointRange>& features, const ConstructPiece& piece) {
   const int n = static_cast<int>(piece.points.size());
-  if (turns.empty()) return {{0, n - 1}};
+  if (features.empty()) return {{0, n - 1}};
   std::vector<PointRange> out;
   const auto add = [&](int first, int last) {
     if (last > first) out.push_back({first, last});
   };
-  if (!piece.closed) add(0, turns.front().first - 1);
-  for (std::size_t i = 0; i + 1 < turns.size(); ++i) add(turns[i].last + 1, turns[i + 1].first - 1);
+  if (!piece.closed) add(0, features.front().first - 1);
+  for (std::size_t i = 0; i + 1 < features.size(); ++i) add(features[i].last + 1, features[i + 1].first - 1);
   if (piece.closed) {
-    add(turns.back().last + 1, turns.front().first + n - 1);
+    add(features.back().last + 1, features.front().first + n - 1);
   } else {
-    add(turns.back().last + 1, n - 1);
+    add(features.back().last + 1, n - 1);
   }
   return out;
 }

@@ -15,15 +15,15 @@ struct PointRange {
 };
 
 /// Stretches of a piece that turn more sharply than the fair fit can follow: unmarked corners, tips and
-/// hairpins, with a little of the line on either side. In order, at most one turn of a closed piece long.
-std::vector<PointRange> sharpTurns(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
+/// hairpins, with a little of the line on either side. In order, at most once round a closed piece.
+std::vector<PointRange> sharpFeatures(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
 
 /// Sorts ranges and unites those that leave less than `leastBetweenPx` of line between them, or between them and an
 /// open end.
 std::vector<PointRange> united(std::vector<PointRange>, const ConstructPiece&, double pixelMm, double leastBetweenPx);
 
-/// The stretches between turns, in order (closed: beginning after the first turn); without turns the whole piece.
-std::vector<PointRange> between(const std::vector<PointRange>& turns, const ConstructPiece&);
+/// The stretches between sharp features, in order (closed: beginning after the first one); without any the whole piece.
+std::vector<PointRange> between(const std::vector<PointRange>& features, const ConstructPiece&);
 
 /// How far the points of a piece lie from a curve that should follow them in order.
 struct PointDeviation {
@@ -38,7 +38,7 @@ struct PointDeviation {
 };
 PointDeviation pointDeviation(const NurbsCurve&, const ConstructPiece&, double pixelMm, CancelCheck check = {});
 
-/// Where a curve has left the points: the ranges to treat as sharp turns so that the rest can be fitted. Long ones
+/// Where a curve has left the points: the ranges to treat as sharp features so that the rest can be fitted. Long ones
 /// shrink to their sharpest place unless `whole`.
 std::vector<PointRange> outlierRanges(const PointDeviation&, const ConstructPiece&, double pixelMm, bool whole);
 

@@ -19,7 +19,7 @@ namespace batten {
 namespace {
 
 constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, it has a loop of its own
-constexpr double kLeastSmoothPx = 24.0;    // between two turns; shorter stretches have no fairness to keep
+constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorter stretches have no fairness to keep
 
 /// The notes of a part that begins at `offset` of the whole, for lengths from..to of the part.
 void append(ConstructReport& whole, const ConstructReport& part, double from, double to, double offset) {
@@ -71,14 +71,14 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
 }
 
 /// Curvature extrema of what follows the points closely, without a judgement of each.
-int extremaOf(const std::vector<NurbsCurve>& turns, double size, bool closed, const RunContext& context) {
+int extremaOf(const std::vector<NurbsCurve>& fills, double size, bool closed, const RunContext& context) {
   std::size_t count = 0;
-  for (const NurbsCurve& turn : turns)
-    count += curvatureExtrema(turn, kExtremumProminence / size, closed, context).size();
+  for (const NurbsCurve& fill : fills)
+    count += curvatureExtrema(fill, kExtremumProminence / size, closed, context).size();
   return static_cast<int>(count);
 }
 
-std::string turnNote(std::size_t count) {
+std::string sharpFeatureNote(std::size_t count) {
   if (count == 1)
     return "Turns sharply at 1 place: mark a corner there for an exact fit; where the line only trembles, raise "
            "Detail.";
@@ -92,8 +92,8 @@ std::string turnNote(std::size_t count) {
 SmoothSections::SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm,
                                const FairFitOptions& options)
     : piece_(piece), pixelMm_(pixelMm) {
-  turns_ = united(sharpTurns(piece, isStroke, pixelMm, options), piece, pixelMm, kLeastSmoothPx);
-  smooth_ = between(turns_, piece);
+  sharp_ = united(sharpFeatures(piece, isStroke, pixelMm, options), piece, pixelMm, kLeastSmoothPx);
+  smooth_ = between(sharp_, piece);
 }
 
 std::vector<Vec2> SmoothSections::pointsOf(const PointRange& range) const {
@@ -104,7 +104,7 @@ std::vector<Vec2> SmoothSections::pointsOf(const PointRange& range) const {
 }
 
 std::vector<ConstructPiece> SmoothSections::stretches() const {
-  if (turns_.empty()) return {piece_};
+  if (sharp_.empty()) return {piece_};
   std::vector<ConstructPiece> pieces;
   for (const PointRange& range : smooth_) {
     ConstructPiece piece;
@@ -136,7 +136,7 @@ std::vector<ConstructPiece> SmoothSections::stretches() const {
 bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, CancelCheck run) {
   fits_ = std::move(fits);
   const auto pieces = stretches();
-  std::vector<PointRange> turns = turns_;
+  std::vector<PointRange> sharp = sharp_;
   std::vector<Cut> cuts;
   bool more = false;
   for (std::size_t i = 0; i < fits_.size(); ++i) {
@@ -148,20 +148,20 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
     if (run.isCancelled()) return false;
     const int offset = smooth_[i].first;
     const auto outliers = outlierRanges(close, pieces[i], pixelMm_, lastRound);
-    for (PointRange r : outliers) turns.push_back({r.first + offset, r.last + offset});
+    for (PointRange r : outliers) sharp.push_back({r.first + offset, r.last + offset});
     if (lastRound && !outliers.empty()) cuts.push_back({i, close, outliers});
     more = more || !outliers.empty();
   }
   if (!more) return false;
   const int n = static_cast<int>(piece_.points.size());
-  for (PointRange& r : turns) {
+  for (PointRange& r : sharp) {
     if (r.first >= n) r = {r.first - n, r.last - n};
   }
-  turns_ = united(std::move(turns), piece_, pixelMm_, kLeastSmoothPx);
+  sharp_ = united(std::move(sharp), piece_, pixelMm_, kLeastSmoothPx);
   if (lastRound) {
     keepNear(cuts, pieces);
   } else {
-    smooth_ = between(turns_, piece_);
+    smooth_ = between(sharp_, piece_);
   }
   return true;
 }
@@ -195,11 +195,11 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
   smooth_ = std::move(ranges);
 }
 
-Result<ConstructedPiece> SmoothSections::withTurns(const RunContext& context) const {
+Result<ConstructedPiece> SmoothSections::withSharpFeatures(const RunContext& context) const {
   const int n = static_cast<int>(piece_.points.size());
   ConstructedPiece whole;
   whole.report.why = Termination::Converged;
-  whole.report.note = turnNote(turns_.size());
+  whole.report.note = sharpFeatureNote(sharp_.size());
   if (smooth_.empty()) {
     auto curve = piece_.closed ? tightLoop(piece_.points, pixelMm_) : cornerFill(piece_.points, pixelMm_, {}, {});
     if (!curve) return fail(curve.error());
@@ -208,16 +208,16 @@ Result<ConstructedPiece> SmoothSections::withTurns(const RunContext& context) co
     whole.report.note =
         "The line bends too sharply everywhere for the fair fit; a curve close to the points was "
         "used.";
-    whole.report.extremaInTurns = extremaOf({whole.curve}, extent(whole.curve), piece_.closed, context);
+    whole.report.extremaInSharpFeatures = extremaOf({whole.curve}, extent(whole.curve), piece_.closed, context);
     return whole;
   }
-  std::vector<NurbsCurve> parts, turns;
+  std::vector<NurbsCurve> parts, fills;
   double total = 0.0;  // [mm] of the parts so far
   const auto tight = [&](int first, int last, const std::optional<CurveEnd>& a, const std::optional<CurveEnd>& b) {
     auto curve = cornerFill(pointsOf({first, last}), pixelMm_, a, b);
     if (!curve) return curve;
     parts.push_back(*curve);
-    turns.push_back(*curve);
+    fills.push_back(*curve);
     total += curve->end() - curve->start();
     return curve;
   };
@@ -251,8 +251,8 @@ Result<ConstructedPiece> SmoothSections::withTurns(const RunContext& context) co
     const std::size_t from = (first + k - 1) % count, to = (first + k) % count;
     int next = smooth_[to].first;
     while (next <= smooth_[from].last) next += n;
-    const auto turn = tight(smooth_[from].last + 1, next - 1, endOf(fits_[from].curve), startOf(fits_[to].curve));
-    if (!turn) return fail(turn.error());
+    const auto fill = tight(smooth_[from].last + 1, next - 1, endOf(fits_[from].curve), startOf(fits_[to].curve));
+    if (!fill) return fail(fill.error());
     if (piece_.closed && k == count) {
       place(halves->left, fits_[first].report, 0.0, cut);
     } else {
@@ -260,14 +260,14 @@ Result<ConstructedPiece> SmoothSections::withTurns(const RunContext& context) co
     }
   }
   if (!piece_.closed && smooth_.back().last < n - 1) {
-    const auto turn = tight(smooth_.back().last + 1, n - 1, endOf(fits_.back().curve), {});
-    if (!turn) return fail(turn.error());
+    const auto fill = tight(smooth_.back().last + 1, n - 1, endOf(fits_.back().curve), {});
+    if (!fill) return fail(fill.error());
   }
   auto curve = joinSmoothly(parts);
   if (!curve) return fail(curve.error());
   whole.curve = std::move(*curve);
   whole.report.noisePx = fits_[first].report.noisePx;
-  whole.report.extremaInTurns = extremaOf(turns, extent(whole.curve), false, context);
+  whole.report.extremaInSharpFeatures = extremaOf(fills, extent(whole.curve), false, context);
   whole.report.fullControlPoints = whole.curve.controlPointCount();
   for (const ConstructedPiece& fit : fits_) {
     if (fit.report.fullControlPoints == 0) continue;
@@ -314,14 +314,14 @@ void SmoothSections::noteUnmet(ConstructReport& report) const {
 }
 
 Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const {
-  if (turns_.empty()) return fits_.front();
+  if (sharp_.empty()) return fits_.front();
   auto whole = joinedParts(context);
   if (whole) noteUnmet(whole->report);
   return whole;
 }
 
 Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
-  auto whole = withTurns(context);
+  auto whole = withSharpFeatures(context);
   if (context.isCancelled()) return cancelled();
   const auto farness = [&](const PointDeviation& c) {
     return c.far + 10 * c.veryFar + (c.lengthRatio > kMostLengthRatio ? 1000 : 0);

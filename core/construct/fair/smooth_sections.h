@@ -13,17 +13,19 @@
 
 namespace batten {
 
-/// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and tight turns.
+/// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and sharp
+/// features.
 class SmoothSections {
  public:
   SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm, const FairFitOptions&);
 
-  bool hasTurns() const { return !turns_.empty(); }
+  bool hasSharpFeatures() const { return !sharp_.empty(); }
   /// The smooth stretches as pieces of their own.
   std::vector<ConstructPiece> stretches() const;
-  /// Takes the fits of stretches(); where one has left its points further turns are noted. True when there are.
+  /// Takes the fits of stretches(); where one has left its points further sharp features are noted. True when there
+  /// are.
   bool check(std::vector<ConstructedPiece> fits, bool lastRound, CancelCheck run = {});
-  /// The whole: stretches and tight turns in one curve, with the reports together; what is not near its points is
+  /// The whole: stretches and sharp features in one curve, with the reports together; what is not near its points is
   /// replaced by a quintic through stations.
   Result<ConstructedPiece> joined(const RunContext&) const;
 
@@ -37,14 +39,14 @@ class SmoothSections {
   /// Of those fits only what is near the points; tight curves come between.
   void keepNear(const std::vector<Cut>&, const std::vector<ConstructPiece>& pieces);
   Result<ConstructedPiece> joinedParts(const RunContext&) const;
-  Result<ConstructedPiece> withTurns(const RunContext&) const;
+  Result<ConstructedPiece> withSharpFeatures(const RunContext&) const;
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;
   std::vector<Vec2> pointsOf(const PointRange&) const;
 
   const ConstructPiece& piece_;
   double pixelMm_;
-  std::vector<PointRange> turns_, smooth_;
+  std::vector<PointRange> sharp_, smooth_;
   std::vector<ConstructedPiece> fits_;
 };
 

@@ -29,7 +29,7 @@ constexpr double kJointPx = 40.0, kLeastFairPx = 40.0;
 
 /// A closed line is opened after the station whose segment bends least: curvature is least at a joint, never inside a
 /// typical curve.
-void turnToStraightest(std::vector<Station>& stations) {
+void rotateToStraightest(std::vector<Station>& stations) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -97,7 +97,7 @@ TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const Co
   // A chain needs no closer stations: it goes by the points, and by more joints it only takes longer.
   std::vector<Station> stations = usableStations(piece, 6);
   if (stations.size() < (piece.closed ? 3u : 2u)) return line;
-  if (piece.closed) turnToStraightest(stations);
+  if (piece.closed) rotateToStraightest(stations);
   const FairedJoints faired = fairedJoints(givenStations(stations), piece.closed, pixelMm, params.lowPass, context);
   double total = 0.0;
   for (const double length : faired.lengths) total += length;

@@ -70,7 +70,7 @@ void followInk(StrokeCourse& c, const GreyImage& grey) {
   replaceTail(c, n - hook, {path.begin() + known, path.end()});
 }
 
-void turnRound(StrokeCourse& c) {
+void reverseCourse(StrokeCourse& c) {
   std::reverse(c.points.begin(), c.points.end());
   for (CoursePoint& p : c.points) p.tangent = -p.tangent;
   std::swap(c.tip[0], c.tip[1]);
@@ -179,9 +179,9 @@ FreeEnds findEnds(StrokeCourse& c, const GreyImage& grey, bool isPencil) {
   };
   if (c.tip[1]) find(1);
   if (!c.tip[0]) return ends;
-  turnRound(c);
+  reverseCourse(c);
   find(0);
-  turnRound(c);
+  reverseCourse(c);
   return ends;
 }
 
@@ -210,9 +210,9 @@ double cutOddsOf(const std::vector<FreeEnds>& ends) {
 void placeEnds(StrokeCourse& c, const FreeEnds& ends, double cutOdds) {
   if (ends[1]) placeLast(c, *ends[1], cutOdds);
   if (!ends[0]) return;
-  turnRound(c);
+  reverseCourse(c);
   placeLast(c, *ends[0], cutOdds);
-  turnRound(c);
+  reverseCourse(c);
 }
 
 Contour contourOf(const StrokeCourse& c) {

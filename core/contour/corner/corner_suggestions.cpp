@@ -137,12 +137,12 @@ class CornerDetector {
     return found;
   }
 
-  // The sharpest point of a turn that is known to be one, unless it is one of the many of a ragged line.
-  std::optional<Candidate> sharpest(const SharpTurn& turn) const {
+  // The sharpest point of a sharp feature, unless it is one of the many of a ragged line.
+  std::optional<Candidate> sharpest(const SharpFeature& feature) const {
     constexpr double kArmPx = 6.0, kChordShare = 0.9;
     Candidate best;
     const int n = static_cast<int>(rough_.size());
-    for (int k = turn.first; k <= turn.last && n > 0; ++k) {
+    for (int k = feature.first; k <= feature.last && n > 0; ++k) {
       const int i = wrapIndex(k, n);
       const double angle = chordAngle(contour_, i, std::max(2, static_cast<int>(std::lround(kArmPx / step_))));
       if (std::abs(angle) > std::abs(best.angle)) best = {i, angle, std::abs(angle), s_[i], scale_, true, rough_[i]};
@@ -234,9 +234,9 @@ class KeptCorners {
   std::multimap<double, Candidate> byArc_;
 };
 
-// In order along the contour: the turns that are known to be some, and the best of every other one. Not complete when
+// In order along the contour: the sharp features, and the best of every other turn. Not complete when
 // cancelled.
-std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpTurn> turns, double minAngle,
+std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpFeature> features, double minAngle,
                                  double scale, const RunContext& context) {
   const CornerDetector detector(contour, minAngle, scale, context);
   std::vector<Candidate> candidates = detector.candidates(context);
@@ -244,9 +244,9 @@ std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpTu
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   const double length = polylineLength(positionsOf(contour.points), contour.closed);
   KeptCorners kept(length, contour.closed, CornerDetector::widestScale(scale));
-  for (const SharpTurn& turn : turns) {
+  for (const SharpFeature& feature : features) {
     if (context.isCancelled()) break;
-    if (const auto sharpest = detector.sharpest(turn)) kept.add(*sharpest);
+    if (const auto sharpest = detector.sharpest(feature)) kept.add(*sharpest);
   }
   for (const Candidate& candidate : candidates)
     if (!kept.isNear(candidate)) kept.add(candidate);
@@ -309,11 +309,11 @@ std::vector<CornerSuggestion> suggestionsAt(const Contour& contour, const std::v
 }  // namespace
 
 std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAngleRad, double scalePx,
-                                             const RunContext& context, std::span<const SharpTurn> turns) {
+                                             const RunContext& context, std::span<const SharpFeature> features) {
   if (!(minAngleRad > 0.0) || !(scalePx > 0.0)) return {};
-  std::vector<std::vector<SharpTurn>> own(set.contours.size());
-  for (const SharpTurn& turn : turns)
-    if (turn.contour >= 0 && turn.contour < std::ssize(own)) own[turn.contour].push_back(turn);
+  std::vector<std::vector<SharpFeature>> own(set.contours.size());
+  for (const SharpFeature& feature : features)
+    if (feature.contour >= 0 && feature.contour < std::ssize(own)) own[feature.contour].push_back(feature);
   std::vector<std::vector<CornerSuggestion>> found(set.contours.size());
   parallelFor(context, static_cast<int>(found.size()), 1, [&](int begin, int end) {
     for (int c = begin; c < end && !context.isCancelled(); ++c) {

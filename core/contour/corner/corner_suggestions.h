@@ -18,20 +18,20 @@ struct CornerSuggestion {
   double certainty = 0.0;  ///< 0..1 (CornerJudge). From kCertainCorner on it is taken without being asked for.
 };
 
-/// A stretch of a contour that is known to turn sharply: points first..last. On a closed contour `last` may exceed the
-/// number of points.
-struct SharpTurn {
+/// A sharp feature: a stretch of a contour that is known to turn sharply, points first..last. On a closed contour
+/// `last` may exceed the number of points.
+struct SharpFeature {
   int contour = 0;
   int first = 0, last = 0;
 };
 
 /// Places where two one-sided local parabolas, extrapolated to the point, differ in direction by at least
 /// `minAngleRad`; one suggestion per turn. `scalePx` is the length used on either side, more where the line is ragged.
-/// `turns` of about `minAngleRad` or more take precedence over what is found near them, unless the line is ragged. The
-/// angle is that of the located corner, as a mark would give it; where none can be located, that at the point. Not
+/// `features` of about `minAngleRad` or more take precedence over what is found near them, unless the line is ragged.
+/// The angle is that of the located corner, as a mark would give it; where none can be located, that at the point. Not
 /// complete when cancelled.
 std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx, const RunContext&,
-                                             std::span<const SharpTurn> turns = {});
+                                             std::span<const SharpFeature> features = {});
 
 /// Removes duplicate suggestions of the same corner: a mark at each remaining one finds a corner of its own, with
 /// this snap distance. Not complete when cancelled.

@@ -106,8 +106,8 @@ Result<void> begin(ExportCurve& line) {
   return {};
 }
 
-void turn(ExportPiece& piece) {
-  if (piece.direction && piece.direction->isTurned) {
+void reverseIfMarked(ExportPiece& piece) {
+  if (piece.direction && piece.direction->isReversed) {
     piece.curve = reversed(piece.curve);
     if (piece.width) piece.width = reversed(*piece.width);
   }
@@ -116,14 +116,14 @@ void turn(ExportPiece& piece) {
 }
 
 /// The whole line runs as the latest mark on it says.
-void turnLine(ExportCurve& line) {
+void reverseIfMarked(ExportCurve& line) {
   std::optional<PieceDirection> latest;
   for (const ExportPiece& piece : line.pieces)
     if (piece.direction && (!latest || piece.direction->mark > latest->mark)) latest = piece.direction;
-  if (latest && latest->isTurned) std::reverse(line.pieces.begin(), line.pieces.end());
+  if (latest && latest->isReversed) std::reverse(line.pieces.begin(), line.pieces.end());
   for (ExportPiece& piece : line.pieces) {
     piece.direction = latest;
-    turn(piece);
+    reverseIfMarked(piece);
   }
 }
 
@@ -137,7 +137,7 @@ void takeApart(const ExportCurve& line, std::vector<ExportCurve>& lines) {
       own.pieces[0].name = entityName(line, k);
       own.name.clear();
     }
-    turn(own.pieces[0]);
+    reverseIfMarked(own.pieces[0]);
     own.closed = isLoop(own.pieces);
   }
 }
@@ -174,7 +174,7 @@ Result<Arrangement> arranged(const ExportDocument& document, bool joined, const 
     for (ExportCurve& line : parts) {
       if (auto begun = begin(line); !begun) return fail(begun.error());
       if (joined) {
-        turnLine(line);
+        reverseIfMarked(line);
         result.document.curves.push_back(std::move(line));
       } else {
         takeApart(line, result.document.curves);

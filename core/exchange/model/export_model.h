@@ -15,8 +15,8 @@ namespace batten {
 /// What an export holds, independent of the format. Model frame, mm.
 /// What the user said about the way a curve is to run.
 struct PieceDirection {
-  int mark = 0;           ///< Of those in the recipe; the later one of a line counts.
-  bool isTurned = false;  ///< The other way than the curve here.
+  int mark = 0;             ///< Of those in the recipe; the later one of a line counts.
+  bool isReversed = false;  ///< The other way than the curve here.
 };
 /// How a piece was made fair, and how far it lies from what was scanned.
 struct PieceFigures {

@@ -67,7 +67,7 @@ std::vector<Neighbours> neighboursOf(const std::vector<ExportCurve>& lines) {
   return neighbours;
 }
 
-void turnAround(ExportCurve& line) {
+void reverseWhole(ExportCurve& line) {
   std::reverse(line.pieces.begin(), line.pieces.end());
   for (ExportPiece& piece : line.pieces) {
     piece.curve = reversed(piece.curve);
@@ -78,7 +78,7 @@ void turnAround(ExportCurve& line) {
 /// A line of a chain, and whether it is run through from its end to its start.
 struct Link {
   std::size_t line = 0;
-  bool isTurned = false;
+  bool isReversed = false;
 };
 
 /// The lines from one on, in the direction in which it is left, up to the end of the chain or back to the first.
@@ -86,7 +86,7 @@ std::vector<Link> walk(const std::vector<Neighbours>& neighbours, Link from) {
   std::vector<Link> chain{from};
   while (true) {
     const Neighbours& here = neighbours[chain.back().line];
-    const auto& next = chain.back().isTurned ? here.atStart : here.atEnd;
+    const auto& next = chain.back().isReversed ? here.atStart : here.atEnd;
     if (!next || next->line == from.line) return chain;
     chain.push_back({next->line, !next->isStart});
   }
@@ -102,20 +102,20 @@ std::vector<Link> chainOf(const std::vector<ExportCurve>& lines, const std::vect
   std::vector<Link> chain = walk(neighbours, {line, false});
   const auto last = chain.back();
   const bool isLoop =
-      chain.size() > 1 && (last.isTurned ? neighbours[last.line].atStart : neighbours[last.line].atEnd).has_value();
+      chain.size() > 1 && (last.isReversed ? neighbours[last.line].atStart : neighbours[last.line].atEnd).has_value();
   if (!isLoop) {
     // What lies before the line: walked from it backwards, and turned round.
     std::vector<Link> before = walk(neighbours, {line, true});
     before.erase(before.begin());
     std::reverse(before.begin(), before.end());
-    for (Link& link : before) link.isTurned = !link.isTurned;
+    for (Link& link : before) link.isReversed = !link.isReversed;
     chain.insert(chain.begin(), before.begin(), before.end());
   }
   const auto chosen =
       std::find_if(chain.begin(), chain.end(), [&](const Link& link) { return isChosen(lines[link.line]); });
-  if (chosen != chain.end() && chosen->isTurned) {
+  if (chosen != chain.end() && chosen->isReversed) {
     std::reverse(chain.begin(), chain.end());
-    for (Link& link : chain) link.isTurned = !link.isTurned;
+    for (Link& link : chain) link.isReversed = !link.isReversed;
   }
   return chain;
 }
@@ -138,7 +138,7 @@ std::vector<ExportCurve> joinedLines(std::vector<ExportCurve> lines) {
     for (const Link& link : chain) {
       ExportCurve& line = lines[link.line];
       isTaken[link.line] = true;
-      if (link.isTurned) turnAround(line);
+      if (link.isReversed) reverseWhole(line);
       for (ExportPiece& piece : line.pieces) {
         if (piece.name.empty()) piece.name = line.name.empty() ? line.id : line.name;
         whole.pieces.push_back(std::move(piece));

@@ -73,7 +73,7 @@ bool hasColour(const cv::Mat& picture, const RunContext& context) {
 }
 
 template <class Pixel>
-void turnPixels(const Pixel* in, Pixel* out, int inWidth, int inHeight, int orientation, int begin, int end) {
+void rotatePixels(const Pixel* in, Pixel* out, int inWidth, int inHeight, int orientation, int begin, int end) {
   const int width = orientation >= 5 ? inHeight : inWidth;
   const int lastX = inWidth - 1, lastY = inHeight - 1;
   const auto from = [&](int x, int y) { return in[std::ptrdiff_t{y} * inWidth + x]; };
@@ -113,7 +113,7 @@ Image turnedUpright(Image image, int orientation, const RunContext& context) {
   const bool swapped = orientation >= 5;
   Image upright(swapped ? image.height : image.width, swapped ? image.width : image.height);
   parallelFor(context, upright.height, kRowsPerBlock, [&](int begin, int end) {
-    turnPixels(image.pixels.data(), upright.pixels.data(), image.width, image.height, orientation, begin, end);
+    rotatePixels(image.pixels.data(), upright.pixels.data(), image.width, image.height, orientation, begin, end);
   });
   return upright;
 }
@@ -160,11 +160,11 @@ std::optional<DecodedPicture> decodePicture(std::span<std::byte> file, const Sam
   return DecodedPicture{std::move(grey), std::move(colour)};
 }
 
-GreyImage turnUpright(GreyImage image, int orientation, const RunContext& context) {
+GreyImage rotateUpright(GreyImage image, int orientation, const RunContext& context) {
   return turnedUpright(std::move(image), orientation, context);
 }
 
-ColourImage turnUpright(ColourImage image, int orientation, const RunContext& context) {
+ColourImage rotateUpright(ColourImage image, int orientation, const RunContext& context) {
   return turnedUpright(std::move(image), orientation, context);
 }
 

@@ -31,8 +31,8 @@ struct DecodedPicture {
 std::optional<DecodedPicture> decodePicture(std::span<std::byte> file, const SampleMeaning&, const RunContext& context);
 
 /// The picture turned upright. @param orientation EXIF 1..8.
-GreyImage turnUpright(GreyImage image, int orientation, const RunContext& context);
-ColourImage turnUpright(ColourImage image, int orientation, const RunContext& context);
+GreyImage rotateUpright(GreyImage image, int orientation, const RunContext& context);
+ColourImage rotateUpright(ColourImage image, int orientation, const RunContext& context);
 
 /// Drops the colours of a picture that has none: every pixel grey.
 void dropGreyColours(ColourImage& colour, const RunContext& context);

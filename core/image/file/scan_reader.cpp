@@ -145,8 +145,8 @@ Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& f
     return unreadable(path, "is damaged or of a rare kind that cannot be decoded. Scan it again or export it as PNG.");
   }
   std::vector<std::byte>().swap(*bytes);
-  scan.grey = turnUpright(std::move(picture->grey), scan.info.exifOrientation, context);
-  scan.colour = turnUpright(std::move(picture->colour), scan.info.exifOrientation, context);
+  scan.grey = rotateUpright(std::move(picture->grey), scan.info.exifOrientation, context);
+  scan.colour = rotateUpright(std::move(picture->colour), scan.info.exifOrientation, context);
   if (context.isCancelled()) return cancelled();
   return scan;
 }

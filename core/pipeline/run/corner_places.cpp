@@ -58,7 +58,7 @@ bool liesOnInk(const CornerSuggestion& corner, const Contour& contour, const Gre
 
 std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, double minAngleRad, double scalePx,
                                                     const RunContext& context) {
-  std::vector<std::vector<SharpTurn>> found(set.contours.size());
+  std::vector<std::vector<SharpFeature>> found(set.contours.size());
   parallelFor(context, static_cast<int>(found.size()), 1, [&](int begin, int end) {
     for (int c = begin; c < end && !context.isCancelled(); ++c) {
       const Contour& contour = set.contours[c];
@@ -67,13 +67,13 @@ std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, doubl
       // What is as small as this and round is as sharp as a cut all over.
       if (contour.closed && polylineLength(piece.points, true) < kSmallLoopPx) continue;
       piece.closed = contour.closed;
-      for (const PointRange& range : sharpTurns(piece, contour.kind == ContourKind::Centreline, 1.0, {}))
+      for (const PointRange& range : sharpFeatures(piece, contour.kind == ContourKind::Centreline, 1.0, {}))
         found[c].push_back({c, range.first, range.last});
     }
   });
-  std::vector<SharpTurn> turns;
-  for (const auto& some : found) turns.insert(turns.end(), some.begin(), some.end());
-  return suggestCorners(set, minAngleRad, scalePx, context, turns);
+  std::vector<SharpFeature> features;
+  for (const auto& some : found) features.insert(features.end(), some.begin(), some.end());
+  return suggestCorners(set, minAngleRad, scalePx, context, features);
 }
 
 std::vector<CornerSuggestion> possibleCorners(const ContourSet& set, const RunContext& context) {

@@ -61,7 +61,7 @@ DirectionOwners assignDirections(const PieceSet& set, const Recipe& recipe) {
   return owners;
 }
 
-void turnDirection(Recipe& recipe, const PieceSet& set, std::size_t piece) {
+void reverseDirection(Recipe& recipe, const PieceSet& set, std::size_t piece) {
   const auto& points = set.pieces[piece].points;
   if (points.size() < 2) return;
   const auto now = assignDirections(set, recipe).ofPiece[piece];
@@ -72,8 +72,8 @@ void turnDirection(Recipe& recipe, const PieceSet& set, std::size_t piece) {
   const std::ptrdiff_t middle = std::ssize(points) / 2;
   const Vec2 at = points[middle];
   const Vec2 way = wayAt(set.pieces[piece], middle);
-  const bool isTurned = now && now->isTurned;
-  if (way.norm() > 0.0) recipe.directions.push_back({at, at + (isTurned ? way : Vec2(-way))});
+  const bool isReversed = now && now->isReversed;
+  if (way.norm() > 0.0) recipe.directions.push_back({at, at + (isReversed ? way : Vec2(-way))});
 }
 
 void setStart(Recipe& recipe, const PieceSet& set, std::size_t piece, const Vec2& px) {

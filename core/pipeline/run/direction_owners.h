@@ -13,8 +13,8 @@ namespace batten {
 /// What the direction and start marks of a recipe mean for the pieces of a drawing.
 struct DirectionOwners {
   struct Direction {
-    std::size_t mark = 0;   ///< Index into Recipe::directions.
-    bool isTurned = false;  ///< The curve is to run the other way than its piece.
+    std::size_t mark = 0;     ///< Index into Recipe::directions.
+    bool isReversed = false;  ///< The curve is to run the other way than its piece.
   };
   std::vector<std::optional<Direction>> ofPiece;        ///< One entry per piece.
   std::map<int, std::size_t> startOfContour;            ///< By contour: index into Recipe::starts.
@@ -27,7 +27,7 @@ DirectionOwners assignDirections(const PieceSet&, const Recipe&);
 
 /// The mark that makes the curve of a piece run the other way than it does with the marks there are: at half its
 /// points. It takes the place of those that belong to the piece.
-void turnDirection(Recipe&, const PieceSet&, std::size_t piece);
+void reverseDirection(Recipe&, const PieceSet&, std::size_t piece);
 
 /// Begins the closed line of a piece at a place; takes the place of the mark that the line had.
 void setStart(Recipe&, const PieceSet&, std::size_t piece, const Vec2& px);

@@ -186,9 +186,9 @@ std::size_t makeOwnChoice(std::vector<PieceChoice>& choices, const PieceSet& set
   PieceChoice own = found ? alongPiece(choices[*found], set.pieces[piece]) : PieceChoice{};
   const bool isShared = found && std::count(owners.begin(), owners.end(), found) > 1;
   if (found && !isShared) {
-    const bool isTurned = !(own == choices[*found]);
+    const bool isReversed = !(own == choices[*found]);
     // One of a recipe that knew single anchors only has no course yet.
-    if (isTurned || own.anchorsPx.size() == 1) own.anchorsPx = anchorsOf(set.pieces[piece]);
+    if (isReversed || own.anchorsPx.size() == 1) own.anchorsPx = anchorsOf(set.pieces[piece]);
     choices[*found] = std::move(own);
     return *found;
   }

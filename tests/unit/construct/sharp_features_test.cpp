@@ -66,7 +66,7 @@ TEST(SharpFeatures, UnmarkedCornersStayOnTheirPoints) {
     EXPECT_LT(farthest(points, curve), 2.0) << closed;
     EXPECT_NEAR(lengthOf(curve) / static_cast<double>(points.size()), 1.0, 0.05) << closed;
     // A rounded corner has at least the extremum of its tip; the straight sides have none.
-    EXPECT_GE(fit->front().report.extremaInTurns, closed ? 4 : 3);
+    EXPECT_GE(fit->front().report.extremaInSharpFeatures, closed ? 4 : 3);
     EXPECT_TRUE(std::none_of(fit->front().report.extrema.begin(), fit->front().report.extrema.end(),
                              [](const ExtremumNote& e) { return e.kept; }));
     EXPECT_NE(fit->front().report.note.find(closed ? "at 4 places" : "at 3 places"), std::string::npos)
@@ -95,7 +95,7 @@ TEST(SharpFeatures, FairLinesHaveNoSharpTurns) {
     const auto truth = test::curveOfCurvature(5.0 * radius, [&](double) { return 1.0 / radius; });
     ConstructPiece piece;
     piece.points = test::noisyPoints(truth, 0.127, 3);
-    EXPECT_TRUE(sharpTurns(piece, false, 1.0, {}).empty()) << radius;
+    EXPECT_TRUE(sharpFeatures(piece, false, 1.0, {}).empty()) << radius;
   }
 }
 

@@ -240,8 +240,8 @@ TEST(TurnUpright, TurnsColoursAsItTurnsGrey) {
       grey.pixels[i] = static_cast<std::uint16_t>(i);
       colour.pixels[i] = {static_cast<std::uint8_t>(i), 0, 0};
     }
-    grey = turnUpright(std::move(grey), orientation, {});
-    colour = turnUpright(std::move(colour), orientation, {});
+    grey = rotateUpright(std::move(grey), orientation, {});
+    colour = rotateUpright(std::move(colour), orientation, {});
     ASSERT_EQ(colour.width, grey.width);
     for (std::size_t i = 0; i < grey.pixels.size(); ++i) EXPECT_EQ(colour.pixels[i].red, grey.pixels[i]) << orientation;
   }

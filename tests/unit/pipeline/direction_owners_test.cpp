@@ -29,11 +29,11 @@ TEST(DirectionOwners, AMarkTurnsWhatRunsAgainstItWhicheverWayItWasTraced) {
   recipe.directions = {{{60, 104}, {10, 104}}};  // towards the left
   auto owners = assignDirections(set, recipe);
   ASSERT_TRUE(owners.ofPiece[0]);
-  EXPECT_TRUE(owners.ofPiece[0]->isTurned);
+  EXPECT_TRUE(owners.ofPiece[0]->isReversed);
   EXPECT_FALSE(owners.ofPiece[1]);
   std::reverse(set.pieces[0].points.begin(), set.pieces[0].points.end());
   owners = assignDirections(set, recipe);
-  EXPECT_FALSE(owners.ofPiece[0]->isTurned) << "it runs to the left already";
+  EXPECT_FALSE(owners.ofPiece[0]->isReversed) << "it runs to the left already";
   recipe.directions = {{{60, 140}, {10, 140}}};
   EXPECT_FALSE(assignDirections(set, recipe).ofPiece[0]) << "too far away";
 }
@@ -41,12 +41,12 @@ TEST(DirectionOwners, AMarkTurnsWhatRunsAgainstItWhicheverWayItWasTraced) {
 TEST(DirectionOwners, TurningTwiceIsNotTurning) {
   const PieceSet set = lineAndRing();
   Recipe recipe;
-  turnDirection(recipe, set, 0);
-  EXPECT_TRUE(assignDirections(set, recipe).ofPiece[0]->isTurned);
-  turnDirection(recipe, set, 0);
+  reverseDirection(recipe, set, 0);
+  EXPECT_TRUE(assignDirections(set, recipe).ofPiece[0]->isReversed);
+  reverseDirection(recipe, set, 0);
   ASSERT_EQ(recipe.directions.size(), 1u) << "one mark a curve";
-  EXPECT_FALSE(assignDirections(set, recipe).ofPiece[0]->isTurned);
-  turnDirection(recipe, set, 1);
+  EXPECT_FALSE(assignDirections(set, recipe).ofPiece[0]->isReversed);
+  reverseDirection(recipe, set, 1);
   EXPECT_EQ(recipe.directions.size(), 2u);
 }
 

@@ -37,7 +37,7 @@ class DirectionTool final : public CanvasTool {
     const auto curve = scene_.curveNear(event.px);
     if (!curve) return scene_.flash(event.px);
     scene_.session.selectCurve(*curve);
-    turnCurve(scene_.session, *curve);
+    reverseCurve(scene_.session, *curve);
     scene_.repaint();
   }
 

@@ -42,11 +42,11 @@ std::vector<CurveCourse> curveCourses(const EditorSession& session) {
   return courses;
 }
 
-void turnCurve(EditorSession& session, std::optional<int> curve) {
+void reverseCurve(EditorSession& session, std::optional<int> curve) {
   const auto piece = pieceNumber(session, curve);
   if (!piece) return;
   Recipe after = session.recipe();
-  turnDirection(after, *session.output().pieces, *piece);
+  reverseDirection(after, *session.output().pieces, *piece);
   session.change(directionText("Reverse direction"), std::move(after));
 }
 

@@ -17,7 +17,7 @@ struct CurveCourse {
 std::vector<CurveCourse> curveCourses(const EditorSession&);
 
 /// Exports a curve the other way round, as an undoable step; none: nothing happens.
-void turnCurve(EditorSession&, std::optional<int> curve);
+void reverseCurve(EditorSession&, std::optional<int> curve);
 /// Begins the closed line of a curve at a place. Changes with one gesture are one step.
 void startCurveAt(EditorSession&, int curve, const Vec2& px, GestureId gesture);
 

@@ -294,7 +294,7 @@ void CurvesPanel::refreshFigures() {
     rows.push_back({tr("Stations added"),
                     {{QString::number(added)}},
                     tr("Inserted where the line bends too sharply for the given stations.")});
-  if (const int turns = curve->construct.extremaInTurns; turns > 0)
+  if (const int turns = curve->construct.extremaInSharpFeatures; turns > 0)
     rows.push_back({tr("Extrema in sharp features"),
                     {{QString::number(turns)}},
                     tr("At sharp features without a corner mark the curve follows the points closely: these "

@@ -71,7 +71,7 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
   connect(preview_, &ExportPreview::chosen, this,
           [this](int number) { session_.selectCurve(curveOfNumber(session_, number)); });
   connect(preview_, &ExportPreview::dragAsked, this, &ExportPanel::dragOut);
-  connect(turn_, &QPushButton::clicked, this, [this] { turnCurve(session_, session_.selectedCurve()); });
+  connect(turn_, &QPushButton::clicked, this, [this] { reverseCurve(session_, session_.selectedCurve()); });
   connect(carrier_, &SvgCarrier::copied, this, &ExportPanel::said);
   connect(carrier_, &SvgCarrier::failed, this, &ExportPanel::failed);
   connect(report_, &ReportSection::written, this, &ExportPanel::said);
