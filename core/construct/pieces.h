@@ -112,8 +112,8 @@ struct ConstructReport {
   std::vector<ExtremumNote> extrema;    ///< Fair fit only.
   int extremaInSharpFeatures = 0;       ///< Fair fit: at sharp features, where significance is not tested.
   std::vector<int> unmetConstraints;    ///< Ids of constraints that found no extremum, or one that cannot go.
-  std::vector<double> bandS;            ///< [mm] arc lengths at which the band is given (fair fit only).
-  std::vector<double> bandSigma;        ///< [1/mm] standard deviation of the curvature there.
+  std::vector<double> noiseS;           ///< [mm] arc lengths at which the noise is given (fair fit only).
+  std::vector<double> noiseSigma;       ///< [1/mm] standard deviation of the curvature there.
   std::vector<SegmentNote> segments;    ///< Typical curves only.
   double noisePx = 0.0;                 ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
   int stationsAdded = 0;                ///< Nurbs, Bezier: set where the line turns too quickly for those given.

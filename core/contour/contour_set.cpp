@@ -45,13 +45,13 @@ void measureContour(Contour& c) {
 
 std::vector<Vec2> inkBeside(const Contour& c, int point) {
   const ContourPoint& here = c.points[point];
-  if (!here.band || c.points.size() < 2) return {here.unrefined};
+  if (!here.bundle || c.points.size() < 2) return {here.unrefined};
   const int before = std::max(point - 1, 0), after = std::min(point + 1, static_cast<int>(c.points.size()) - 1);
   const Vec2 along = c.points[after].unrefined - c.points[before].unrefined;
   if (!(along.norm() > 0.0)) return {here.unrefined};
   const Vec2 left = leftNormal(along.normalized());
-  return {here.unrefined, here.unrefined + static_cast<double>(here.band->left) * left,
-          here.unrefined - static_cast<double>(here.band->right) * left};
+  return {here.unrefined, here.unrefined + static_cast<double>(here.bundle->left) * left,
+          here.unrefined - static_cast<double>(here.bundle->right) * left};
 }
 
 Vec2 placeOnInk(const Contour& c) {
@@ -68,8 +68,8 @@ Vec2 placeOnInk(const Contour& c) {
   }
   const std::vector<Vec2> places = inkBeside(c, best);
   if (places.size() == 1) return places[0];
-  const StrokeBand band = c.points[best].band.value_or(StrokeBand{});
-  return band.left >= band.right ? places[1] : places[2];
+  const BundleWidths bundle = c.points[best].bundle.value_or(BundleWidths{});
+  return bundle.left >= bundle.right ? places[1] : places[2];
 }
 
 int bridgeCount(const ContourSet& set) {

@@ -23,10 +23,10 @@ enum class ContourKind {
 constexpr bool isDrawn(ContourKind kind) { return kind == ContourKind::Pen || kind == ContourKind::Imported; }
 
 /// Distance from a point of a merged line to the outermost strokes that were merged there. [px] >= 0
-struct StrokeBand {
+struct BundleWidths {
   float left = 0.0f;   ///< To the side of leftNormal(direction of travel).
   float right = 0.0f;  ///< To the other side.
-  bool operator==(const StrokeBand&) const = default;
+  bool operator==(const BundleWidths&) const = default;
 };
 
 /// A point of a line. A value that was not measured is absent; along one line it is present at every point or at none.
@@ -38,11 +38,11 @@ struct ContourPoint {
   /// pen, pencil and merged strokes.
   std::optional<float> sigmaPx = {};
   std::optional<float> widthPx = {};  ///< [px] stroke width (centre lines); absent on outlines.
-  std::optional<StrokeBand> band =
-      {};  ///< The strokes that were merged into the line; absent where nothing was merged.
+  /// How far the strokes lie off that were merged into the line; absent where nothing was merged.
+  std::optional<BundleWidths> bundle = {};
   bool operator==(const ContourPoint& p) const {
     return at == p.at && unrefined == p.unrefined && refined == p.refined && sigmaPx == p.sigmaPx &&
-           widthPx == p.widthPx && band == p.band;
+           widthPx == p.widthPx && bundle == p.bundle;
   }
 };
 

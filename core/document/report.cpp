@@ -274,7 +274,7 @@ Json rangeToJson(std::vector<float> px, const PageFrame& frame) {
 std::vector<float> halfSpread(const Contour& c) {
   std::vector<float> half;
   for (const ContourPoint& p : c.points)
-    if (p.band) half.push_back(0.5f * (p.band->left + p.band->right));
+    if (p.bundle) half.push_back(0.5f * (p.bundle->left + p.bundle->right));
   return half;
 }
 

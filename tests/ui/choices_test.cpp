@@ -290,7 +290,7 @@ TEST_F(Choices, EveryNewLayerPaintsWithoutChangingTheRecipe) {
   open(grainyWavePage());
   const Recipe before = session().recipe();
   canvas_->setFocus();
-  for (const ActionId id : {ActionId::ShowStrokes, ActionId::ShowBand, ActionId::ShowExtrema}) {
+  for (const ActionId id : {ActionId::ShowStrokes, ActionId::ShowNoise, ActionId::ShowExtrema}) {
     // What a layer shows may still be made in the background.
     const auto changesThePicture = [&] {
       const QImage one = canvas_->grab().toImage();

@@ -96,7 +96,7 @@ std::vector<ActionInfo> viewActions() {
        tr("Keep this result as a thin line for comparison; press again to remove it."), true},
       {ShowExtrema, "show-extrema", menu, tr("Curvature extrema"), keys({"Alt+X"}),
        tr("Show the curvature extrema, their significance, and those rejected as noise."), true},
-      {ShowBand, "show-band", menu, tr("Noise band"), keys({"Alt+N"}),
+      {ShowNoise, "show-band", menu, tr("Noise band"), keys({"Alt+N"}),
        tr("Show the uncertainty of the curvature due to scan noise in the comb."), true},
       {ShowStrokes, "show-strokes", menu, tr("Strokes"), keys({"Alt+S"}),
        tr("Show stroke widths, merged strokes and bridged gaps."), true},

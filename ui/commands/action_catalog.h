@@ -46,7 +46,7 @@ enum class ActionId {
   ShowRegions,
   ShowDeviation,
   ShowExtrema,
-  ShowBand,
+  ShowNoise,
   ShowStrokes,
   ShowFallback,
   ToolSelect,

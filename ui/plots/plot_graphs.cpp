@@ -10,13 +10,13 @@
 namespace batten {
 namespace {
 
-void drawBand(QCustomPlot& plot, const PlotData& data, const Theme& theme) {
-  if (data.bandS.size() < 2) return;
+void drawNoise(QCustomPlot& plot, const PlotData& data, const Theme& theme) {
+  if (data.noiseS.size() < 2) return;
   QCPGraph* low = plot.addGraph();
   QCPGraph* high = plot.addGraph();
   const auto vector = [](const std::vector<double>& v) { return QVector<double>(v.begin(), v.end()); };
-  low->setData(vector(data.bandS), vector(data.bandLow), true);
-  high->setData(vector(data.bandS), vector(data.bandHigh), true);
+  low->setData(vector(data.noiseS), vector(data.noiseLow), true);
+  high->setData(vector(data.noiseS), vector(data.noiseHigh), true);
   low->setPen(Qt::NoPen);
   high->setPen(Qt::NoPen);
   QColor fill = theme.mute;
@@ -61,7 +61,7 @@ void drawLines(QCustomPlot& plot, const PlotData& data, PlotTab tab, const Theme
 }  // namespace
 
 void drawGraphs(QCustomPlot& plot, const PlotData& data, PlotTab tab, const Theme& theme) {
-  drawBand(plot, data, theme);
+  drawNoise(plot, data, theme);
   drawLines(plot, data, tab, theme);
   drawMarks(plot, data, theme);
 }

@@ -140,17 +140,17 @@ double linearLimit(const std::vector<CurveSample>& samples, double size) {
   return std::min(kLargestRadius * size, 2.0 * lowerQuantile(radii, kMostlyBelow));
 }
 
-void addBand(PlotData& data, const TracedCurve& curve, const std::vector<CurveSample>& sketched, double scale) {
-  const auto &s = curve.construct.bandS, &sigma = curve.construct.bandSigma;
+void addNoise(PlotData& data, const TracedCurve& curve, const std::vector<CurveSample>& sketched, double scale) {
+  const auto &s = curve.construct.noiseS, &sigma = curve.construct.noiseSigma;
   if (s.size() < 2 || s.size() != sigma.size() || sketched.size() < 2) return;
   const double step = sketched.back().s / (static_cast<double>(sketched.size()) - 1.0);
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double at = step > 0 ? s[i] / step : 0.0;
     const auto k = static_cast<std::size_t>(std::clamp(std::lround(at), 0L, static_cast<long>(sketched.size()) - 1));
     if (!std::isfinite(sigma[i]) || !std::isfinite(s[i])) continue;
-    data.bandS.push_back(s[i] * scale);
-    data.bandLow.push_back(sketched[k].kappa - 2 * sigma[i]);
-    data.bandHigh.push_back(sketched[k].kappa + 2 * sigma[i]);
+    data.noiseS.push_back(s[i] * scale);
+    data.noiseLow.push_back(sketched[k].kappa - 2 * sigma[i]);
+    data.noiseHigh.push_back(sketched[k].kappa + 2 * sigma[i]);
   }
 }
 
@@ -244,7 +244,7 @@ void addRadius(PlotData& data, const EditorSession& session, const SampledCurve&
 }
 
 void addCurvature(PlotData& data, const EditorSession& session, const SampledCurve& sampled, Judged judged) {
-  addBand(data, sampled.curve, sampled.sketched, sampled.scale);
+  addNoise(data, sampled.curve, sampled.sketched, sampled.scale);
   addWithTargets(data, session, sampled, [](double kappa) { return kappa; });
   addJoints(data, sampled.shown(), sampled.shownScale(),
             [](const NurbsCurve& of, double u) { return curvature(of, u); });

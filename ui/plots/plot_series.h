@@ -30,11 +30,11 @@ struct PlotSeries {
 struct PlotData {
   double lengthMm = 0.0;
   std::vector<PlotSeries> series;
-  std::vector<double> bandS, bandLow, bandHigh;    ///< Curvature: +-2 sigma of the sketched curve.
-  std::vector<ExtremumMark> marks;                 ///< Curvature: the extrema of the judged curve; s as on the axis.
-  std::vector<std::pair<double, double>> handles;  ///< Points of the drawn target: s, value.
-  std::vector<double> kept;                        ///< s of the extrema that monotone fairing is to keep.
-  std::vector<double> splits;                      ///< s of the splits, in the order of splitsOf.
+  std::vector<double> noiseS, noiseLow, noiseHigh;  ///< Curvature: +-2 sigma of the sketched curve.
+  std::vector<ExtremumMark> marks;                  ///< Curvature: the extrema of the judged curve; s as on the axis.
+  std::vector<std::pair<double, double>> handles;   ///< Points of the drawn target: s, value.
+  std::vector<double> kept;                         ///< s of the extrema that monotone fairing is to keep.
+  std::vector<double> splits;                       ///< s of the splits, in the order of splitsOf.
   bool logarithmic = false;
   bool runsLeft = false;         ///< The curve begins farther right on the page (or below) than it ends.
   double low = 0.0, high = 1.0;  ///< Range of the values that is shown at first.

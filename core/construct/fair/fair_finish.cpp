@@ -185,8 +185,8 @@ class FinishedFit {
     // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
     const double sigma = std::sqrt(s0_ / meanWeight() / frame_.base.knots().length) / (fit->radius * fit->radius);
     for (const double s : {0.0, curve.knots().length}) {
-      report_.bandS.push_back(s * pixelMm_);
-      report_.bandSigma.push_back(sigma / pixelMm_);
+      report_.noiseS.push_back(s * pixelMm_);
+      report_.noiseSigma.push_back(sigma / pixelMm_);
     }
     for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
       if (!piece_.data.use[i]) continue;
@@ -224,8 +224,8 @@ class FinishedFit {
     const double length = (points.back() - points.front()).norm();
     const double sigma = std::sqrt(720.0 * s0_ / meanWeight() / std::pow(length, 5));
     for (const double s : {0.0, length}) {
-      report_.bandS.push_back(s * pixelMm_);
-      report_.bandSigma.push_back(sigma / pixelMm_);
+      report_.noiseS.push_back(s * pixelMm_);
+      report_.noiseSigma.push_back(sigma / pixelMm_);
     }
     piece_.result = ConstructedPiece{*curve, report_};
     return true;
@@ -316,7 +316,7 @@ class FinishedFit {
     if (auto fewer = withFewerKnots(posterior, *curve, start, end)) nurbs = std::move(*fewer);
     report_.why = found.limited ? Termination::IterationLimit : Termination::Converged;
     noteExtrema(found, *curve, circleCost);
-    noteBand(posterior, *curve);
+    noteNoise(posterior, *curve);
     piece_.squares = frame_.squares;
     piece_.pointCount = frame_.pointCount;
     piece_.result = ConstructedPiece{*nurbs, report_};
@@ -378,14 +378,14 @@ class FinishedFit {
               [](const ExtremumNote& a, const ExtremumNote& b) { return a.s < b.s; });
   }
 
-  void noteBand(const FairPosterior& posterior, const UniformQuintic& curve) {
+  void noteNoise(const FairPosterior& posterior, const UniformQuintic& curve) {
     const auto stride = std::max<std::size_t>(
         1, frame_.checks.size() / static_cast<std::size_t>(kChecksPerSpan * frame_.base.knots().spans));
     for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
       const FrameStation& s = frame_.checks[i];
       const double variance = BandedCholesky::quadratic(posterior.covariance, s.kappaRow);
-      report_.bandS.push_back(curve.arcLength(s.u) * pixelMm_);
-      report_.bandSigma.push_back(std::sqrt(std::max(0.0, variance)) / pixelMm_);
+      report_.noiseS.push_back(curve.arcLength(s.u) * pixelMm_);
+      report_.noiseSigma.push_back(std::sqrt(std::max(0.0, variance)) / pixelMm_);
     }
   }
 

@@ -28,10 +28,10 @@ void append(ConstructReport& whole, const ConstructReport& part, double from, do
     e.s += offset - from;
     whole.extrema.push_back(e);
   }
-  for (std::size_t i = 0; i < part.bandS.size(); ++i) {
-    if (part.bandS[i] < from || part.bandS[i] > to) continue;
-    whole.bandS.push_back(part.bandS[i] + offset - from);
-    whole.bandSigma.push_back(part.bandSigma[i]);
+  for (std::size_t i = 0; i < part.noiseS.size(); ++i) {
+    if (part.noiseS[i] < from || part.noiseS[i] > to) continue;
+    whole.noiseS.push_back(part.noiseS[i] + offset - from);
+    whole.noiseSigma.push_back(part.noiseSigma[i]);
   }
   whole.knotRemovalMovedPx = std::max(whole.knotRemovalMovedPx, part.knotRemovalMovedPx);
   if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
@@ -51,8 +51,8 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   if (closed && to < start + seam) to = end;
   ConstructedPiece part{c, fit.report};
   part.report.extrema.clear();
-  part.report.bandS.clear();
-  part.report.bandSigma.clear();
+  part.report.noiseS.clear();
+  part.report.noiseSigma.clear();
   auto curve = Result<NurbsCurve>(fail(ErrorCode::Numerical, "Nothing lies between."));
   if (from + least < to) {
     append(part.report, fit.report, from - start, to - start, 0.0);

@@ -48,7 +48,7 @@ double CornerJudge::unitAt(const CornerEvidence& e) const {
   const ContourPoint& p = contour_.points[e.pointIndex];
   double unit = std::max(kLeastUnitPx, kRoughUnits * e.roughPx);
   if (p.widthPx) unit = std::max(unit, std::min<double>(*p.widthPx, kWidthLimit * typicalWidthPx_));
-  if (p.band) unit = std::max<double>(unit, p.band->left + p.band->right);
+  if (p.bundle) unit = std::max<double>(unit, p.bundle->left + p.bundle->right);
   return unit;
 }
 

@@ -174,7 +174,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + kFilledHalfPx;
   const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
   // The middle of a stroke is led to the tip of a corner; that of a bundle of strokes is not.
-  const bool reachesTip = contour.kind == ContourKind::Centreline && !contour.points[index].band;
+  const bool reachesTip = contour.kind == ContourKind::Centreline && !contour.points[index].bundle;
   std::optional<CornerLegs> legs;
   for (int round = 0; round < kLocateRounds; ++round) {
     const double shorter = std::min(outerBefore, outerAfter);

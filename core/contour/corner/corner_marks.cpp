@@ -74,7 +74,7 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
     piece.points.push_back(p.at);
     piece.refined.push_back(p.refined ? 1 : 0);
     if (p.sigmaPx) piece.sigmaPx.push_back(*p.sigmaPx);
-    if (p.band) piece.spreadPx.push_back(0.5f * (p.band->left + p.band->right));
+    if (p.bundle) piece.spreadPx.push_back(0.5f * (p.bundle->left + p.bundle->right));
   }
   const auto zoneOf = [&](const PlacedCorner* placed) { return placed->exact ? placed->zone : kGuessedZonePx; };
   int head = 0, tail = 0;

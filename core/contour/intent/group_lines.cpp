@@ -20,8 +20,8 @@ namespace {
 
 // In stroke widths.
 constexpr double kLeastAlone = 0.9;   // of the ink of its pieces: a shorter mean has some of them side by side
-constexpr double kReachShare = 0.95;  // of the strokes' samples lie within the reach of the band
-constexpr double kBandMargin = 1.0;
+constexpr double kReachShare = 0.95;  // of the strokes' samples lie within the reach of the bundle
+constexpr double kBundleMargin = 1.0;
 constexpr double kClosing = 3.0;     // ends as near as this, and the spread, close a line
 constexpr double kClosingCos = 0.5;  // 60 degrees
 constexpr double kShortestRing = 15.0;
@@ -77,7 +77,7 @@ class MeanDrawer {
     }
     MeanLine line = meanLine(mean, parts);
     close(line, mean);
-    const double reach = (reachOf(mean) + kBandMargin) * width_;
+    const double reach = (reachOf(mean) + kBundleMargin) * width_;
     const StrokesBeside strokes(parts, reach);
     return mergedContour(line, parts, strokes, reach, context);
   }

@@ -12,22 +12,23 @@
 namespace batten {
 namespace {
 
-constexpr double kLongestWaver = 6.0;    // distances: what the mean does over a longer way was drawn
-constexpr double kGapPx = 1.5;           // points farther apart than this get others between them
-constexpr double kJointPx = 3.0;         // farther apart: no stroke was there
-constexpr int kMostStep = 4;             // points: neighbours on the mean lie no farther apart on the line
-constexpr double kLeastAdvancePx = 0.2;  // along the line, from point to point
-constexpr double kLeastSeamPx = 0.35;    // between the last and the first point of a ring
-constexpr double kRoomSmoothing = 4.0;   // points
-constexpr double kBandSmoothing = 1.5;   // points: little, as every stroke is to stay inside
+constexpr double kLongestWaver = 6.0;     // distances: what the mean does over a longer way was drawn
+constexpr double kGapPx = 1.5;            // points farther apart than this get others between them
+constexpr double kJointPx = 3.0;          // farther apart: no stroke was there
+constexpr int kMostStep = 4;              // points: neighbours on the mean lie no farther apart on the line
+constexpr double kLeastAdvancePx = 0.2;   // along the line, from point to point
+constexpr double kLeastSeamPx = 0.35;     // between the last and the first point of a ring
+constexpr double kRoomSmoothing = 4.0;    // points
+constexpr double kBundleSmoothing = 1.5;  // points: little, as every stroke is to stay inside
 
-// The place, width and band between two points, at `part` of the way.
+// The place, width and bundle between two points, at `part` of the way.
 ContourPoint contourPointBetween(const ContourPoint& a, const ContourPoint& b, double part) {
   const auto t = static_cast<float>(part);
   ContourPoint p;
   p.at = a.at + part * (b.at - a.at);
   if (a.widthPx && b.widthPx) p.widthPx = std::lerp(*a.widthPx, *b.widthPx, t);
-  if (a.band && b.band) p.band = {std::lerp(a.band->left, b.band->left, t), std::lerp(a.band->right, b.band->right, t)};
+  if (a.bundle && b.bundle)
+    p.bundle = {std::lerp(a.bundle->left, b.bundle->left, t), std::lerp(a.bundle->right, b.bundle->right, t)};
   return p;
 }
 
@@ -66,40 +67,40 @@ Contour orderedPoints(const MeanLine& line, const std::vector<Contour>& lines) {
 
 // Every value becomes the largest within the reach of the smoothing, and no value less than it was.
 std::vector<float> widened(const std::vector<float>& v, bool closed) {
-  const int n = static_cast<int>(v.size()), reach = static_cast<int>(std::ceil(3.0 * kBandSmoothing));
+  const int n = static_cast<int>(v.size()), reach = static_cast<int>(std::ceil(3.0 * kBundleSmoothing));
   std::vector<float> most(v.size());
   for (int i = 0; i < n; ++i)
     for (int k = i - reach; k <= i + reach; ++k) {
       if (!closed && (k < 0 || k >= n)) continue;
       most[i] = std::max(most[i], v[wrapIndex(k, n)]);
     }
-  return smoothValues(most, closed, kBandSmoothing);
+  return smoothValues(most, closed, kBundleSmoothing);
 }
 
-// A function of numbers along a line, applied to either side of a band.
+// A function of numbers along a line, applied to either side of a bundle.
 template <class Function>
-std::vector<StrokeBand> onBothSides(const std::vector<StrokeBand>& band, const Function& function) {
+std::vector<BundleWidths> onBothSides(const std::vector<BundleWidths>& bundle, const Function& function) {
   std::vector<float> left, right;
-  for (const StrokeBand& b : band) {
+  for (const BundleWidths& b : bundle) {
     left.push_back(b.left);
     right.push_back(b.right);
   }
   left = function(left);
   right = function(right);
-  std::vector<StrokeBand> made;
-  for (int i = 0; i < std::ssize(band); ++i) made.push_back({left[i], right[i]});
+  std::vector<BundleWidths> made;
+  for (int i = 0; i < std::ssize(bundle); ++i) made.push_back({left[i], right[i]});
   return made;
 }
 
 // Where the strokes lie after the points of a line have moved.
-std::vector<StrokeBand> movedBand(std::vector<StrokeBand> band, const std::vector<Vec2>& from,
-                                  const std::vector<Vec2>& to, bool closed) {
+std::vector<BundleWidths> movedBundle(std::vector<BundleWidths> bundle, const std::vector<Vec2>& from,
+                                      const std::vector<Vec2>& to, bool closed) {
   const std::vector<Vec2> tangent = directions(from, closed, 3);
   for (int i = 0; i < std::ssize(from); ++i) {
     const auto across = static_cast<float>((to[i] - from[i]).dot(leftNormal(tangent[i])));
-    band[i] = {std::max(0.0f, band[i].left - across), std::max(0.0f, band[i].right + across)};
+    bundle[i] = {std::max(0.0f, bundle[i].left - across), std::max(0.0f, bundle[i].right + across)};
   }
-  return onBothSides(band, [closed](const std::vector<float>& v) { return widened(v, closed); });
+  return onBothSides(bundle, [closed](const std::vector<float>& v) { return widened(v, closed); });
 }
 
 bool isBridged(const Contour& stroke, int index) {
@@ -136,14 +137,14 @@ Contour mergedContour(const MeanLine& line, const std::vector<Contour>& lines, c
   Contour c = orderedPoints(line, lines);
   fillGaps(c);
   const std::vector<Vec2> before = positionsOf(c.points);
-  std::vector<StrokeBand> band = strokes.band(before, c.closed, context);
-  const std::vector<StrokeBand> room =
-      onBothSides(band, [&](const std::vector<float>& v) { return smoothValues(v, c.closed, kRoomSmoothing); });
-  const std::vector<Vec2> fair = fairWithinBand(before, c.closed, room, kLongestWaver * distancePx);
-  band = movedBand(std::move(band), before, fair, c.closed);
+  std::vector<BundleWidths> bundle = strokes.bundle(before, c.closed, context);
+  const std::vector<BundleWidths> room =
+      onBothSides(bundle, [&](const std::vector<float>& v) { return smoothValues(v, c.closed, kRoomSmoothing); });
+  const std::vector<Vec2> fair = fairWithinBundle(before, c.closed, room, kLongestWaver * distancePx);
+  bundle = movedBundle(std::move(bundle), before, fair, c.closed);
   for (int i = 0; i < std::ssize(fair); ++i) {
     c.points[i].at = fair[i];
-    c.points[i].band = band[i];
+    c.points[i].bundle = bundle[i];
   }
   fillGaps(c);
   c.bridges = bridgesOf(c, line, lines);

@@ -10,7 +10,7 @@
 namespace batten {
 
 /// Turns a merged line into a contour: about one point a pixel, smoothed between the strokes beside it
-/// (stroke_smoothing.h), with their band. Points between joined strokes, where none was drawn, are not refined.
+/// (stroke_smoothing.h), with their bundle. Points between joined strokes, where none was drawn, are not refined.
 /// @param lines the strokes that MeanPoint::source refers to. Not complete when cancelled.
 Contour mergedContour(const MeanLine& line, const std::vector<Contour>& lines, const StrokesBeside& strokes,
                       double distancePx, const RunContext& context);

@@ -274,11 +274,11 @@ bool StrokesBeside::isNear(const Vec2& at, int line, int index) const {
   return near;
 }
 
-std::vector<StrokeBand> StrokesBeside::band(const std::vector<Vec2>& points, bool closed,
-                                            const RunContext& context) const {
+std::vector<BundleWidths> StrokesBeside::bundle(const std::vector<Vec2>& points, bool closed,
+                                                const RunContext& context) const {
   constexpr double kAlongPx = 1.5, kOneStrokePx = 1.0;
   const std::vector<Vec2> tangent = directions(points, closed, kMeanTangentReach);
-  std::vector<StrokeBand> band(points.size());
+  std::vector<BundleWidths> bundle(points.size());
   const auto measure = [&](int i) {
     const Vec2 n = leftNormal(tangent[i]);
     double low = 0.0, high = 0.0;
@@ -293,12 +293,12 @@ std::vector<StrokeBand> StrokesBeside::band(const std::vector<Vec2>& points, boo
     });
     // The points of one stroke scatter by less.
     if (high - low <= kOneStrokePx) return;
-    band[i] = {static_cast<float>(high), static_cast<float>(-low)};
+    bundle[i] = {static_cast<float>(high), static_cast<float>(-low)};
   };
   parallelFor(context, static_cast<int>(points.size()), kMeansPerBlock, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) measure(i);
   });
-  return band;
+  return bundle;
 }
 
 }  // namespace batten

@@ -48,7 +48,7 @@ class StrokesBeside {
   /// both sides if they are no farther apart than the scatter of a single stroke. Not complete when cancelled. Same
   /// result with any number of threads.
   /// @return one entry per point.
-  std::vector<StrokeBand> band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const;
+  std::vector<BundleWidths> bundle(const std::vector<Vec2>& points, bool closed, const RunContext& context) const;
 
   /// Whether another stroke, or a different part of the stroke `line` than that around point `index`, lies within
   /// `distancePx`.

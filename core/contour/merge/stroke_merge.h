@@ -14,8 +14,8 @@ namespace batten {
 /// turns away, so that the mean does not jump where strokes begin and end. Where bundles meet, those with matching
 /// directions continue as one line (stroke_graph.h); overshoots are dropped, and a line that comes back to itself is
 /// closed. At a sharp turn of a bundle lines end and meet. The result is smoothed between the outermost strokes
-/// (stroke_smoothing.h), whose distances are the band of its points. Lines without a neighbour stay as they are, with a
-/// band of 0. About one point a pixel; points between joined strokes are not refined. Not complete when cancelled.
+/// (stroke_smoothing.h), whose distances are the bundle of its points. Lines without a neighbour stay as they are, with
+/// a bundle of 0. About one point a pixel; points between joined strokes are not refined. Not complete when cancelled.
 std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double distancePx, const RunContext& context);
 
 }  // namespace batten

@@ -12,14 +12,14 @@
 namespace batten {
 namespace {
 
-constexpr double kNodePx = 4.0;        // between the nodes at which the line is moved
-constexpr double kBandShare = 0.9;     // of the band: the line stays between the strokes
-constexpr double kBeyond = 0.45;       // of the spread: the room just beyond the end of a stroke
-constexpr double kFade = 0.12;         // [px/px] how fast it goes to nothing from there
-constexpr double kLeastRoomPx = 0.02;  // of single strokes
-constexpr double kLeastBandPx = 0.5;   // strokes nearer to each other need no fairing
-constexpr double kSmoothRoomPx = 0.5;  // from here on the line is smoothed between the nodes, too
-constexpr double kOver = 0.01;         // of the room: so little beyond it is cut off
+constexpr double kNodePx = 4.0;         // between the nodes at which the line is moved
+constexpr double kBundleShare = 0.9;    // of the bundle: the line stays between the strokes
+constexpr double kBeyond = 0.45;        // of the spread: the room just beyond the end of a stroke
+constexpr double kFade = 0.12;          // [px/px] how fast it goes to nothing from there
+constexpr double kLeastRoomPx = 0.02;   // of single strokes
+constexpr double kLeastBundlePx = 0.5;  // strokes nearer to each other need no fairing
+constexpr double kSmoothRoomPx = 0.5;   // from here on the line is smoothed between the nodes, too
+constexpr double kOver = 0.01;          // of the room: so little beyond it is cut off
 constexpr double kLeastStiffer = 2.0, kMostStiffer = 100.0;
 constexpr double kFirmest = 1e6;            // weight of a node that is held, against third differences
 constexpr double kShortestWaveSteps = 6.0;  // nodes: shorter waves cannot be told
@@ -79,7 +79,7 @@ void addRoomBeyond(Nodes& line, bool closed) {
 }
 
 // @param s arc length of the points.
-Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<StrokeBand>& band,
+Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<BundleWidths>& bundle,
               const std::vector<Vec2>& tangent, const std::vector<double>& s) {
   Nodes made;
   const double length = polylineLength(points, closed);
@@ -94,8 +94,8 @@ Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<St
     const int next = i + 1 < n ? i + 1 : (closed ? 0 : i);
     const double gap = (points[next] - points[i]).norm();
     const double part = gap > 0.0 ? std::clamp((want - s[i]) / gap, 0.0, 1.0) : 0.0;
-    const Room room{kBandShare * static_cast<double>(std::max(band[i].left, band[next].left)),
-                    kBandShare * static_cast<double>(std::max(band[i].right, band[next].right))};
+    const Room room{kBundleShare * static_cast<double>(std::max(bundle[i].left, bundle[next].left)),
+                    kBundleShare * static_cast<double>(std::max(bundle[i].right, bundle[next].right))};
     made.nodes.push_back({points[i] + part * (points[next] - points[i]), leftNormal(tangent[i]), room});
   }
   addRoomBeyond(made, closed);
@@ -170,17 +170,17 @@ std::vector<Vec2> shifts(const Nodes& line, bool closed, double longestPx) {
 
 }  // namespace
 
-std::vector<Vec2> fairWithinBand(const std::vector<Vec2>& before, bool closed, const std::vector<StrokeBand>& band,
-                                 double longestPx) {
+std::vector<Vec2> fairWithinBundle(const std::vector<Vec2>& before, bool closed,
+                                   const std::vector<BundleWidths>& bundle, double longestPx) {
   const int n = static_cast<int>(before.size());
-  if (n < 2 || std::ssize(band) != n) return before;
+  if (n < 2 || std::ssize(bundle) != n) return before;
   float widest = 0.0f;
-  for (const StrokeBand& b : band) widest = std::max(widest, 0.5f * (b.left + b.right));
-  if (widest < static_cast<float>(kLeastBandPx)) return before;
+  for (const BundleWidths& b : bundle) widest = std::max(widest, 0.5f * (b.left + b.right));
+  if (widest < static_cast<float>(kLeastBundlePx)) return before;
   std::vector<Vec2> points = before;
   const std::vector<Vec2> tangent = directions(points, closed, kNormalReach);
   const std::vector<double> s = cumulativeLength(points);
-  const Nodes line = nodesOf(points, closed, band, tangent, s);
+  const Nodes line = nodesOf(points, closed, bundle, tangent, s);
   if (line.nodes.empty()) return before;
   const std::vector<Vec2> shift = shifts(line, closed, longestPx);
   for (int i = 0; i < n; ++i) points[i] += pointBetween(shift, closed, s[i] / line.step);

@@ -14,9 +14,9 @@ namespace batten {
 /// strokes by less than half of the spread at that end, decreasing with distance. Where only one stroke was drawn the
 /// line does not move.
 /// @param points spacing of about one pixel.
-/// @param band distances to the outermost strokes, one entry per point; if the sizes differ nothing moves.
+/// @param bundle distances to the outermost strokes, one entry per point; if the sizes differ nothing moves.
 /// @return the moved points, within the limits above.
-std::vector<Vec2> fairWithinBand(const std::vector<Vec2>& points, bool closed, const std::vector<StrokeBand>& band,
-                                 double longestPx);
+std::vector<Vec2> fairWithinBundle(const std::vector<Vec2>& points, bool closed,
+                                   const std::vector<BundleWidths>& bundle, double longestPx);
 
 }  // namespace batten

@@ -74,7 +74,7 @@ Result<std::vector<ConstructedPiece>> fitWithAllPoints(std::vector<Vec2> points)
   return fairFit(contour, options, {});
 }
 
-TEST(FairFit, CurvatureBandIsHonest) {
+TEST(FairFit, NoiseBandIsHonest) {
   // (kappa - true) / sigma over many runs should have a spread of about 1, away from the ends where the prior guesses.
   const auto course = [](double s) { return 0.004 + 0.003 * std::sin(s / 90.0); };
   const auto truth = test::curveOfCurvature(600.0, course);
@@ -84,11 +84,11 @@ TEST(FairFit, CurvatureBandIsHonest) {
     const auto fit = fitWithAllPoints(test::noisyPoints(truth, 0.127, seed));
     ASSERT_TRUE(fit.has_value());
     const auto& piece = fit->front();
-    ASSERT_EQ(piece.report.bandS.size(), piece.report.bandSigma.size());
+    ASSERT_EQ(piece.report.noiseS.size(), piece.report.noiseSigma.size());
     const auto profile = test::profileOf(piece.curve, 4);
-    ASSERT_EQ(profile.kappa.size(), piece.report.bandS.size());
-    for (std::size_t i = 12; i + 12 < piece.report.bandS.size(); i += 4) {
-      const double z = (profile.kappa[i] - course(piece.report.bandS[i] + 0.5)) / piece.report.bandSigma[i];
+    ASSERT_EQ(profile.kappa.size(), piece.report.noiseS.size());
+    for (std::size_t i = 12; i + 12 < piece.report.noiseS.size(); i += 4) {
+      const double z = (profile.kappa[i] - course(piece.report.noiseS[i] + 0.5)) / piece.report.noiseSigma[i];
       sum += z * z;
       ++count;
     }

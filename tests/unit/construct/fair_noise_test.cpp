@@ -87,7 +87,7 @@ ConstructedPiece fitUneven(std::uint32_t seed, bool told) {
 }
 
 /// rms of (kappa - truth) over the reported sigma in each half, away from the ends, and the share beyond two sigma.
-struct Band {
+struct NoiseBand {
   double square[2] = {0.0, 0.0}, beyond[2] = {0.0, 0.0}, kappaError[2] = {0.0, 0.0};
   int count[2] = {0, 0};
   void add(const ConstructedPiece& fit) {
@@ -96,9 +96,9 @@ struct Band {
     for (std::size_t i = 0; i < profile.s.size(); ++i) {
       const double s = profile.s[i];
       if (s < 80.0 || s > kLength - 80.0 || std::abs(s - 0.5 * kLength) < 60.0) continue;
-      const auto at = static_cast<std::size_t>(std::lower_bound(report.bandS.begin(), report.bandS.end() - 1, s) -
-                                               report.bandS.begin());
-      const double e = profile.kappa[i] - trueKappa(s), z = e / report.bandSigma[at];
+      const auto at = static_cast<std::size_t>(std::lower_bound(report.noiseS.begin(), report.noiseS.end() - 1, s) -
+                                               report.noiseS.begin());
+      const double e = profile.kappa[i] - trueKappa(s), z = e / report.noiseSigma[at];
       const int half = s < 0.5 * kLength ? 0 : 1;
       square[half] += z * z;
       kappaError[half] += e * e;
@@ -108,9 +108,9 @@ struct Band {
   }
 };
 
-TEST(FairFit, BandHoldsTheTruthWhereverTheNoiseIs) {
+TEST(FairFit, NoiseBandHoldsTheTruthWhereverTheNoiseIs) {
   for (const bool told : {false, true}) {
-    Band band;
+    NoiseBand band;
     for (std::uint32_t seed = 1; seed <= 12; ++seed) band.add(fitUneven(seed, told));
     for (const int half : {0, 1}) {
       const double rms = std::sqrt(band.square[half] / band.count[half]);
@@ -124,7 +124,7 @@ TEST(FairFit, BandHoldsTheTruthWhereverTheNoiseIs) {
 TEST(FairFit, NoiseOfOneHalfDoesNotSpoilTheOther) {
   // The calm half may be as good as if all the line were calm, and all of it better than by equal weights.
   const auto truth = test::curveOfCurvature(kLength, trueKappa);
-  Band uneven, calm;
+  NoiseBand uneven, calm;
   for (std::uint32_t seed = 1; seed <= 8; ++seed) {
     const ConstructedPiece fit = fitUneven(seed, true);
     uneven.add(fit);
@@ -204,7 +204,7 @@ TEST(FairNoise, WavesOfMergedStrokesAreNotDrawn) {
   const auto truth = test::curveOfCurvature(600.0, [](double s) { return 0.002 + 6e-6 * s; });
   EXPECT_LT(test::rmsFrom(truth, fair->front().curve), 0.3);
   const auto widest = [](const ConstructedPiece& p) {
-    return *std::max_element(p.report.bandSigma.begin(), p.report.bandSigma.end());
+    return *std::max_element(p.report.noiseSigma.begin(), p.report.noiseSigma.end());
   };
   const auto calm = fairFit(wanderingArc(0.0f, 0.0), {}, {});
   ASSERT_TRUE(calm);

@@ -160,8 +160,8 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
       }
       EXPECT_LT(worst, 1e-6) << closed << ' ' << at;
       const double length = whole->curve.end() - whole->curve.start();
-      for (const double s : whole->report.bandS) EXPECT_LE(s, length + 1e-9);
-      EXPECT_TRUE(std::is_sorted(whole->report.bandS.begin(), whole->report.bandS.end()));
+      for (const double s : whole->report.noiseS) EXPECT_LE(s, length + 1e-9);
+      EXPECT_TRUE(std::is_sorted(whole->report.noiseS.begin(), whole->report.noiseS.end()));
     }
   }
 }

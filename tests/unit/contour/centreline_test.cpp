@@ -308,10 +308,11 @@ TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
   for (std::size_t i = 0; i < found[0].points.size(); ++i) {
     if (found[0].points[i].at.x() > 60 && found[0].points[i].at.x() < 340) {
       // Borders are ragged by half a pixel.
-      EXPECT_NEAR(0.5f * (found[0].points[i].band.value().left + found[0].points[i].band.value().right), 6.5f, 0.9f);
+      EXPECT_NEAR(0.5f * (found[0].points[i].bundle.value().left + found[0].points[i].bundle.value().right), 6.5f,
+                  0.9f);
     }
   }
-  for (const Contour& alone : centrelinesOf(p)) EXPECT_FALSE(alone.points.front().band);
+  for (const Contour& alone : centrelinesOf(p)) EXPECT_FALSE(alone.points.front().bundle);
 }
 
 TEST(Centreline, SameResultWithAnyNumberOfThreads) {

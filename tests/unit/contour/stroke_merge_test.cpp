@@ -53,7 +53,8 @@ TEST(StrokeMerge, ParallelStrokesBecomeTheirMean) {
     EXPECT_NEAR(merged[0].points[i].at.y(), 311.0 / 3.0, 0.25);
     const double y = merged[0].points[i].at.y();
     // Which side is left depends on the way the line runs.
-    const auto [low, high] = std::minmax(merged[0].points[i].band.value().left, merged[0].points[i].band.value().right);
+    const auto [low, high] =
+        std::minmax(merged[0].points[i].bundle.value().left, merged[0].points[i].bundle.value().right);
     EXPECT_NEAR(low, 110.0 - y, 0.3);
     EXPECT_NEAR(high, y - 97.0, 0.3);
   }
@@ -115,8 +116,8 @@ TEST(StrokeMerge, ALoopOfSeveralStrokesIsClosed) {
   EXPECT_TRUE(merged[0].closed);
   for (std::size_t i = 0; i < merged[0].points.size(); ++i) {
     EXPECT_NEAR((merged[0].points[i].at - c).norm(), 122.0, 2.6);
-    EXPECT_LE(std::max(merged[0].points[i].band.value().left, merged[0].points[i].band.value().right), 4.3f);
-    EXPECT_GE(std::min(merged[0].points[i].band.value().left, merged[0].points[i].band.value().right), 0.0f);
+    EXPECT_LE(std::max(merged[0].points[i].bundle.value().left, merged[0].points[i].bundle.value().right), 4.3f);
+    EXPECT_GE(std::min(merged[0].points[i].bundle.value().left, merged[0].points[i].bundle.value().right), 0.0f);
   }
 }
 
@@ -142,7 +143,7 @@ TEST(StrokeMerge, TheLineStaysBetweenStrokesThatLieUnevenly) {
   }
 }
 
-TEST(StrokeMerge, TheBandHoldsEveryStroke) {
+TEST(StrokeMerge, TheBundleHoldsEveryStroke) {
   const std::vector<std::vector<Contour>> bundles{
       {wave(100.0, 0.0, 0, 600), wave(100.5, 0.0, 0, 600), wave(99.5, 0.0, 0, 600), wave(110.0, 0.0, 0, 600)},
       {wave(100.0, 3.0, 0, 600), wave(104.0, 0.0, 0, 600), wave(108.0, -3.0, 150, 450)},
@@ -159,15 +160,15 @@ TEST(StrokeMerge, TheBandHoldsEveryStroke) {
           if ((c.points[i].at - p).norm() < (c.points[at].at - p).norm()) at = i;
         if (at < 20 || at + 20 >= c.points.size()) continue;
         const double offset = (p - c.points[at].at).dot(leftNormal(tangent[at]));
-        EXPECT_LE(offset, c.points[at].band.value().left + 0.6) << p.transpose();
-        EXPECT_GE(offset, -c.points[at].band.value().right - 0.6) << p.transpose();
+        EXPECT_LE(offset, c.points[at].bundle.value().left + 0.6) << p.transpose();
+        EXPECT_GE(offset, -c.points[at].bundle.value().right - 0.6) << p.transpose();
       }
     }
     // Nor is it wider than the strokes lie apart.
     float left = 0.0f, right = 0.0f;
     for (const ContourPoint& p : c.points) {
-      left = std::max(left, p.band.value().left);
-      right = std::max(right, p.band.value().right);
+      left = std::max(left, p.bundle.value().left);
+      right = std::max(right, p.bundle.value().right);
     }
     EXPECT_LE(left + right, 22.0f);
   }
@@ -236,7 +237,7 @@ TEST(StrokeMerge, CrossingsAndLonelyLinesStayAsTheyAre) {
     const bool known = std::any_of(lines.begin(), lines.end(),
                                    [&](const Contour& l) { return positionsOf(l.points) == positionsOf(c.points); });
     EXPECT_TRUE(known);
-    for (const ContourPoint& p : c.points) EXPECT_TRUE(p.band == StrokeBand{});
+    for (const ContourPoint& p : c.points) EXPECT_TRUE(p.bundle == BundleWidths{});
   }
 }
 

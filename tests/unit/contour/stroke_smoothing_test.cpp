@@ -19,26 +19,26 @@ double roughness(const std::vector<Vec2>& p) {
   return sum;
 }
 
-std::vector<StrokeBand> evenBand(std::size_t count, float px) { return std::vector<StrokeBand>(count, {px, px}); }
+std::vector<BundleWidths> evenBundle(std::size_t count, float px) { return std::vector<BundleWidths>(count, {px, px}); }
 
 TEST(StrokeFair, ASingleStrokeStaysWhereItIs) {
   std::vector<Vec2> points;
   for (int x = 0; x < 300; ++x) points.emplace_back(x, 4.0 * std::sin(0.1 * x));
   const std::vector<Vec2> before = points;
-  points = fairWithinBand(points, false, evenBand(points.size(), 0.0f), 100.0);
+  points = fairWithinBundle(points, false, evenBundle(points.size(), 0.0f), 100.0);
   EXPECT_EQ(points, before);
 }
 
 TEST(StrokeFair, WaverGoesAndTheLineStaysBetweenTheStrokes) {
   std::vector<Vec2> points;
-  std::vector<StrokeBand> band;
+  std::vector<BundleWidths> bundle;
   for (int x = 0; x < 600; ++x) {
     const bool many = x > 200 && x < 400;
     points.emplace_back(x, many ? 3.0 * std::sin(0.15 * (x - 200)) : 0.0);
-    band.push_back(many ? StrokeBand{6.0f, 6.0f} : StrokeBand{});
+    bundle.push_back(many ? BundleWidths{6.0f, 6.0f} : BundleWidths{});
   }
   const std::vector<Vec2> before = points;
-  points = fairWithinBand(points, false, band, 120.0);
+  points = fairWithinBundle(points, false, bundle, 120.0);
   EXPECT_LT(roughness(points), 0.15 * roughness(before));
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_LE((points[i] - before[i]).norm(), 6.0);
@@ -64,8 +64,8 @@ TEST(StrokeFair, ALineThatIsNotInTheMiddleStaysBetweenTheStrokesToo) {
     std::vector<Vec2> points;
     for (int x = 0; x < 500; ++x) points.emplace_back(x, wave(x));
     const std::vector<Vec2> before = points;
-    const std::vector<StrokeBand> band(500, {static_cast<float>(left), static_cast<float>(right)});
-    points = fairWithinBand(points, false, band, 200.0);
+    const std::vector<BundleWidths> bundle(500, {static_cast<float>(left), static_cast<float>(right)});
+    points = fairWithinBundle(points, false, bundle, 200.0);
     EXPECT_LT(roughness(points), (right + left < 5.2 ? 0.8 : 0.5) * roughness(before));
     for (std::size_t i = 10; i + 10 < points.size(); ++i) {
       EXPECT_LE(points[i].y(), crossedAt(points[i].x(), left) + 0.05) << i;
@@ -82,8 +82,8 @@ TEST(StrokeFair, CornersAndSmallRingsMoveNoFartherThanThereIsRoom) {
     for (int i = 0; i < 37; ++i)
       ring.emplace_back(6.0 * std::cos(2.0 * kPi * i / 37), 6.0 * std::sin(2.0 * kPi * i / 37));
     const std::vector<Vec2> before = corner;
-    corner = fairWithinBand(corner, false, evenBand(corner.size(), static_cast<float>(room)), 60.0);
-    ring = fairWithinBand(ring, true, evenBand(ring.size(), static_cast<float>(room)), 60.0);
+    corner = fairWithinBundle(corner, false, evenBundle(corner.size(), static_cast<float>(room)), 60.0);
+    ring = fairWithinBundle(ring, true, evenBundle(ring.size(), static_cast<float>(room)), 60.0);
     for (std::size_t i = 0; i < corner.size(); ++i) EXPECT_LE((corner[i] - before[i]).norm(), room);
     for (const Vec2& p : ring) EXPECT_NEAR(p.norm(), 6.0, room);
   }
@@ -97,17 +97,17 @@ TEST(StrokeFair, LongWavesStayAndRingsHaveNoSeam) {
     const double a = 2.0 * kPi * i / n;
     points.push_back((radius(a) + 1.5 * std::sin(40.0 * a)) * Vec2(std::cos(a), std::sin(a)));
   }
-  points = fairWithinBand(points, true, evenBand(points.size(), 5.0f), 100.0);
+  points = fairWithinBundle(points, true, evenBundle(points.size(), 5.0f), 100.0);
   for (const Vec2& p : points) EXPECT_NEAR(p.norm(), radius(std::atan2(p.y(), p.x())), 0.4);
 }
 
 TEST(StrokeFair, TinyAndOddThings) {
   std::vector<Vec2> none, two{{0, 0}, {1, 0}}, same(50, Vec2(3, 3));
-  none = fairWithinBand(none, false, {}, 100.0);
-  two = fairWithinBand(two, true, evenBand(2, 4.0f), 100.0);
-  same = fairWithinBand(same, true, evenBand(50, 4.0f), 100.0);
+  none = fairWithinBundle(none, false, {}, 100.0);
+  two = fairWithinBundle(two, true, evenBundle(2, 4.0f), 100.0);
+  same = fairWithinBundle(same, true, evenBundle(50, 4.0f), 100.0);
   std::vector<Vec2> wrongSize{{0, 0}, {1, 0}, {2, 0}};
-  wrongSize = fairWithinBand(wrongSize, false, evenBand(1, 9.0f), 100.0);
+  wrongSize = fairWithinBundle(wrongSize, false, evenBundle(1, 9.0f), 100.0);
   EXPECT_EQ(wrongSize[1], Vec2(1, 0));
   for (const Vec2& p : same) EXPECT_TRUE(p.allFinite());
   EXPECT_TRUE(two[0].allFinite() && two[1].allFinite());

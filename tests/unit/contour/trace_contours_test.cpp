@@ -61,7 +61,7 @@ TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
   EXPECT_NEAR(set->contours[0].areaPx, M_PI * 3600, 40.0);
   EXPECT_NEAR(set->contours[1].lengthPx, 2 * M_PI * 50, 2.0);
   for (const Contour& c : set->contours) {
-    for (const ContourPoint& p : c.points) EXPECT_FALSE(p.band);
+    for (const ContourPoint& p : c.points) EXPECT_FALSE(p.bundle);
     EXPECT_EQ(strokeWidthsOf(c.points).size(), c.kind == ContourKind::Centreline ? c.points.size() : 0u);
   }
   EXPECT_GT(set->report.refinedShare, 0.97);

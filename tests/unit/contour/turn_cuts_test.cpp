@@ -97,15 +97,16 @@ TEST(TurnCuts, ArcsBendsAndShortLinesStayWhole) {
   }
 }
 
-TEST(TurnCuts, BridgesAndBandsStayWithTheirPoints) {
+TEST(TurnCuts, BridgesAndBundlesStayWithTheirPoints) {
   Contour line = lineOf(alongPolygon({{10, 10}, {150, 10}, {150, 150}}, false), false);
-  for (std::size_t i = 0; i < line.points.size(); ++i) line.points[i].band = StrokeBand{static_cast<float>(i), 1.0f};
+  for (std::size_t i = 0; i < line.points.size(); ++i)
+    line.points[i].bundle = BundleWidths{static_cast<float>(i), 1.0f};
   line.bridges = {{20, 30}, {130, 150}, {200, 210}};
   const auto parts = cutAtTurns({line}, kWidthPx);
   ASSERT_EQ(parts.size(), 2u);
   const int cut = static_cast<int>(parts[0].points.size()) - 1;
   EXPECT_NEAR(cut, 140, 4);
-  EXPECT_EQ(parts[1].points.front().band, line.points[cut].band);
+  EXPECT_EQ(parts[1].points.front().bundle, line.points[cut].bundle);
   using Bridges = std::vector<std::pair<int, int>>;
   EXPECT_EQ(parts[0].bridges, (Bridges{{20, 30}, {130, cut}}));
   EXPECT_EQ(parts[1].bridges, (Bridges{{0, 150 - cut}, {200 - cut, 210 - cut}}));

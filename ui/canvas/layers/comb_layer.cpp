@@ -47,8 +47,8 @@ void paintCut(QPainter& painter, QPointF foot, QPointF tip) {
 }
 
 /// What the noise of the scan leaves open of the curvature: +-2 standard deviations about the comb's tips.
-void paintBand(QPainter& painter, const CanvasScene& scene, const std::vector<CombPoint>& points,
-               const CombScale& scale) {
+void paintNoise(QPainter& painter, const CanvasScene& scene, const std::vector<CombPoint>& points,
+                const CombScale& scale) {
   if (std::none_of(points.begin(), points.end(), [](const CombPoint& point) { return point.sigma > 0.0; })) return;
   QColor fill = colors::sketched();
   fill.setAlpha(54);
@@ -57,15 +57,15 @@ void paintBand(QPainter& painter, const CanvasScene& scene, const std::vector<Co
   for (const CombRun& run : combRuns(points, scale)) {
     // Where the comb is cut there is nothing for it to lie about.
     if (run.isCut) continue;
-    QPolygonF band;
-    band.reserve(2 * static_cast<qsizetype>(run.last - run.first + 1));
+    QPolygonF noise;
+    noise.reserve(2 * static_cast<qsizetype>(run.last - run.first + 1));
     const auto edge = [&](CombPoint point, double side) {
       point.kappa += side * 2.0 * point.sigma;
-      band.append(combTip(point, scale, scene.transform));
+      noise.append(combTip(point, scale, scene.transform));
     };
     for (std::size_t i = run.first; i <= run.last; ++i) edge(points[i], 1.0);
     for (std::size_t i = run.last + 1; i-- > run.first;) edge(points[i], -1.0);
-    painter.drawPolygon(band, Qt::WindingFill);
+    painter.drawPolygon(noise, Qt::WindingFill);
   }
 }
 
@@ -73,7 +73,7 @@ void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& com
                bool isSelected) {
   const ViewTransform& transform = scene.transform;
   if (isSelected && scene.view.isVisible(Layer::Band)) {
-    paintBand(painter, scene, comb.isFaired ? comb.sketched : comb.points, scale);
+    paintNoise(painter, scene, comb.isFaired ? comb.sketched : comb.points, scale);
   }
   if (!comb.sketched.empty() && scene.view.isVisible(Layer::Curve)) {
     painter.setPen(QPen(colors::sketchedFaint(), 1.0));

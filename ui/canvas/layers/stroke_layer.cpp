@@ -22,9 +22,9 @@ QRectF boundsOf(const std::vector<ContourPoint>& points) {
 }
 
 /// What a line covers to its left and right at a point; nothing where that is not known. [px]
-std::optional<StrokeBand> widthAt(const ContourPoint& p) {
+std::optional<BundleWidths> widthAt(const ContourPoint& p) {
   if (!p.widthPx) return std::nullopt;
-  return StrokeBand{0.5f * *p.widthPx, 0.5f * *p.widthPx};
+  return BundleWidths{0.5f * *p.widthPx, 0.5f * *p.widthPx};
 }
 
 /// The ground that a line covers, by `coverAt` of its points.
@@ -36,7 +36,7 @@ QPainterPath ribbon(const Contour& line, const CoverAt& coverAt) {
     const std::size_t before = i > 0 ? i - 1 : line.closed ? n - 1 : 0;
     const std::size_t after = i + 1 < n ? i + 1 : line.closed ? 0 : n - 1;
     const Vec2 along = line.points[after].at - line.points[before].at;
-    const std::optional<StrokeBand> cover = coverAt(line.points[i]);
+    const std::optional<BundleWidths> cover = coverAt(line.points[i]);
     if (!cover || !(along.norm() > 0.0)) continue;
     const Vec2 out = leftNormal(along) / along.norm();
     const Vec2 a = line.points[i].at + static_cast<double>(cover->left) * out;
@@ -67,7 +67,7 @@ void paintStrokes(QPainter& painter, const CanvasScene& scene) {
   ImagePainter image(painter, scene);
   for (const Contour& line : contours->contours) {
     if (!image.sees(boundsOf(line.points))) continue;
-    image.fill(ribbon(line, [](const ContourPoint& p) { return p.band; }), QColor(200, 112, 0, 70));
+    image.fill(ribbon(line, [](const ContourPoint& p) { return p.bundle; }), QColor(200, 112, 0, 70));
     image.fill(ribbon(line, widthAt), QColor(20, 130, 80, 60));
     for (const auto& [first, last] : line.bridges) {
       QPainterPath bridge;

@@ -45,7 +45,7 @@ std::vector<CombPoint> combPoints(const NurbsCurve& curve, const PageFrame& fram
 
 /// Gives the points of a sketched curve the noise that its construction measured.
 void addNoise(std::vector<CombPoint>& points, const ConstructReport& report) {
-  const auto &s = report.bandS, &sigma = report.bandSigma;
+  const auto &s = report.noiseS, &sigma = report.noiseSigma;
   if (s.size() < 2 || s.size() != sigma.size()) return;
   for (CombPoint& point : points) {
     const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(s.begin(), s.end(), point.s) - s.begin(), 1,

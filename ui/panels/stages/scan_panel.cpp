@@ -40,14 +40,14 @@ void ToneSwatch::paintEvent(QPaintEvent*) {
   const auto tones = toneTable(params_);
   const int label = 40;
   painter.setFont(uiFont(11));
-  for (int band = 0; band < 2; ++band) {
-    const QRect box(label, band * 26 + 2, width() - label, 22);
+  for (int row = 0; row < 2; ++row) {
+    const QRect box(label, row * 26 + 2, width() - label, 22);
     painter.setPen(theme.mute);
     painter.drawText(QRect(0, box.top(), label, box.height()), Qt::AlignVCenter | Qt::AlignLeft,
-                     band == 0 ? tr("Scan") : tr("Shown"));
+                     row == 0 ? tr("Scan") : tr("Shown"));
     QImage ramp(256, 1, QImage::Format_RGB32);
     for (int grey = 0; grey < 256; ++grey) {
-      const int tone = band == 0 || !params_.enabled ? grey : tones[grey];
+      const int tone = row == 0 || !params_.enabled ? grey : tones[grey];
       ramp.setPixel(grey, 0, qRgb(tone, tone, tone));
     }
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
