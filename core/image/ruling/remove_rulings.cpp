@@ -83,9 +83,9 @@ class RulingEraser {
   int end(int block) const { return block + 1 == blocks_ ? image_.width : (block + 1) * kBlockPx; }
   int bins() const { return 2 * kBinsPerPx * reach_ + 1; }
 
-  /// Calls f(x, y, offset of the pixel's centre from the line) for the pixels of a band.
+  /// Calls f(x, y, offset of the pixel's centre from the line) for the pixels of a strip.
   template <class F>
-  void forBand(int fromX, int toX, double low, double high, F&& f) const {
+  void forStrip(int fromX, int toX, double low, double high, F&& f) const {
     for (int x = fromX; x < toX; ++x) {
       const int y0 = std::max(0, static_cast<int>(std::ceil(course_[x] + low - 0.5)));
       const int y1 = std::min(image_.height - 1, static_cast<int>(std::floor(course_[x] + high - 0.5)));
@@ -153,14 +153,14 @@ class RulingEraser {
     std::vector<float> levels;
     for (int b = 0; b < blocks_; ++b) {
       levels.clear();
-      forBand(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
+      forStrip(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
         if (std::fabs(offset) >= rim_) levels.push_back(static_cast<float>(image_.row(y)[x]));
       });
       const double level = levels.empty() ? 0.0 : static_cast<double>(lowerQuantile(levels, kPaperRank));
       paper_.push_back(level > 1.0 ? level : paper_.empty() ? 65535.0 : paper_.back());
     }
     for (int b = 0; b < blocks_; b += 3) {
-      forBand(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
+      forStrip(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
         if (std::fabs(offset) >= rim_) noise_.push_back(lightAt(x, y) - 1.0);
       });
     }
@@ -173,7 +173,7 @@ class RulingEraser {
   /// count.
   std::vector<double> profileOf(int fromBlock, int toBlock) const {
     std::vector<std::vector<float>> light(bins());
-    forBand(begin(fromBlock), end(toBlock - 1), -reach_, reach_, [&](int x, int y, double offset) {
+    forStrip(begin(fromBlock), end(toBlock - 1), -reach_, reach_, [&](int x, int y, double offset) {
       const auto bin = std::lround((offset + reach_) * kBinsPerPx);
       light[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));
     });
@@ -274,7 +274,7 @@ class RulingEraser {
       profile[i] = std::max({profile[i], 1.0 - 1.35 * (1.0 - whole_[i]) - 0.02, 0.0});
     const double leastStroke = std::max(kLeastStroke, 3.0 * noiseLevel_);
     const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
-    forBand(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
+    forStrip(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
       const double paper = atBlocks(paper_, x), light = image_.row(y)[x] / paper;
       const double stroke = strokeAt(x, offset);
       double left = 1.0;

@@ -8,7 +8,7 @@
 
 namespace batten {
 
-/// Where thin dark lines run through strips of a plane. A strip is a band of columns; a place is y - slope x.
+/// Where thin dark lines run through strips of a plane: some columns side by side. A place is y - slope x.
 struct RulingStretches {
   double slope = 0.0;  ///< The one direction that most of the lines share.
   double width = 0.0, height = 0.0;

@@ -54,11 +54,11 @@ class FoldMaker {
     const FoldStrip coarse =
         foldStripAlong(image_, course_, widest, std::max(4.0, (course_.to - course_.from) / 400.0));
     const std::vector<double> slopes = foldSlopesAcross(coarse);
-    const auto rough = fitFoldStep(foldStepsOf(coarse, widest - kFoldBandPx, slopes));
+    const auto rough = fitFoldStep(foldStepsOf(coarse, widest - kFoldPaperPx, slopes));
     if (!rough) return std::nullopt;
     const auto reach = foldReachOf(coarse, *rough);
     if (!reach) return std::nullopt;
-    strip_ = foldStripAlong(image_, course_, *reach + kFoldBandPx, 2.0);
+    strip_ = foldStripAlong(image_, course_, *reach + kFoldPaperPx, 2.0);
     const auto fine = fitFoldStep(foldStepsOf(strip_, *reach, slopes));
     if (!fine || !isShade(*fine, *reach)) return std::nullopt;
     return profiled(*fine, *reach);
@@ -69,7 +69,7 @@ class FoldMaker {
     std::vector<double> ratios;
     for (int i = 0; i < strip_.rows; ++i) {
       if (fit.shows[i] == 0) continue;
-      const double bright = strip_.mean(i, reach, reach + kFoldBandPx);
+      const double bright = strip_.mean(i, reach, reach + kFoldPaperPx);
       ratios.push_back((bright - fit.at(i, strip_.rows)) / std::max(1.0, bright));
     }
     return !ratios.empty() && lowerQuantile(ratios, 0.5) > kDarkestShade;
@@ -81,7 +81,7 @@ class FoldMaker {
     fold.reach = reach;
     fold.spacing = kSpacingPx;
     fold.stations = std::max(2, static_cast<int>((course_.to - course_.from) / kSpacingPx) + 1);
-    const std::vector<std::vector<BandPixel>> pixels = bandPixels(fold, fit);
+    const std::vector<std::vector<StripPixel>> pixels = stripPixels(fold, fit);
     std::vector<std::vector<float>> profiles;
     for (int k = 0; k < fold.stations; ++k) profiles.push_back(edgeProfile(pixels, k, fold));
     const auto taps = static_cast<std::size_t>(fold.taps());
@@ -100,19 +100,19 @@ class FoldMaker {
     return fold;
   }
 
-  struct BandPixel {
+  struct StripPixel {
     float d, value;
   };
 
   /// The pixels near the course that show the step, each less the brighter paper beside it, by their nearest station.
   /// Pixels themselves, not samples between them: a sharp fold would be drawn out by interpolation.
-  std::vector<std::vector<BandPixel>> bandPixels(const PaperFold& fold, const FoldStepFit& fit) const {
+  std::vector<std::vector<StripPixel>> stripPixels(const PaperFold& fold, const FoldStepFit& fit) const {
     std::vector<float> bright;
     for (int i = 0; i < strip_.rows; ++i)
-      bright.push_back(static_cast<float>(strip_.mean(i, fold.reach, fold.reach + kFoldBandPx)));
-    std::vector<std::vector<BandPixel>> pixels(fold.stations);
+      bright.push_back(static_cast<float>(strip_.mean(i, fold.reach, fold.reach + kFoldPaperPx)));
+    std::vector<std::vector<StripPixel>> pixels(fold.stations);
     for (int y = 0; y < image_.height; ++y) {
-      const auto [x0, x1] = fold.bandOfRow(y, image_.width);
+      const auto [x0, x1] = fold.stripOfRow(y, image_.width);
       for (int x = x0; x < x1; ++x) {
         const Vec2 p = Vec2(x + 0.5, y + 0.5) - course_.origin;
         const double t = p.dot(course_.along), d = p.dot(course_.normal) - course_.bendAt(t);
@@ -128,14 +128,14 @@ class FoldMaker {
   }
 
   /// Medians over the pixels of a window along the course, by their distance from it. Empty with too few.
-  static std::vector<float> edgeProfile(const std::vector<std::vector<BandPixel>>& pixels, int station,
+  static std::vector<float> edgeProfile(const std::vector<std::vector<StripPixel>>& pixels, int station,
                                         const PaperFold& fold) {
     constexpr std::size_t kFewest = 6;
     const int taps = fold.taps(), around = static_cast<int>(0.5 * kWindowPx / fold.spacing);
     std::vector<std::vector<float>> values(taps);
     std::vector<double> places(taps, 0.0);
     for (int k = std::max(0, station - around); k <= std::min(fold.stations - 1, station + around); ++k) {
-      for (const BandPixel& pixel : pixels[k]) {
+      for (const StripPixel& pixel : pixels[k]) {
         const double v = (static_cast<double>(pixel.d) + fold.reach) * PaperFold::kTapsPerPx;
         const auto bin = static_cast<std::size_t>(std::clamp<long>(std::lround(v), 0, taps - 1));
         values[bin].push_back(pixel.value);

@@ -38,7 +38,7 @@ bool medianProfile(const FoldStrip& strip, const FoldStepFit& fit, int begin, in
   for (int i = std::max(0, begin); i < std::min(end, strip.rows); ++i)
     if (fit.shows[i] != 0) rows.push_back(i);
   if (static_cast<int>(rows.size()) * 3 < end - begin || rows.empty()) return false;
-  const int outer = std::min(strip.half, reach + kFoldBandPx);
+  const int outer = std::min(strip.half, reach + kFoldPaperPx);
   std::vector<float> bright, column;
   for (const int i : rows) bright.push_back(static_cast<float>(strip.mean(i, reach, outer)));
   out.clear();
@@ -68,7 +68,7 @@ FoldStrip foldStripAlong(const GreyImage& image, const FoldCourse& course, int h
 
 // Medians over a twentieth of the course either way.
 std::vector<double> foldSlopesAcross(const FoldStrip& strip) {
-  const int outer = strip.half, inner = strip.half / 2, width = kFoldBandPx;
+  const int outer = strip.half, inner = strip.half / 2, width = kFoldPaperPx;
   const double apart = outer - inner;
   std::vector<double> each, slopes;
   for (int i = 0; i < strip.rows; ++i) {
@@ -87,7 +87,7 @@ std::vector<double> foldSlopesAcross(const FoldStrip& strip) {
 
 std::vector<double> foldStepsOf(const FoldStrip& strip, int reach, const std::vector<double>& slopes) {
   std::vector<double> steps(strip.rows);
-  const int outer = std::min(strip.half, reach + kFoldBandPx);
+  const int outer = std::min(strip.half, reach + kFoldPaperPx);
   for (int i = 0; i < strip.rows; ++i) {
     const auto at = static_cast<std::size_t>((static_cast<std::int64_t>(i) * static_cast<std::int64_t>(slopes.size())) /
                                              strip.rows);
@@ -142,7 +142,7 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
 // To where less than a fiftieth of the step is left, a crease included.
 std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
   std::vector<float> profile;
-  const int reach = strip.half - kFoldBandPx;
+  const int reach = strip.half - kFoldPaperPx;
   if (!medianProfile(strip, fit, 0, strip.rows, reach, profile)) return std::nullopt;
   // The paper's own slope across: equal on both sides of the step.
   const auto at = [&](int d) { return static_cast<double>(profile[d + reach]); };

@@ -12,7 +12,7 @@
 
 namespace batten {
 
-inline constexpr int kFoldBandPx = 8;          ///< [px] of paper on either side of a fold that says its level.
+inline constexpr int kFoldPaperPx = 8;         ///< [px] of paper on either side of a fold that says its level.
 inline constexpr double kLeastFoldStep = 4.0;  ///< [grey]
 
 /// Grey along normals of a course: rows of 2 * half + 1 values, one row every `stepPx`.

@@ -16,7 +16,7 @@ namespace batten {
 namespace {
 
 constexpr double kAutomaticReach = 0.4;  // of the region's contrast; never into the noise of the paper
-constexpr int kBandRows = 8;             // rows whose darkest pixels are kept together, by words of 64
+constexpr int kRowsPerGroup = 8;         // rows whose darkest pixels are kept together, by words of 64
 constexpr float kRounding = 0.01f;       // [grey] more than floats lose on the way to a level or a smoothed pixel
 
 /// The least of eight rows, pixel by pixel.
@@ -158,25 +158,25 @@ class DarkestWords {
   explicit DarkestWords(const Comparison& c)
       : image_(c.image), words_(c.words()), lowest_(static_cast<std::size_t>(c.words()) * 64, 0xffff) {}
 
-  /// @param first band, and how many: what lies beyond the page is white.
+  /// @param first group, and how many: what lies beyond the page is white.
   void measure(int first, int count) {
     first_ = first;
-    bands_.assign(static_cast<std::size_t>(words_) * static_cast<std::size_t>(count), 0xffff);
-    for (int band = first; band < first + count; ++band) {
-      const int y0 = band * kBandRows;
+    groups_.assign(static_cast<std::size_t>(words_) * static_cast<std::size_t>(count), 0xffff);
+    for (int group = first; group < first + count; ++group) {
+      const int y0 = group * kRowsPerGroup;
       if (y0 < 0 || y0 >= image_.height) continue;
-      std::array<const std::uint16_t*, kBandRows> rows;
-      for (int i = 0; i < kBandRows; ++i) rows[i] = image_.row(std::min(y0 + i, image_.height - 1));
+      std::array<const std::uint16_t*, kRowsPerGroup> rows;
+      for (int i = 0; i < kRowsPerGroup; ++i) rows[i] = image_.row(std::min(y0 + i, image_.height - 1));
       lowestOfRows(rows.data(), lowest_.data(), image_.width);
-      lowestOfWords(lowest_.data(), bands_.data() + std::ptrdiff_t{band - first} * words_, words_);
+      lowestOfWords(lowest_.data(), groups_.data() + std::ptrdiff_t{group - first} * words_, words_);
     }
   }
 
-  /// The darkest pixel of a word of a band and of the eight around it. [grey]
-  float around(int band, int word) const {
+  /// The darkest pixel of a word of a group and of the eight around it. [grey]
+  float around(int group, int word) const {
     std::uint16_t low = 0xffff;
-    for (int b = band - 1; b <= band + 1; ++b) {
-      const std::uint16_t* row = bands_.data() + std::ptrdiff_t{b - first_} * words_;
+    for (int b = group - 1; b <= group + 1; ++b) {
+      const std::uint16_t* row = groups_.data() + std::ptrdiff_t{b - first_} * words_;
       for (int w = std::max(0, word - 1); w <= std::min(words_ - 1, word + 1); ++w) low = std::min(low, row[w]);
     }
     return static_cast<float>(low / GreyImage::kGreyUnit);
@@ -185,26 +185,26 @@ class DarkestWords {
  private:
   const GreyImage& image_;
   int words_, first_ = 0;
-  std::vector<std::uint16_t> lowest_, bands_;
+  std::vector<std::uint16_t> lowest_, groups_;
 };
 
-/// One block of rows, band by band.
+/// One block of rows, group by group.
 class BlockOfRows {
  public:
   explicit BlockOfRows(const Comparison& c)
-      : c_(c), paper_(c.paper, c.image.width), darkest_(c), bound_(c.words()), rows_(kBandRows + 2 * c.radius()) {}
+      : c_(c), paper_(c.paper, c.image.width), darkest_(c), bound_(c.words()), rows_(kRowsPerGroup + 2 * c.radius()) {}
 
-  /// @pre begin is a multiple of kBandRows.
+  /// @pre begin is a multiple of kRowsPerGroup.
   void run(int begin, int end) {
-    const int first = begin / kBandRows, last = (end - 1) / kBandRows;
+    const int first = begin / kRowsPerGroup, last = (end - 1) / kRowsPerGroup;
     darkest_.measure(first - 1, last - first + 3);
-    for (int band = first; band <= last; ++band) {
-      const int y0 = band * kBandRows, y1 = std::min(y0 + kBandRows, end);
+    for (int group = first; group <= last; ++group) {
+      const int y0 = group * kRowsPerGroup, y1 = std::min(y0 + kRowsPerGroup, end);
       boundLevels(y0, y1);
       const int words = c_.words();
       for (int w = 0; w < words; ++w) {
         int past = w;
-        while (past < words && mayHoldInk(band, past)) ++past;
+        while (past < words && mayHoldInk(group, past)) ++past;
         if (past > w) compare(y0, y1, w, past);
         w = past;
       }
@@ -212,8 +212,8 @@ class BlockOfRows {
   }
 
  private:
-  bool mayHoldInk(int band, int word) const {
-    return c_.radius() > kBandRows || darkest_.around(band, word) - kRounding <= bound_[word];
+  bool mayHoldInk(int group, int word) const {
+    return c_.radius() > kRowsPerGroup || darkest_.around(group, word) - kRounding <= bound_[word];
   }
 
   /// Levels that none of the three exceeds.

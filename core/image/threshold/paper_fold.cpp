@@ -49,7 +49,7 @@ double PaperFold::at(double x, double y) const {
   return first + share * (across(b) - first);
 }
 
-std::pair<int, int> PaperFold::bandOfRow(int y, int width) const {
+std::pair<int, int> PaperFold::stripOfRow(int y, int width) const {
   double most = reach + 1.0;
   for (const double b : course.bend) most += std::fabs(b);
   const double slope = course.normal.x(), start = (Vec2(0.5, y + 0.5) - course.origin).dot(course.normal);
@@ -60,7 +60,7 @@ std::pair<int, int> PaperFold::bandOfRow(int y, int width) const {
 }
 
 void PaperFold::addToRow(int y, float* row, int width) const {
-  const auto [first, last] = bandOfRow(y, width);
+  const auto [first, last] = stripOfRow(y, width);
   const bool darkBefore = (Vec2(0.5, y + 0.5) - course.origin).dot(course.normal) - course.bendAt(0.0) < 0.0;
   const bool darkBehind = (Vec2(width - 0.5, y + 0.5) - course.origin).dot(course.normal) < 0.0;
   const int begin = first > 0 && !darkBefore ? first : 0, end = last < width && !darkBehind ? last : width;

@@ -43,7 +43,7 @@ struct PaperFold {
   /// Adds the same to the pixel centres of row y.
   void addToRow(int y, float* row, int width) const;
   /// Columns [first, second) of row y outside which no pixel lies within the profile's reach.
-  std::pair<int, int> bandOfRow(int y, int width) const;
+  std::pair<int, int> stripOfRow(int y, int width) const;
 };
 
 /// The picture without its folds: their darkness is taken out, so that ink stands on one paper. Never above white.
