@@ -8,6 +8,7 @@
 
 #include "core/base/regular_file.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/cubic.h"
 #include "core/exchange/text/curve_json.h"
 
 namespace batten::cli {
@@ -65,12 +66,11 @@ void addPath(const QByteArray& path, const std::vector<double>& box, DrawnLines&
     std::vector<Vec2>& line = drawn.lines.back();
     if (command == 'C') {
       for (std::size_t i = 0; i + 6 <= n.size(); i += 6) {
-        const Vec2 a(n[i], n[i + 1]), b(n[i + 2], n[i + 3]), end3(n[i + 4], n[i + 5]);
+        const Cubic cubic = {pen, Vec2(n[i], n[i + 1]), Vec2(n[i + 2], n[i + 3]), Vec2(n[i + 4], n[i + 5])};
         for (int k = 1; k <= kSamplesPerCubic; ++k) {
-          const double t = static_cast<double>(k) / kSamplesPerCubic, s = 1.0 - t;
-          line.push_back(toPage(s * s * s * pen + 3.0 * s * s * t * a + 3.0 * s * t * t * b + t * t * t * end3));
+          line.push_back(toPage(cubicPoint(cubic, static_cast<double>(k) / kSamplesPerCubic)));
         }
-        pen = end3;
+        pen = cubic.back();
       }
     } else if (command == 'L' || command == 'M') {
       for (std::size_t i = command == 'M' ? 2 : 0; i + 2 <= n.size(); i += 2) line.push_back(toPage({n[i], n[i + 1]}));

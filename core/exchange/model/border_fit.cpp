@@ -2,26 +2,19 @@
 #include "core/exchange/model/border_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/curve/foot_step.h"
+#include "core/curve/cubic.h"
 
 namespace batten {
 namespace {
 
-constexpr int kFitRounds = 4;  ///< Of handles and parameters in turn.
+constexpr int kFitRounds = 4;           ///< Of handles and parameters in turn.
+constexpr int kFootRoundsOfBorder = 3;  ///< From one fit to the next parameters move little.
 /// [rad] A cubic that turns farther fits badly.
 constexpr double kMostTurnRad = 1.75;
 
 constexpr double kNothing = 1e-3;  ///< Of the tolerance: shorter steps are rounding and would only tangle.
-
-using BorderCubic = std::array<Vec2, 4>;
-
-Vec2 placeOf(const BorderCubic& c, double t) {
-  const double r = 1.0 - t;
-  return r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3];
-}
 
 /// Fits cubics to the places of one smooth stretch.
 class StretchFit {
@@ -40,7 +33,7 @@ class StretchFit {
       return;
     }
     if (turnOver(first, last) <= kMostTurnRad) {
-      const BorderCubic cubic = fitted(first, last);
+      const Cubic cubic = fitted(first, last);
       if (error_ <= tolerance_) {
         put(cubic);
         return;
@@ -52,7 +45,7 @@ class StretchFit {
   }
 
  private:
-  void put(const BorderCubic& c) {
+  void put(const Cubic& c) {
     if ((c[3] - run_.end()).norm() > kNothing * tolerance_) run_.cubics.push_back({c[1], c[2], c[3]});
   }
 
@@ -66,13 +59,13 @@ class StretchFit {
   }
 
   /// The lengths of both handles by least squares over the places; sets the error.
-  BorderCubic fitted(std::size_t first, std::size_t last) {
+  Cubic fitted(std::size_t first, std::size_t last) {
     const BorderPlace &from = border_[first], &to = border_[last];
     std::vector<double> t{0.0};
     for (std::size_t i = first + 1; i <= last; ++i) t.push_back(t.back() + (border_[i].at - border_[i - 1].at).norm());
     const double length = t.back();
     for (double& one : t) one /= length;
-    BorderCubic cubic{};
+    Cubic cubic{};
     for (int round = 0; round < kFitRounds; ++round) {
       double aa = 0, ab = 0, bb = 0, ra = 0, rb = 0;
       for (std::size_t i = first + 1; i < last; ++i) {
@@ -97,21 +90,14 @@ class StretchFit {
       if (!(left > 0.0 && left < length && right > 0.0 && right < length)) left = right = length / 3.0;
       cubic = {from.at, from.at + left * from.along, to.at - right * to.along, to.at};
       error_ = 0.0;
-      for (std::size_t i = first + 1; i < last; ++i)
-        error_ = std::max(error_, footDistance(cubic, border_[i].at, t[i - first]));
+      for (std::size_t i = first + 1; i < last; ++i) {
+        double& place = t[i - first];
+        place = cubicFoot(cubic, border_[i].at, place, kFootRoundsOfBorder);
+        error_ = std::max(error_, (border_[i].at - cubicPoint(cubic, place)).norm());
+      }
       if (error_ <= 0.5 * tolerance_) break;
     }
     return cubic;
-  }
-
-  static double footDistance(const BorderCubic& c, const Vec2& p, double& t) {
-    for (int i = 0; i < 3; ++i) {
-      const double r = 1.0 - t;
-      const Vec2 slope = 3 * r * r * (c[1] - c[0]) + 6 * r * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
-      const Vec2 bend = 6 * r * (c[2] - 2.0 * c[1] + c[0]) + 6 * t * (c[3] - 2.0 * c[2] + c[1]);
-      t = std::clamp(t + footStep(placeOf(c, t) - p, slope, bend), 0.0, 1.0);
-    }
-    return (p - placeOf(c, t)).norm();
   }
 
   const std::vector<BorderPlace>& border_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/curve/closest_point.h"
+#include "core/curve/cubic.h"
 #include "core/curve/curvature.h"
 #include "core/exchange/model/export_check.h"
 
@@ -61,8 +62,7 @@ double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const Ex
     for (std::size_t i = first; i <= last; ++i) {
       const auto& c = cubics[i];
       for (int k = 0; k <= kSamplesPerCubic; ++k) {
-        const double t = static_cast<double>(k) / kSamplesPerCubic, r = 1.0 - t;
-        part.push_back(r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3]);
+        part.push_back(cubicPoint(c, static_cast<double>(k) / kSamplesPerCubic));
       }
     }
     worst =

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "core/curve/arc_length.h"
+#include "core/curve/cubic.h"
 #include "core/curve/curvature.h"
-#include "core/curve/foot_step.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -18,6 +18,7 @@ namespace {
 constexpr int kSamples = 32;       ///< Places per cubic at which the error is measured and handles are fitted.
 constexpr double kSettled = 1e-6;  ///< [share of the piece] A step to the foot point so small is the last one.
 constexpr int kRounds = 4;         ///< Fits of the handles, each with better parameters.
+constexpr int kFootRounds = 8;     ///< Steps towards a foot point at most.
 constexpr int kMaxDepth = 24;      ///< Halvings; 1/2^24 of a piece is far below any tolerance.
 constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
@@ -30,21 +31,6 @@ constexpr double kLeastCurvature = 0.05;      ///< [1/length of the curve] What 
 /// Parts of a curve that end and start farther apart than this share of its coordinates do so not by rounding.
 constexpr double kJump = 1e-11;
 
-using Cubic = std::array<Vec2, 4>;
-
-Vec2 at(const Cubic& c, double t) {
-  const double s = 1.0 - t;
-  return s * s * s * c[0] + 3 * s * s * t * c[1] + 3 * s * t * t * c[2] + t * t * t * c[3];
-}
-Vec2 slope(const Cubic& c, double t) {
-  const double s = 1.0 - t;
-  return 3 * s * s * (c[1] - c[0]) + 6 * s * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
-}
-
-Vec2 bend(const Cubic& c, double t) {
-  return 6 * (1.0 - t) * (c[2] - 2.0 * c[1] + c[0]) + 6 * t * (c[3] - 2.0 * c[2] + c[1]);
-}
-
 /// Curvatures at both ends of a cubic; absent where a handle has no length.
 using EndCurvatures = std::array<std::optional<double>, 2>;
 EndCurvatures endCurvatures(const Cubic& c) {
@@ -54,17 +40,6 @@ EndCurvatures endCurvatures(const Cubic& c) {
   if (a > 0.0) kappa[0] = cross(first / a, middle) / (1.5 * a * a);
   if (b > 0.0) kappa[1] = cross(middle, last / b) / (1.5 * b * b);
   return kappa;
-}
-
-/// Distance of p from the cubic near t; improves t.
-double footDistance(const Cubic& c, const Vec2& p, double& t) {
-  for (int i = 0; i < 8; ++i) {
-    const double next = std::clamp(t + footStep(at(c, t) - p, slope(c, t), bend(c, t)), 0.0, 1.0);
-    const bool settled = std::abs(next - t) < 1e-12;
-    t = next;
-    if (settled) break;
-  }
-  return (p - at(c, t)).norm();
 }
 
 class Approximation {
@@ -202,7 +177,8 @@ class Approximation {
     c[1] = start + length / 3.0 * d0;
     c[2] = end - length / 3.0 * d1;
     for (int round = 0; round < kRounds && fitHandles(c, d0, d1); ++round) {
-      for (std::size_t i = 0; i < points_.size(); ++i) footDistance(c, points_[i], parameters_[i]);
+      for (std::size_t i = 0; i < points_.size(); ++i)
+        parameters_[i] = cubicFoot(c, points_[i], parameters_[i], kFootRounds);
     }
     return c;
   }
@@ -212,12 +188,12 @@ class Approximation {
   double error(const Cubic& c, double from, double to, double enough) {
     double worst = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      double t = parameters_[i];
-      worst = std::max(worst, footDistance(c, points_[i], t));
+      const double t = cubicFoot(c, points_[i], parameters_[i], kFootRounds);
+      worst = std::max(worst, (points_[i] - cubicPoint(c, t)).norm());
       if (worst > enough) return worst;
     }
     for (int i = 1; i < 2 * kSamples; ++i) {
-      const Vec2 p = at(c, i / (2.0 * kSamples));
+      const Vec2 p = cubicPoint(c, i / (2.0 * kSamples));
       worst = std::max(worst, distanceFromCurve(p, from, to));
       if (worst > enough) return worst;
     }

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/curve/cubic.h"
 #include "core/exchange/model/border_fit.h"
 #include "core/exchange/model/stroke_middle.h"
 
@@ -388,9 +389,7 @@ double distanceFromWidth(const std::vector<std::array<Vec2, 4>>& border, const E
   for (const auto& c : border) {
     if (check.isCancelled()) break;
     for (int k = 0; k < kPlacesPerCubic; ++k) {
-      const double t = static_cast<double>(k) / kPlacesPerCubic, r = 1.0 - t;
-      const Vec2 q = r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3];
-      worst = std::max(worst, walk.off(q));
+      worst = std::max(worst, walk.off(cubicPoint(c, static_cast<double>(k) / kPlacesPerCubic)));
     }
   }
   return worst;
