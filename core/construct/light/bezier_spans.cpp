@@ -2,22 +2,6 @@
 #include "core/construct/light/bezier_spans.h"
 
 namespace batten {
-namespace {
-
-/// Bernstein polynomials of a degree at a place.
-std::array<double, kSpanPoints> bernstein(int degree, double at) {
-  std::array<double, kSpanPoints> values{};
-  values[0] = 1.0;
-  for (int d = 1; d <= degree; ++d) {
-    for (int k = d; k >= 0; --k) {
-      const auto i = static_cast<std::size_t>(k);
-      values[i] = (k < d ? (1.0 - at) * values[i] : 0.0) + (k > 0 ? at * values[i - 1] : 0.0);
-    }
-  }
-  return values;
-}
-
-}  // namespace
 
 PlaceTable::Place bernsteinPlace(int degree, double at) {
   PlaceTable::Place place;
@@ -25,7 +9,7 @@ PlaceTable::Place bernsteinPlace(int degree, double at) {
   double factor = 1.0;
   for (int order = 0; order <= 3 && order <= degree; ++order) {
     // The derivative of order m is degree!/(degree - m)! times the m-th difference of the polynomials m degrees lower.
-    std::array<double, kSpanPoints> row = bernstein(degree - order, at);
+    std::array<double, kSpanPoints> row = bernsteinPolynomials(degree - order, at);
     for (int times = 0; times < order; ++times) {
       for (int k = degree; k >= 0; --k) {
         const auto i = static_cast<std::size_t>(k);

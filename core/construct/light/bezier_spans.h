@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "core/base/vec2.h"
+#include "core/curve/bernstein.h"
 
 namespace batten {
 
-inline constexpr int kMostLightDegree = 7;
+inline constexpr int kMostLightDegree = kMostBernsteinDegree;
 /// Control points that a span of a curve depends on.
 inline constexpr std::size_t kSpanPoints = kMostLightDegree + 1;
 

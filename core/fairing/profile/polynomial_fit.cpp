@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/curve/bernstein.h"
 #include "core/fairing/profile/radius_target.h"
 #include "core/solve/dense_solve.h"
 #include "core/solve/nonnegative_least_squares.h"
@@ -147,15 +148,7 @@ std::vector<double> fitMonotoneBernstein(std::span<const double> f, std::span<co
   const Eigen::Index count = s.values.size();
   Eigen::MatrixXd e(count, degree + 2);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double x = f[i];
-    std::vector<double> b(degree + 1, 0.0);
-    b[0] = 1.0;
-    for (int d = 1; d <= degree; ++d) {
-      for (int k = d; k >= 0; --k) {
-        const auto at = static_cast<std::size_t>(k);
-        b[at] = (k < d ? (1.0 - x) * b[at] : 0.0) + (k > 0 ? x * b[at - 1] : 0.0);
-      }
-    }
+    const auto b = bernsteinPolynomials(degree, f[i]);
     e(i, 0) = 1.0;
     e(i, 1) = -1.0;
     double tail = 0.0;

@@ -13,6 +13,7 @@ std::vector<double> fitPeriodicPolynomial(std::span<const double> f, std::span<c
 
 /// Least-squares polynomial with non-decreasing (non-increasing) Bernstein coefficients: monotone for certain, but
 /// stiffer than need be. Used where the constraints on a grid do not settle. Ascending powers of f; empty on failure.
+/// @pre degree <= kMostBernsteinDegree.
 std::vector<double> fitMonotoneBernstein(std::span<const double> f, std::span<const double> values, int degree,
                                          bool increasing);
 
