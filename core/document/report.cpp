@@ -142,7 +142,7 @@ Json fairingToJson(const FairingReport& r) {
 }
 
 Json targetsToJson(const TargetOutcomes& outcomes, double toleranceMm) {
-  const int advised = advisedDegree(outcomes, toleranceMm);
+  const std::optional<int> advised = advisedDegree(outcomes, toleranceMm);
   Json list = Json::array();
   for (std::size_t i = 0; i < outcomes.faired.size(); ++i) {
     const TargetProfile& p = outcomes.targets.profiles[i];
@@ -224,7 +224,7 @@ Json curveToJson(const PipelineOutput& out, const Recipe& recipe, const ReportEx
   }
   if (!c.included || index >= extras.targets.size()) return json;
   if (const auto& targets = extras.targets[index]) {
-    json["recommended_degree"] = advisedDegree(*targets, c.fairingUsed.toleranceMm);
+    json["recommended_degree"] = advisedDegree(*targets, c.fairingUsed.toleranceMm).value_or(0);
     json["targets"] = targetsToJson(*targets, c.fairingUsed.toleranceMm);
   } else {
     json["targets_problem"] = targets.error().message;

@@ -65,16 +65,15 @@ FairingParams paramsOf(const FairingParams& whole, const ProfileSpan& span, bool
   return params;
 }
 
-/// The degree that all parts but the straight ones followed; 0: there is none.
-int commonDegree(const std::vector<CornerSection>& sections, const std::vector<FairedCurve>& parts) {
-  std::optional<int> common;
+/// The degree that all parts but the straight ones followed; absent: there is none.
+std::optional<int> commonDegree(const std::vector<CornerSection>& sections, const std::vector<FairedCurve>& parts) {
+  std::optional<std::size_t> first;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (sections[i].isStraight) continue;
-    const int degree = parts[i].report.targetDegree;
-    if (common && *common != degree) return 0;
-    common = degree;
+    if (!first) first = i;
+    if (parts[i].report.targetDegree != parts[*first].report.targetDegree) return std::nullopt;
   }
-  return common.value_or(0);
+  return first ? parts[*first].report.targetDegree : std::nullopt;
 }
 
 /// The parts as one curve again, with what they report.
@@ -219,16 +218,16 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
     if (!bySimilarity && isMet[d] && joined->report.withinTolerance) whole.recommendedDegree = static_cast<int>(d) + 1;
     whole.faired[d] = std::move(*joined);
   }
-  if (bySimilarity) whole.recommendedDegree = mostSimilar(whole.faired).value_or(whole.recommendedDegree);
+  if (const auto best = mostSimilar(whole.faired); bySimilarity && best) whole.recommendedDegree = best;
   return whole;
 }
 
 /// A job, or the jobs of its parts.
 struct SplitJob {
   std::vector<CornerSection> sections;
-  std::vector<std::size_t> jobs;  ///< Per section (without sections: one); kNoJob where it stays as it is.
+  /// Per section (without sections: one); absent where it stays as it is.
+  std::vector<std::optional<std::size_t>> jobs;
 };
-constexpr std::size_t kNoJob = static_cast<std::size_t>(-1);
 
 SplitJob splitJob(const TargetsJob& job, std::vector<TargetsJob>& all) {
   SplitJob result{cornerSections(job.curve, job.closed), {}};
@@ -241,7 +240,7 @@ SplitJob splitJob(const TargetsJob& job, std::vector<TargetsJob>& all) {
     const bool isPointedAt =
         !job.spanAt || (*job.spanAt >= section.span.from && (*job.spanAt < section.span.to || section.span.to >= 1.0));
     if (section.isStraight || !isPointedAt) {
-      result.jobs.push_back(kNoJob);
+      result.jobs.push_back(std::nullopt);
       continue;
     }
     TargetsJob own{section.curve, false, paramsOf(job.params, section.span, job.closed), std::nullopt};
@@ -296,13 +295,13 @@ std::vector<Result<TargetOutcomes>> targetsBetweenCorners(std::span<const Target
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const SplitJob& one = split[i];
     if (one.sections.empty()) {
-      results.push_back(std::move(outcomes[one.jobs.front()]));
+      results.push_back(std::move(outcomes[*one.jobs.front()]));
       continue;
     }
     std::vector<Result<TargetOutcomes>> parts;
     for (std::size_t k = 0; k < one.sections.size(); ++k) {
-      parts.push_back(one.jobs[k] == kNoJob ? Result<TargetOutcomes>(asItIs(one.sections[k], jobs[i].params.targets))
-                                            : std::move(outcomes[one.jobs[k]]));
+      parts.push_back(one.jobs[k] ? std::move(outcomes[*one.jobs[k]])
+                                  : Result<TargetOutcomes>(asItIs(one.sections[k], jobs[i].params.targets)));
     }
     results.push_back(joinedOutcomes(jobs[i], one.sections, parts, context));
   }

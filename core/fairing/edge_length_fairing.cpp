@@ -53,8 +53,7 @@ Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const Fair
     return logAestheticTarget(path, closed, targetSplits(path, closed, params), params.alpha, params.targets.samples)
         .profile;
   const TargetSet targets = fitTargets(path, params.targets, closed);
-  const int degree = degreeOf(params.target).value_or(targets.recommendedDegree);
-  return targets.profiles[std::max(degree, 1) - 1];
+  return targets.profiles[degreeOf(params.target).value_or(targets.recommendedDegree.value_or(1)) - 1];
 }
 
 /// Turns and scales a path about its start so that it ends where it has to.

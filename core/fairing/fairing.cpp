@@ -94,7 +94,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
 /// The lowest degree that is met, where one is, or the most similar.
 void recommend(TargetsRun& run, TargetChoice choice) {
   if (choice == TargetChoice::Similarity) {
-    run.outcomes->recommendedDegree = mostSimilar(run.outcomes->faired).value_or(run.outcomes->recommendedDegree);
+    if (const auto best = mostSimilar(run.outcomes->faired)) run.outcomes->recommendedDegree = best;
     return;
   }
   const auto met = std::find(run.isMet.begin(), run.isMet.end(), true);

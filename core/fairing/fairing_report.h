@@ -31,8 +31,8 @@ struct FairingReport {
   double neededMm = 0.0;        ///< Target mode: the smallest tolerance that meets the target (fairOverLevels).
   bool withinTolerance = true;  ///< Target mode: the target was met within the tolerance.
   /// Target mode with polynomials: the degree of the one that was followed, and the shares of the arc length at which
-  /// its parts meet; 0: none. Parts between corners that followed different degrees: 0.
-  int targetDegree = 0;
+  /// its parts meet; absent: none. Parts between corners that followed different degrees: absent.
+  std::optional<int> targetDegree;
   std::vector<double> targetSplits;
   /// Target mode: S (003 section 6) of the faired curve against the sketched one (similarityToSketch).
   std::optional<double> similarityAfter;

@@ -18,9 +18,9 @@ namespace {
 /// Cubic pieces that stand for the polynomials between two corners.
 constexpr int kNodesBetweenCorners = 120;
 
-std::optional<TargetProfile> ofDegree(const TargetSet& targets, int degree) {
-  if (degree < 1 || degree > std::ssize(targets.profiles)) return std::nullopt;
-  const TargetProfile& profile = targets.profiles[degree - 1];
+std::optional<TargetProfile> ofDegree(const TargetSet& targets, std::optional<int> degree) {
+  if (!degree || *degree < 1 || *degree > std::ssize(targets.profiles)) return std::nullopt;
+  const TargetProfile& profile = targets.profiles[*degree - 1];
   return profile.valid ? std::optional(profile) : std::nullopt;
 }
 
@@ -49,11 +49,11 @@ std::optional<TargetProfile> ofSpans(const NurbsCurve& start, bool closed, const
   return all;
 }
 
-/// The polynomials of the parts between corners, one after the other.
+/// The polynomials of the parts between corners, one after the other. @pre report.targetDegree
 std::optional<TargetProfile> ofSections(const std::vector<CornerSection>& sections, const FairingParams& params,
                                         const FairingReport& report) {
   TargetProfile all;
-  all.degree = report.targetDegree;
+  all.degree = *report.targetDegree;
   all.similarity = 1.0;
   for (const CornerSection& section : sections) {
     const double from = section.span.from, width = section.span.to - from;
@@ -62,7 +62,7 @@ std::optional<TargetProfile> ofSections(const std::vector<CornerSection>& sectio
     own.splits.clear();
     for (const double f : report.targetSplits)
       if (f > from + trifle && f < section.span.to - trifle) own.splits.push_back((f - from) / width);
-    const auto profile = ofDegree(fitTargets(section.curve, own), report.targetDegree);
+    const auto profile = ofDegree(fitTargets(section.curve, own), *report.targetDegree);
     if (!profile) return std::nullopt;
     if (!section.isStraight) all.similarity = std::min(all.similarity, profile->similarity);
     for (int i = 0; i <= kNodesBetweenCorners; ++i) {
@@ -92,13 +92,14 @@ std::optional<TargetProfile> followedTarget(const NurbsCurve& start, bool closed
   }
   const std::vector<CornerSection> sections = cornerSections(start, closed);
   if (!params.spanTargets.empty()) return sections.empty() ? ofSpans(start, closed, params) : std::nullopt;
-  if (report.targetDegree > 0 && !sections.empty()) return ofSections(sections, params, report);
+  if (report.targetDegree && !sections.empty()) return ofSections(sections, params, report);
   TargetParams own = params.targets;
-  if (report.targetDegree > 0) own.splits = report.targetSplits;
+  if (report.targetDegree) own.splits = report.targetSplits;
   const TargetSet targets = fitTargets(start, own, closed);
   // Edge lengths follow one polynomial over the whole path.
-  const int asked = degreeOf(params.target).value_or(targets.recommendedDegree);
-  return ofDegree(targets, report.targetDegree > 0 ? report.targetDegree : asked);
+  if (report.targetDegree) return ofDegree(targets, report.targetDegree);
+  const std::optional<int> asked = degreeOf(params.target);
+  return ofDegree(targets, asked ? asked : targets.recommendedDegree);
 }
 
 }  // namespace batten

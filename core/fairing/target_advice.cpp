@@ -28,9 +28,9 @@ bool addsExtrema(const TargetOutcomes& outcomes, int degree) {
   return faired && faired->report.extremaAfter > faired->report.extremaBefore;
 }
 
-int advisedDegree(const TargetOutcomes& outcomes, double toleranceMm) {
-  const int degree = outcomes.recommendedDegree;
-  return degree > 0 && isAdvisable(outcomes, degree, toleranceMm) ? degree : 0;
+std::optional<int> advisedDegree(const TargetOutcomes& outcomes, double toleranceMm) {
+  const std::optional<int> degree = outcomes.recommendedDegree;
+  return degree && isAdvisable(outcomes, *degree, toleranceMm) ? degree : std::nullopt;
 }
 
 double mostSensibleToleranceMm(const NurbsCurve& curve) {

@@ -198,7 +198,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
     return fairSpans(curve, closed, targetSplits(curve, closed, params), params, context);
   const TargetLevels levels = targetLevels(curve, closed, params);
   const TargetSet& first = levels.ofTolerance().targets;
-  if (first.recommendedDegree == 0)
+  if (!first.recommendedDegree)
     return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
   if (const auto asked = degreeOf(params.target)) {
     const TargetProfile& profile = first.profiles[*asked - 1];
@@ -214,8 +214,8 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         const auto toDegree = [&](int degree, LevelSearch search) -> Result<LevelOutcome> {
           return fairOverLevels(setup, levels, degree, within.toleranceMm, context, search);
         };
-        int degree = degreeOf(params.target).value_or(0);
-        if (degree == 0 && params.targetChoice == TargetChoice::Similarity) {
+        const std::optional<int> asked = degreeOf(params.target);
+        if (!asked && params.targetChoice == TargetChoice::Similarity) {
           FairedByDegree all;
           for (int tried = 1; tried <= 6; ++tried) {
             const auto at = static_cast<std::size_t>(tried) - 1;
@@ -228,13 +228,13 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
           const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
           if (any != all.end()) return std::move(**any);
         }
-        for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
+        for (int tried = 1; tried <= 6 && !asked; ++tried) {
           if (!first.profiles[tried - 1].valid) continue;
           auto outcome = toDegree(tried, LevelSearch::IfItMet);
           if (!outcome) return fail(outcome.error());
           if (outcome->isMet) return followed(std::move(*outcome), tried);
         }
-        if (degree == 0) degree = first.recommendedDegree;
+        const int degree = asked ? *asked : *first.recommendedDegree;
         auto outcome = toDegree(degree, LevelSearch::All);
         if (!outcome) return fail(outcome.error());
         return followed(std::move(*outcome), degree);

@@ -289,7 +289,8 @@ TEST_F(FairingWindow, TilesAndTableRecommendAlike) {
     type(find<QLineEdit>("fairing.tolerance.field"), allowed ? QStringLiteral("20") : QStringLiteral("0.001"));
     ASSERT_TRUE(settle());
     ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
-    const int nearest = session().targets()->recommendedDegree;  // the spans go by the tolerance, and it by the spans
+    const int nearest =
+        session().targets()->recommendedDegree.value_or(0);  // the spans go by the tolerance, and it by the spans
     ASSERT_GT(nearest, 0);
     const auto* tile = window_->findChild<QAbstractButton*>(QStringLiteral("target.%1").arg(nearest));
     const auto isTicked = [&] { return table->rows()[std::size_t(nearest - 1)].name.contains(QStringLiteral("✓")); };

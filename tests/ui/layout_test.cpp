@@ -48,7 +48,7 @@ TEST_F(Layout, OnlyWhatTheToleranceAllowsIsRecommended) {
   session().change(QStringLiteral("Tolerance"), recipe);
   ASSERT_TRUE(settle());
   ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
-  const int degree = session().targets()->recommendedDegree;
+  const int degree = session().targets()->recommendedDegree.value_or(0);
   ASSERT_GT(degree, 0);
   const auto& outcome = session().targets()->faired[degree - 1];
   ASSERT_TRUE(outcome);

@@ -54,7 +54,8 @@ void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples,
 
 std::optional<int> chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
   if (curve.fairingUsed.mode != FairingMode::Target || !isPolynomial(curve.fairingUsed.target)) return std::nullopt;
-  return degreeOf(curve.fairingUsed.target).value_or(targets.recommendedDegree);
+  const std::optional<int> asked = degreeOf(curve.fairingUsed.target);
+  return asked ? asked : targets.recommendedDegree;
 }
 
 void addTargets(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {

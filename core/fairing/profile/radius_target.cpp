@@ -153,8 +153,8 @@ TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool c
     set.profiles[at] = fitProfile(data, params, closed, degree, curve.controlPointCount());
     const TargetProfile& profile = set.profiles[at];
     if (!profile.valid) continue;
-    const auto best = static_cast<std::size_t>(std::max(set.recommendedDegree, 1) - 1);
-    if (set.recommendedDegree == 0 || profile.aicc < set.profiles[best].aicc) set.recommendedDegree = degree;
+    const std::optional<int> best = set.recommendedDegree;
+    if (!best || profile.aicc < set.profiles[*best - 1].aicc) set.recommendedDegree = degree;
   }
   return set;
 }

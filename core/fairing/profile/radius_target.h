@@ -72,7 +72,7 @@ struct TargetSet {
   std::vector<double> perimeter;          ///< 0..1, the sample positions.
   std::vector<double> kappa;              ///< [1/mm] of the curve there.
   bool comparesCurvature = false;         ///< Similarities are of the curvature, for the radius has no end somewhere.
-  int recommendedDegree = 0;              ///< By AICc; 0 = none valid.
+  std::optional<int> recommendedDegree;   ///< By AICc; absent: none is valid.
 };
 
 /// Least-squares polynomials of degree 1..6 over the perimeter (000 VI, 003 section 4), monotone by non-negative least

@@ -194,8 +194,8 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
     profile.nodes = spanNodes(samples, closed, span, c, {start.has_value(), end.has_value()});
     judgeProfile(profile, data, fitted, std::max(1, degree - (start ? 1 : 0) - (end ? 1 : 0)),
                  curve.controlPointCount());
-    const auto best = static_cast<std::size_t>(std::max(set.recommendedDegree, 1) - 1);
-    if (set.recommendedDegree == 0 || profile.aicc < set.profiles[best].aicc) set.recommendedDegree = degree;
+    const std::optional<int> best = set.recommendedDegree;
+    if (!best || profile.aicc < set.profiles[*best - 1].aicc) set.recommendedDegree = degree;
   }
   return set;
 }

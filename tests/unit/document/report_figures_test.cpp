@@ -71,7 +71,7 @@ TEST(ReportFigures, TheTargetIsTheOneThatTheCurveFollowed) {
   EXPECT_GT(misfit(whole.profiles[2], chosen.faired), 3.0 * off) << "one monotone polynomial cannot follow a wave";
   // The recommended degree is the one that was taken.
   const TracedCurve recommended = fairedTo(wave(), 0);
-  ASSERT_GT(recommended.fairing.targetDegree, 0);
+  ASSERT_TRUE(recommended.fairing.targetDegree);
   EXPECT_EQ(targetOf(recommended)->degree, recommended.fairing.targetDegree);
   EXPECT_LT(misfit(*targetOf(recommended), recommended.faired), 0.1);
 }

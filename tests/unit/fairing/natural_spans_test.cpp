@@ -118,7 +118,7 @@ TEST(NaturalTargets, NeedLessThanOnePolynomialForTheWholeCurve) {
     EXPECT_LE(natural->faired[i]->report.extremaAfter, 3) << i;
     EXPECT_TRUE(natural->targets.profiles[i].isMonotone) << "between its splits";
   }
-  const int best = natural->recommendedDegree;
+  const int best = natural->recommendedDegree.value_or(0);
   ASSERT_GE(best, 1);
   EXPECT_TRUE(natural->faired[best - 1]->report.withinTolerance);
   for (int lower = 1; lower < best; ++lower)

@@ -104,7 +104,7 @@ TEST(RadiusTarget, RefusesRadiusProfilesThroughInflections) {
   TargetParams params;
   params.quantity = TargetQuantity::Radius;
   const TargetSet set = fitTargets(test::wave(200.0, 10.0, 30), params);
-  EXPECT_EQ(set.recommendedDegree, 0);
+  EXPECT_FALSE(set.recommendedDegree);
   for (const TargetProfile& p : set.profiles) {
     EXPECT_FALSE(p.valid);
     EXPECT_FALSE(p.problem.empty());

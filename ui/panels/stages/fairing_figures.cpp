@@ -31,7 +31,7 @@ bool wasFaired(const TracedCurve& curve) {
 std::optional<int> shownDegree(const EditorSession& session, const TracedCurve& curve) {
   const auto targets = session.targets();
   if (session.pointedSpan()) return chosenSpanTarget(session);
-  if (targets && curve.fairingUsed.target == FairingTarget::Recommended && targets->recommendedDegree > 0)
+  if (targets && curve.fairingUsed.target == FairingTarget::Recommended && targets->recommendedDegree)
     return targets->recommendedDegree;
   return degreeOf(curve.fairingUsed.target);
 }

@@ -142,7 +142,7 @@ void ShapeWindow::refill() {
   entries_ = entries();
   const auto targets = session_.targets();
   const Entry selected{Entry::Kind::Sketched, session_.selectedCurve().value_or(0)};
-  const Entry recommended{Entry::Kind::Target, targets ? targets->recommendedDegree : 0};
+  const Entry recommended{Entry::Kind::Target, targets ? targets->recommendedDegree.value_or(0) : 0};
   const auto fill = [this](QComboBox* box, const std::optional<Entry>& kept, const Entry& otherwise) {
     const QSignalBlocker quiet(box);
     box->clear();
@@ -185,8 +185,8 @@ void ShapeWindow::compare() {
 
 void ShapeWindow::refreshTable() {
   const auto targets = session_.targets();
-  const int nearest = targets ? targets->recommendedDegree : 0;
-  const bool isAdvised = nearest > 0 && isAdvisable(*targets, nearest, fairingAsked(session_).toleranceMm);
+  const std::optional<int> nearest = targets ? targets->recommendedDegree : std::nullopt;
+  const bool isAdvised = nearest && isAdvisable(*targets, *nearest, fairingAsked(session_).toleranceMm);
   std::vector<FigureTable::Row> rows;
   for (int degree = 1; targets && degree <= 6; ++degree) {
     const auto at = static_cast<std::size_t>(degree - 1);

@@ -63,7 +63,7 @@ void TargetStrip::refresh() {
     if (session_.pointedSpan())
       chosen = chosenSpanTarget(session_);
     else if (used.mode == FairingMode::Target && isPolynomial(used.target) && curve->fairingUsed.spanTargets.empty())
-      chosen = degreeOf(used.target).value_or(targets ? targets->recommendedDegree : 0);
+      chosen = degreeOf(used.target) || !targets ? degreeOf(used.target) : targets->recommendedDegree;
   }
   const QString waiting = !curve                   ? QString()
                           : session_.isTargeting() ? tr("computing…")

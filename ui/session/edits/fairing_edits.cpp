@@ -237,11 +237,11 @@ std::optional<TargetOnCurve> targetOn(const EditorSession& session, const Fairin
   const auto targets = session.targets();
   const bool isOneOfSix = isPolynomial(asked.target) && !(isFollowed && !used.spanTargets.empty());
   if (targets && !targets->span && isOneOfSix) {
-    const bool isKnown = isFollowed && curve.fairing.targetDegree > 0;
-    const int degree =
-        degreeOf(asked.target).value_or(isKnown ? curve.fairing.targetDegree : targets->recommendedDegree);
-    if (degree > 0 && targets->targets.profiles[degree - 1].valid)
-      return TargetOnCurve{targets->targets.profiles[degree - 1], targets->splits};
+    std::optional<int> degree = degreeOf(asked.target);
+    if (!degree && isFollowed) degree = curve.fairing.targetDegree;
+    if (!degree) degree = targets->recommendedDegree;
+    if (degree && targets->targets.profiles[*degree - 1].valid)
+      return TargetOnCurve{targets->targets.profiles[*degree - 1], targets->splits};
   }
   if (!isFollowed) return std::nullopt;
   auto followed = followedTarget(curve.fairingStart(), curve.closed, used, curve.fairing);
