@@ -77,7 +77,7 @@ int runSuggest(const TraceArguments& arguments) {
   if (!advice) return reportError(advice.error());
   nlohmann::ordered_json json{
       {"scan", arguments.scan},
-      {"edges.merge", withDecimals(advice->merge.widths, 3)},
+      {"edges.merge", withDecimals(advice->merge.widths.value_or(0.0), 3)},
       {"edges.intent", advice->merge.meant.has_value()},
       {"strokes", advice->merge.strokes},
       {"lines", advice->merge.lines},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,11 +44,12 @@ int stepsOfWide(double penPx) {
 BitImage pencilStrokes(const InkSplit& split) { return without(split.pencilBody, split.shapes); }
 
 // Places of ink wider than its strokes that the lines with their widths leave out, up to the strokes.
-BitImage leftBeside(const BitImage& ink, double penPx, const ContourSet& lines, const RunContext& context) {
+BitImage leftBeside(const BitImage& ink, std::optional<double> penPx, const ContourSet& lines,
+                    const RunContext& context) {
   constexpr double kExplainedReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
   BitImage none(ink.width, ink.height);
-  if (penPx <= 0.0 || ink.count() == 0) return none;
-  const int half = stepsOfWide(penPx);
+  if (!penPx || ink.count() == 0) return none;
+  const int half = stepsOfWide(*penPx);
   BitImage wide = shrunken(ink, half, context);
   if (wide.count() == 0 || context.isCancelled()) return none;
   wide = without(std::move(wide), coveredBy(
@@ -60,15 +62,16 @@ BitImage leftBeside(const BitImage& ink, double penPx, const ContourSet& lines, 
 }
 
 // What strokes of a pen enclose and fill.
-BitImage penFillings(const BitImage& ink, double penPx, const ContourSet& lines, const RunContext& context) {
+BitImage penFillings(const BitImage& ink, std::optional<double> penPx, const ContourSet& lines,
+                     const RunContext& context) {
   constexpr double kLeastArea = 3.0;   // [squared pen widths] a dot of two pens across
   constexpr double kBodyWidths = 2.5;  // strokes that cross at any angle hold no larger disc, and a pixel
   BitImage fillings = leftBeside(ink, penPx, lines, context);
-  if (fillings.count() == 0) return fillings;
-  const int half = stepsOfWide(penPx);
-  const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * penPx + 1.0))));
+  if (fillings.count() == 0 || !penPx) return fillings;
+  const int half = stepsOfWide(*penPx);
+  const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * *penPx + 1.0))));
   const BitImage bodies = grown(shrunken(ink, body, context), body + 1, context);
-  const int leastArea = static_cast<int>(std::lround(kLeastArea * penPx * penPx));
+  const int leastArea = static_cast<int>(std::lround(kLeastArea * *penPx * *penPx));
   return withoutMargins(keepPieces(fillings, {.minArea = leastArea, .seeds = &bodies}, context), context);
 }
 
@@ -80,7 +83,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
   BitImage ink = split.strokes, grainy;
   if (split.pencil.width > 0) {
     const BitImage body = pencilStrokes(split);
-    const BitImage wide = shrunken(body, stepsOfWide(split.pencilPx), context);
+    const BitImage wide = shrunken(body, stepsOfWide(split.pencilPx.value_or(0.0)), context);
     grainy = without(body, mostlyInk(keepPieces(body, {.seeds = &wide}, context), split.strokes, kInkShare, context));
     ink = either(std::move(ink), body);
   }
@@ -100,7 +103,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
     InkRun& b = box[pieces.piece[i]];
     b = pieces.piece[i] == static_cast<int>(i) ? run : InkRun{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
     const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);
-    if (minWidths > kBlotWidths && size > kBlotWidths * split.penPx) hasLine[pieces.piece[i]] = true;
+    if (minWidths > kBlotWidths && size > kBlotWidths * split.penPx.value_or(0.0)) hasLine[pieces.piece[i]] = true;
   }
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!hasLine[pieces.piece[i]]) setBits(rest, pieces.runs[i]);

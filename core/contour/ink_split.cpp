@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <utility>
 
 #include "core/contour/centreline/centreline.h"
@@ -31,8 +32,8 @@ class PencilPieces {
       : pieces_(findPieces(ink, Connectivity::Eight, context)) {
     for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
       const double length = paths[i].length();
-      const int piece = pieceOf(paths[i]);
-      for (Drawn* drawn : {&page_, piece >= 0 ? &byPiece_[piece] : nullptr}) {
+      const std::optional<int> piece = pieceOf(paths[i]);
+      for (Drawn* drawn : {&page_, piece ? &byPiece_[*piece] : nullptr}) {
         if (drawn != nullptr) (grain.isPencil(i) ? drawn->pencil : drawn->pen) += length;
       }
     }
@@ -45,10 +46,10 @@ class PencilPieces {
   bool any() const { return page_.pencil > 0.0; }
 
  private:
-  int pieceOf(const StrokePath& path) const {
-    if (path.points.empty()) return -1;
+  std::optional<int> pieceOf(const StrokePath& path) const {
+    if (path.points.empty()) return std::nullopt;
     const Vec2& at = path.points[path.points.size() / 2].at;
-    return pieceAt(pieces_, static_cast<int>(at.x()), static_cast<int>(at.y())).value_or(-1);
+    return pieceAt(pieces_, static_cast<int>(at.x()), static_cast<int>(at.y()));
   }
 
   RunPieces pieces_;
@@ -99,7 +100,7 @@ Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double merge
   constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke
   Result<InkLabels> labels = labelInk(body, context, mergeWidths);
   if (!labels) return fail(labels.error());
-  const double pen = std::max(labels->penPx, widthPx);
+  const double pen = std::max(labels->penPx.value_or(0.0), widthPx);
   const auto opened = [&](double widths) {
     const int steps = std::max(1, static_cast<int>(0.5 * widths * pen));
     return grown(shrunken(labels->shapes, steps, context), steps, context);
@@ -146,7 +147,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   if (!solids) return fail(solids.error());
   split.strokes = without(std::move(split.strokes), *solids);
   split.shapes = either(std::move(split.shapes), *solids);
-  split.pencilPx = std::max(split.penPx, widthPx);
+  split.pencilPx = std::max(split.penPx.value_or(0.0), widthPx);
   split.pencilBody = std::move(*body);
   return {};
 }

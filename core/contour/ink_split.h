@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
@@ -15,14 +16,14 @@ namespace batten {
 
 /// The ink of a page by trace mode. Both pictures have the size of the ink and share no pixel.
 struct InkSplit {
-  BitImage strokes;       ///< Along their middle.
-  BitImage shapes;        ///< Along their border.
-  BitImage pencil;        ///< Ink that was drawn with a pencil; no pixels at all where there is none.
-  BitImage pencilBody;    ///< What a pencil drew but its shapes, with the grain closed; no pixels where there is none.
-  double pencilPx = 0.0;  ///< [px] width of the strokes of a pencil; 0 = there are none.
-  RunPieces regions;      ///< What the user turns over with one click: connected parts of one kind, before the choices.
+  BitImage strokes;     ///< Along their middle.
+  BitImage shapes;      ///< Along their border.
+  BitImage pencil;      ///< Ink that was drawn with a pencil; no pixels at all where there is none.
+  BitImage pencilBody;  ///< What a pencil drew but its shapes, with the grain closed; no pixels where there is none.
+  std::optional<double> pencilPx = {};  ///< [px] width of the strokes of a pencil; absent: there are none.
+  RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.
   std::unique_ptr<StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
-  double penPx = 0.0;                   ///< [px] width of the strokes; 0 = none was looked for, or there are none.
+  std::optional<double> penPx = {};     ///< [px] width of the strokes; absent: none was looked for, or there are none.
 };
 
 /// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -151,16 +152,16 @@ double penOfBorders(const ContourSet& borders) {
   return 0.0;
 }
 
-// The borders of ink that is followed along them, but the short ones. `penPx`: 0 = take it from the borders.
+// The borders of ink that is followed along them, but the short ones. `penPx` absent: taken from the borders.
 // `pencil`: ink whose grain leaves specks and holes; absent: none is known.
-Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, double penPx,
+Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, std::optional<double> penPx,
                              const BitImage* pencil, const RunContext& context) {
   // Of a line's least length: a dot half as wide as the pen, and the eye of an e.
   constexpr double kLeastDot = 0.5, kLeastHole = 1.0 / 3.0;
   constexpr double kGrain = 4.0;  // of it: specks and holes of a pencil are smaller
   Result<ContourSet> set = crackContours(ink, holes, params.minLengthPx, context);
   if (!set) return set;
-  const double shortest = shortestPx(params, penPx > 0.0 ? penPx : penOfBorders(*set));
+  const double shortest = shortestPx(params, penPx ? *penPx : penOfBorders(*set));
   const auto isGrainy = [&](const Contour& c) {
     return pencil != nullptr && anyInDisc(*pencil, c.points.front().unrefined, 1.0);
   };

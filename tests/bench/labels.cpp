@@ -57,7 +57,7 @@ int paintDrawings(const std::filesystem::path& folder, const std::filesystem::pa
     if (!labels) continue;
     const double shapes = static_cast<double>(labels->shapes.count()),
                  strokes = static_cast<double>(labels->strokes.count());
-    std::printf("%-30s pen %5.2f px  shapes %5.1f %%  %7.0f ms\n", file.filename().c_str(), labels->penPx,
+    std::printf("%-30s pen %5.2f px  shapes %5.1f %%  %7.0f ms\n", file.filename().c_str(), labels->penPx.value_or(0.0),
                 100.0 * shapes / std::max(1.0, shapes + strokes), ms);
     savePicture((pictures / (file.stem().string() + "-labels.png")).string(), *labels);
   }

@@ -64,7 +64,8 @@ Recipe recipeFor(const Way& way, const Scan& scan, Recipe recipe) {
   recipe.edges.intent = way.isIntent;
   if (way.isSuggested) {
     StageCache cache;
-    if (const auto advice = adviseMerge(scan, recipe, cache, {})) recipe.edges.mergeWidths = advice->widths;
+    if (const auto advice = adviseMerge(scan, recipe, cache, {}))
+      recipe.edges.mergeWidths = advice->widths.value_or(0.0);
   }
   return recipe;
 }

@@ -178,7 +178,7 @@ void InkGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage
     for (int side = 0; side < 2 && !c.closed; ++side) {
       // A single pixel has one end only.
       if (side == 1 && c.pixels.size() < 2) continue;
-      nodes_[chain.node[side]].ends.push_back(2 * number + side);
+      nodes_[*chain.node[side]].ends.push_back(2 * number + side);
     }
     chains_.push_back(std::move(chain));
   }
@@ -196,14 +196,14 @@ void InkGraph::makeChains(const std::vector<SkeletonChain>& found, const BitImag
 }
 
 bool InkGraph::isFreeEnd(int end) const {
-  const int node = chains_[end / 2].node[end % 2];
-  return node >= 0 && !nodes_[node].isJunction() && !nodes_[node].isRim;
+  const std::optional<int> node = chains_[end / 2].node[end % 2];
+  return node && !nodes_[*node].isJunction() && !nodes_[*node].isRim;
 }
 
 void InkGraph::removeChain(int chain) {
   for (int side = 0; side < 2; ++side) {
-    const int node = chains_[chain].node[side];
-    if (node >= 0) std::erase(nodes_[node].ends, 2 * chain + side);
+    const std::optional<int> node = chains_[chain].node[side];
+    if (node) std::erase(nodes_[*node].ends, 2 * chain + side);
   }
   chains_[chain] = InkChain{};
   chains_[chain].isAlive = false;
@@ -214,8 +214,8 @@ void InkGraph::reverse(int chain) {
   std::reverse(c.pixels.begin(), c.pixels.end());
   std::swap(c.node[0], c.node[1]);
   // Both ends may lie at one node: all are renamed at once.
-  std::vector<int> touched = {c.node[0]};
-  if (c.node[1] != c.node[0]) touched.push_back(c.node[1]);
+  std::vector<int> touched = {*c.node[0]};
+  if (c.node[1] != c.node[0]) touched.push_back(*c.node[1]);
   for (const int node : touched) {
     for (int& end : nodes_[node].ends) {
       if (end / 2 == chain) end ^= 1;
@@ -230,7 +230,7 @@ void InkGraph::splice(int node) {
   const int a = n.ends[0] / 2, b = n.ends[1] / 2;
   if (a == b) {
     chains_[a].isRing = true;
-    chains_[a].node = {-1, -1};
+    chains_[a].node = {};
     n.ends.clear();
     return;
   }
@@ -240,7 +240,7 @@ void InkGraph::splice(int node) {
   chains_[a].pixels.insert(chains_[a].pixels.end(), from.pixels.begin(), from.pixels.end());
   chains_[a].node[1] = from.node[1];
   n.ends.clear();
-  for (int& end : nodes_[from.node[1]].ends) {
+  for (int& end : nodes_[*from.node[1]].ends) {
     if (end == 2 * b + 1) end = 2 * a + 1;
   }
   from = InkChain{};
@@ -255,7 +255,7 @@ void InkGraph::dropSpurs() {
       if (!c.isAlive || c.isRing) continue;
       const bool free[2] = {isFreeEnd(2 * i), isFreeEnd(2 * i + 1)};
       if (free[0] == free[1]) continue;
-      const double junction = nodes_[c.node[free[0] ? 1 : 0]].radius;
+      const double junction = nodes_[*c.node[free[0] ? 1 : 0]].radius;
       const double tip = static_cast<double>((free[0] ? c.pixels.front() : c.pixels.back()).radius);
       if (lengthOf(c) + tip <= kSpurRadii * junction + 1.0) spurs.push_back(i);
     }
@@ -267,9 +267,9 @@ void InkGraph::dropSpurs() {
 
 void InkGraph::markJunctions() {
   for (InkChain& chain : chains_) {
-    for (const int number : chain.node) {
-      if (!chain.isAlive || number < 0 || !nodes_[number].isJunction()) continue;
-      const InkNode& node = nodes_[number];
+    for (const std::optional<int> number : chain.node) {
+      if (!chain.isAlive || !number || !nodes_[*number].isJunction()) continue;
+      const InkNode& node = nodes_[*number];
       for (InkPixel& p : chain.pixels) {
         p.inJunction = p.inJunction || (p.centre() - node.centre).norm() < node.radius;
       }
@@ -300,7 +300,7 @@ int InkGraph::cutChain(int chain, int index) {
   rest.pixels.assign(first.pixels.begin() + index, first.pixels.end());
   first.pixels.erase(first.pixels.begin() + index, first.pixels.end());
   rest.node[1] = first.node[1];
-  for (int& end : nodes_[rest.node[1]].ends) {
+  for (int& end : nodes_[*rest.node[1]].ends) {
     if (end == 2 * chain + 1) end = 2 * number + 1;
   }
   const auto addRim = [&](const InkPixel& p, int end) {
@@ -324,7 +324,7 @@ void InkGraph::pairLegs() {
     double cost;
     int a, b;
   };
-  partner_.assign(2 * chains_.size(), -1);
+  partner_.assign(2 * chains_.size(), std::nullopt);
   for (const InkNode& node : nodes_) {
     if (!node.isJunction()) continue;
     std::vector<Leg> legs;
@@ -337,7 +337,7 @@ void InkGraph::pairLegs() {
     }
     std::stable_sort(options.begin(), options.end(), [](const Option& a, const Option& b) { return a.cost < b.cost; });
     for (const Option& o : options) {
-      if (partner_[o.a] >= 0 || partner_[o.b] >= 0) continue;
+      if (partner_[o.a] || partner_[o.b]) continue;
       partner_[o.a] = o.b;
       partner_[o.b] = o.a;
     }
@@ -346,7 +346,7 @@ void InkGraph::pairLegs() {
 
 void InkGraph::makePaths() {
   for (int first = 0; first < static_cast<int>(chains_.size()); ++first) {
-    if (!chains_[first].isAlive || chains_[first].path >= 0) continue;
+    if (!chains_[first].isAlive || chains_[first].path) continue;
     InkPath path;
     std::vector<int> open = {first};
     chains_[first].path = static_cast<int>(paths_.size());
@@ -355,10 +355,10 @@ void InkGraph::makePaths() {
       open.pop_back();
       path.chains.push_back(chain);
       for (int side = 0; side < 2; ++side) {
-        const int next = partner_[2 * chain + side] / 2;
-        if (partner_[2 * chain + side] < 0 || chains_[next].path >= 0) continue;
-        chains_[next].path = chains_[first].path;
-        open.push_back(next);
+        const std::optional<int> partner = partner_[2 * chain + side];
+        if (!partner || chains_[*partner / 2].path) continue;
+        chains_[*partner / 2].path = chains_[first].path;
+        open.push_back(*partner / 2);
       }
     }
     measurePath(path);
@@ -384,7 +384,7 @@ void InkGraph::measurePath(InkPath& path) const {
     for (int side = 0; side < 2; ++side) {
       const int end = 2 * number + side;
       if (isFreeEnd(end)) ends += static_cast<double>((side == 0 ? p.front() : p.back()).radius);
-      if (partner_[end] >= 0) passages.push_back(nodes_[chain.node[side]].radius);
+      if (partner_[end]) passages.push_back(nodes_[*chain.node[side]].radius);
     }
   }
   if (widths.empty()) return;

@@ -36,10 +36,10 @@ struct InkPixel {
 /// A stretch of skeleton between two nodes. Its ends are numbered 2 * chain + side.
 struct InkChain {
   std::vector<InkPixel> pixels;
-  std::array<int, 2> node = {-1, -1};  ///< -1: the chain is a ring.
+  std::array<std::optional<int>, 2> node = {};  ///< Absent: the chain is a ring.
   bool isAlive = true;
   bool isRing = false;
-  int path = -1;
+  std::optional<int> path = {};
 };
 
 /// A free end (one chain) or a junction of the skeleton (more); touching junction pixels are one node. The rim, where a
@@ -84,8 +84,8 @@ class InkGraph {
   const std::vector<InkChain>& chains() const { return chains_; }
   const std::vector<InkNode>& nodes() const { return nodes_; }
   const std::vector<InkPath>& paths() const { return paths_; }
-  /// The end that a chain's end goes on with through its junction; -1 = none.
-  int partner(int end) const { return partner_[end]; }
+  /// The end that a chain's end goes on with through its junction; absent: none.
+  std::optional<int> partner(int end) const { return partner_[end]; }
 
  private:
   void makeNodes(const std::vector<SkeletonChain>& found, const BitImage& ink);
@@ -105,7 +105,7 @@ class InkGraph {
   std::vector<InkChain> chains_;
   std::vector<InkNode> nodes_;
   std::vector<InkPath> paths_;
-  std::vector<int> partner_;
+  std::vector<std::optional<int>> partner_;
 };
 
 }  // namespace batten

@@ -169,7 +169,8 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
   constexpr double kLong = 1.3, kLongBetweenTwo = kStrokeWidths;
   constexpr double kKnotPens = 4.0;    // what six strokes hold that cross in one point
   constexpr double kMouthShare = 0.5;  // of its border: most of what surrounds a dot is paper
-  if (labels.penPx <= 0.0 || labels.shapes.count() == 0) return;
+  if (!labels.penPx || labels.shapes.count() == 0) return;
+  const double penPx = *labels.penPx;
   const RunPieces shapes = findPieces(labels.shapes, Connectivity::Eight, context);
   const BitImage border = without(grown(labels.shapes, 1, context), labels.shapes);
   const BitImage rim = both(border, labels.strokes);
@@ -180,10 +181,10 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
   const auto isBundle = [&](const ShapeRegion& r) {
     const double width = 2.0 * r.largestRadiusPx - kRadiiBeyondWidthPx;
     if (r.mouths == 0 || width <= 0.0) return false;
-    if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * labels.penPx + 1.0) return true;
-    if (r.mouths < 2 || width > std::min(kBundlePens * labels.penPx + 1.0, page.widestPenPx)) return false;
+    if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * penPx + 1.0) return true;
+    if (r.mouths < 2 || width > std::min(kBundlePens * penPx + 1.0, page.widestPenPx)) return false;
     const bool isKnot = static_cast<double>(r.mouthsPx) >= kMouthShare * static_cast<double>(r.borderPx);
-    if (isKnot && width <= kKnotPens * labels.penPx + 1.0) return true;
+    if (isKnot && width <= kKnotPens * penPx + 1.0) return true;
     return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
   };
   for (std::size_t i = 0; i < shapes.runs.size(); ++i) {
@@ -203,7 +204,7 @@ double penOfStrokes(const InkGraph& graph) {
 }
 
 Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContext& context) {
-  InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink, 0.0};
+  InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink};
   if (!thinToSkeleton(labels.skeleton, context)) return cancelled();
   InkGraph graph(labels.skeleton, ink, context);
   const RunPieces runs = findPieces(ink, Connectivity::Eight, context);
@@ -211,7 +212,7 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContex
   PiecesOfPage page = measurePieces(graph, runs);
   page.widestPenPx = kWidestPen * std::sqrt(static_cast<double>(ink.width) * ink.height);
   labelPaths(graph, page);
-  labels.penPx = penOfStrokes(graph);
+  if (const double pen = penOfStrokes(graph); pen > 0.0) labels.penPx = pen;
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);
   releaseBundles(graph, page, mergeWidths, labels, context);
@@ -223,7 +224,7 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContex
     votes.push_back({2 * shapeArea[piece.firstRun] > piece.areaPx, std::nullopt});
   voteAmongAlike(votes, graph, page, std::hypot(ink.width, ink.height));
   applyVotes(runs, page, votes, labels);
-  if (labels.strokes.count() == 0) labels.penPx = 0.0;  // crumbs beside shapes that went with them
+  if (labels.strokes.count() == 0) labels.penPx.reset();  // crumbs beside shapes that went with them
   return labels;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/image/bits/bit_image.h"
@@ -9,10 +11,11 @@ namespace batten {
 
 /// The ink of a page, classified: every ink pixel is in exactly one of the two. All pictures have the size of the ink.
 struct InkLabels {
-  BitImage strokes;    ///< Lines of a pen, to be followed along their middle.
-  BitImage shapes;     ///< Filled areas, dots and broad lettering, to be followed along their border.
-  BitImage skeleton;   ///< Of all the ink.
-  double penPx = 0.0;  ///< [px] median width of the strokes, weighed by their lengths in widths; 0: there is none.
+  BitImage strokes;   ///< Lines of a pen, to be followed along their middle.
+  BitImage shapes;    ///< Filled areas, dots and broad lettering, to be followed along their border.
+  BitImage skeleton;  ///< Of all the ink.
+  /// [px] median width of the strokes, weighed by their lengths in widths; absent: there is none.
+  std::optional<double> penPx = {};
 };
 
 /// Strokes and shapes, region by region: a solid and the lines attached to it are one piece of ink and two labels.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -90,7 +91,7 @@ class Labeller {
   double widestStrokeAt(const InkNode& node) const {
     double width = 0.0;
     for (const int end : node.ends) {
-      const int path = graph_.chains()[end / 2].path;
+      const int path = *graph_.chains()[end / 2].path;
       width = std::max(width, explained_[path] ? *graph_.paths()[path].widthPx : penOf_[path]);
     }
     return width;
@@ -98,9 +99,8 @@ class Labeller {
   double widestStrokeAt(int path) const {
     double width = penOf_[path];
     for (const int number : graph_.paths()[path].chains) {
-      for (const int node : graph_.chains()[number].node) {
-        if (node >= 0 && graph_.nodes()[node].isJunction())
-          width = std::max(width, widestStrokeAt(graph_.nodes()[node]));
+      for (const std::optional<int> node : graph_.chains()[number].node) {
+        if (node && graph_.nodes()[*node].isJunction()) width = std::max(width, widestStrokeAt(graph_.nodes()[*node]));
       }
     }
     return width;
@@ -109,7 +109,7 @@ class Labeller {
   void labelJunctions() {
     for (InkNode& node : graph_.nodes()) {
       if (!node.isJunction()) continue;
-      const double pen = std::max(penOf_[graph_.chains()[node.ends.front() / 2].path], widestStrokeAt(node));
+      const double pen = std::max(penOf_[*graph_.chains()[node.ends.front() / 2].path], widestStrokeAt(node));
       if (node.widthPx() > coreWidth(pen)) node.label = InkLabel::Shape;
     }
   }
@@ -117,7 +117,7 @@ class Labeller {
   void labelPixels() {
     for (InkChain& chain : graph_.chains()) {
       if (!chain.isAlive) continue;
-      const InkPath& s = graph_.paths()[chain.path];
+      const InkPath& s = graph_.paths()[*chain.path];
       for (InkPixel& p : chain.pixels) {
         if (!p.inJunction) p.label = s.label;
       }
@@ -178,8 +178,8 @@ class Labeller {
     graph_.paths()[path].label = InkLabel::Shape;
     for (const int number : graph_.paths()[path].chains) {
       for (InkPixel& p : graph_.chains()[number].pixels) p.label = InkLabel::Shape;
-      for (const int node : graph_.chains()[number].node) {
-        if (node >= 0) joinShape(graph_.nodes()[node]);
+      for (const std::optional<int> node : graph_.chains()[number].node) {
+        if (node) joinShape(graph_.nodes()[*node]);
       }
     }
   }
@@ -189,7 +189,7 @@ class Labeller {
   // A junction is a shape where all paths that meet there are.
   void joinShape(InkNode& node) {
     for (const int end : node.ends) {
-      if (graph_.paths()[graph_.chains()[end / 2].path].label != InkLabel::Shape) return;
+      if (graph_.paths()[*graph_.chains()[end / 2].path].label != InkLabel::Shape) return;
     }
     node.label = InkLabel::Shape;
   }
@@ -198,9 +198,9 @@ class Labeller {
   void labelWithinJunctions() {
     for (InkChain& chain : graph_.chains()) {
       if (!chain.isAlive) continue;
-      for (const int number : chain.node) {
-        if (number < 0 || graph_.nodes()[number].label != InkLabel::Shape) continue;
-        const InkNode& node = graph_.nodes()[number];
+      for (const std::optional<int> number : chain.node) {
+        if (!number || graph_.nodes()[*number].label != InkLabel::Shape) continue;
+        const InkNode& node = graph_.nodes()[*number];
         for (InkPixel& p : chain.pixels) {
           if (p.inJunction && (p.centre() - node.centre).norm() < node.radius) p.label = InkLabel::Shape;
         }

@@ -13,7 +13,7 @@ namespace batten {
 
 /// Measurements of one connected component of ink.
 struct LabelledPiece {
-  int firstRun = -1;  ///< RunPieces::piece of its runs.
+  int firstRun = 0;  ///< RunPieces::piece of its runs.
   std::vector<int> paths;
   std::int64_t areaPx = 0;
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< [px] its box, [x0, x1) x [y0, y1).

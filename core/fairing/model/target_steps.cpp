@@ -78,8 +78,9 @@ void TargetSteps::follow(double mostMm) {
   if (!steps_.empty()) from = steps_.front();
   early_ = false;
   std::reverse(steps_.begin(), steps_.end());
-  while (next_ >= 0 && !context_.isCancelled()) {
-    const int i = next_--;
+  while (next_ && !context_.isCancelled()) {
+    const int i = *next_;
+    next_ = i > 0 ? std::optional(i - 1) : std::nullopt;
     const FairingLimits limits = i > 0 ? (long_ ? kRough : kWarm) : long_ ? kProbe : kFull;
     auto step = solve(weightOf(i), from, limits);
     if (!step) break;
@@ -91,7 +92,7 @@ void TargetSteps::follow(double mostMm) {
   std::reverse(steps_.begin(), steps_.end());
   if (context_.isCancelled()) steps_.clear();
   if (early_) return;
-  next_ = -1;
+  next_.reset();
   rough_ = long_ && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup_.extent;
   if (!long_ || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
   if (auto step = solve(smallest_, steps_.front(), kRest)) steps_.front() = std::move(*step);

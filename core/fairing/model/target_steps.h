@@ -64,7 +64,8 @@ class TargetSteps {
   const RunContext& context_;
   std::vector<TargetStep> steps_;
   double smallest_ = 0.0, largest_ = 0.0;  ///< Weights of the steps at the target and at the sketch.
-  int count_ = 0, next_ = -1;              ///< Steps beside the first; the one to be made next, -1: none.
+  int count_ = 0;                          ///< Steps beside the first.
+  std::optional<int> next_;                ///< The one to be made next.
   bool long_ = false, rough_ = false, early_ = false;
   mutable int iterations_ = 0;
 };

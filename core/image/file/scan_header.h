@@ -15,16 +15,16 @@ inline constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;
 
 struct ScanHeader {
   ScanInfo info;
-  bool complete = true;             ///< False: the file ends before its picture does.
-  bool progressive = false;         ///< Its decoder keeps the whole page's coefficients.
-  bool supported = true;            ///< False: a kind of picture that cannot be read (floating point, 32 bit).
-  std::uint64_t orientationAt = 0;  ///< TIFF: where the orientation is written; 0 = nowhere.
+  bool complete = true;      ///< False: the file ends before its picture does.
+  bool progressive = false;  ///< Its decoder keeps the whole page's coefficients.
+  bool supported = true;     ///< False: a kind of picture that cannot be read (floating point, 32 bit).
+  std::optional<std::uint64_t> orientationAt;  ///< TIFF: where the orientation is written.
   bool bigEndian = true;
-  std::uint64_t tilePixels = 0;  ///< [px] TIFF: of one tile, which may be larger than the picture; 0 = no tiles.
+  std::uint64_t tilePixels = 0;  ///< [px] TIFF: of one tile, which may be larger than the picture; 0 without tiles.
   SampleMeaning meaning;
-  int pages = 1;                  ///< TIFF: pictures in the file, thumbnails not counted.
-  std::uint64_t directoryAt = 0;  ///< TIFF: where the directory of the page lies; 0 = it is not there.
-  std::uint64_t workBytes = 0;    ///< [bytes] JPEG 2000: what its decoder takes beside the picture.
+  int pages = 1;                             ///< TIFF: pictures in the file, thumbnails not counted.
+  std::optional<std::uint64_t> directoryAt;  ///< TIFF: where the directory of the page lies.
+  std::uint64_t workBytes = 0;               ///< [bytes] JPEG 2000: what its decoder takes beside the picture.
 };
 
 /// Reads the header of whichever format the bytes are; empty when they are none of those that can be read.

@@ -158,7 +158,8 @@ ScanHeader readTiffHeader(const ByteReader& file, int page) {
   const std::vector<std::uint64_t> pages = tiffPages(tiff);
   header.pages = static_cast<int>(pages.size());
   if (page < 1 || page > header.pages) return header;
-  const std::uint64_t directory = header.directoryAt = pages[static_cast<std::size_t>(page) - 1];
+  const std::uint64_t directory = pages[page - 1];
+  header.directoryAt = directory;
   const std::uint64_t entries = tiff.u16(directory);
   header.info.bitsPerChannel = 1;
   header.meaning.isTiff = true;
@@ -244,7 +245,7 @@ ScanHeader readJpegHeader(const ByteReader& file) {
     if (marker == 0xda) at = skipEntropyData(file, at);
   }
   header.supported = header.info.bitsPerChannel == 8;
-  header.orientationAt = 0;
+  header.orientationAt.reset();
   if (jfifDpi) header.info.dpi = jfifDpi;
   return header;
 }

@@ -35,7 +35,7 @@ Result<ScanHeader> headerOf(const std::filesystem::path& path, const std::vector
 }
 
 bool hasPage(const ScanHeader& header, int page) {
-  return page >= 1 && page <= header.pages && (header.info.format != "TIFF" || header.directoryAt != 0);
+  return page >= 1 && page <= header.pages && (header.info.format != "TIFF" || header.directoryAt);
 }
 
 /// TIFF directories may lie at the end of the file; then the whole is read.
@@ -89,17 +89,17 @@ std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHead
 
 /// The decoder reads the first page: the chosen one becomes it.
 void selectTiffPage(std::vector<std::byte>& bytes, const ScanHeader& header) {
-  if (header.info.format != "TIFF" || bytes.size() < 8) return;
+  if (header.info.format != "TIFF" || !header.directoryAt || bytes.size() < 8) return;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t shift = 8 * (header.bigEndian ? 3 - i : i);
-    bytes[4 + i] = static_cast<std::byte>(header.directoryAt >> shift & 0xffu);
+    bytes[4 + i] = static_cast<std::byte>(*header.directoryAt >> shift & 0xffu);
   }
 }
 
 /// The decoder would turn TIFFs by itself, and only some of them: it is told that there is nothing to turn.
 void clearTiffOrientation(std::vector<std::byte>& bytes, const ScanHeader& header) {
-  const auto at = static_cast<std::size_t>(header.orientationAt);
-  if (header.info.format != "TIFF" || at == 0 || at + 2 > bytes.size()) return;
+  if (header.info.format != "TIFF" || !header.orientationAt || *header.orientationAt + 2 > bytes.size()) return;
+  const std::uint64_t at = *header.orientationAt;
   bytes[at] = std::byte{static_cast<unsigned char>(header.bigEndian ? 0 : 1)};
   bytes[at + 1] = std::byte{static_cast<unsigned char>(header.bigEndian ? 1 : 0)};
 }

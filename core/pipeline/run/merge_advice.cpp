@@ -88,10 +88,10 @@ std::string describe(const MergeAdvice& advice) {
                                 ? " With edges.intent there " + std::string(*advice.meant == 1 ? "is " : "are ") +
                                       counted(*advice.meant, "curve.", "curves.")
                                 : std::string();
-  if (!(advice.widths > 0.0) && advice.share > 0.0)
+  if (!advice.widths && advice.share > 0.0)
     return "Some strokes overlap, but merging them would not reduce the number of lines." + meant;
-  if (!(advice.widths > 0.0)) return "No overdrawn strokes were found." + meant;
-  return numberToText(advice.widths) + (advice.widths == 1.0 ? " stroke width: " : " stroke widths: ") +
+  if (!advice.widths) return "No overdrawn strokes were found." + meant;
+  return numberToText(*advice.widths) + (*advice.widths == 1.0 ? " stroke width: " : " stroke widths: ") +
          counted(advice.strokes, "stroke becomes ", "strokes become ") + counted(advice.lines, "line.", "lines.") +
          meant;
 }

@@ -15,10 +15,11 @@ namespace batten {
 
 /// A strength for edges.merge that the drawing itself suggests.
 struct MergeAdvice {
-  double widths = 0.0;  ///< [stroke widths] For EdgeParams::mergeWidths; 0: none were found, or it would not help.
-  int strokes = 0;      ///< Centre lines of the page without merging, all of them,
-  int lines = 0;        ///< and with it.
-  double share = 0.0;   ///< [-] See OverdrawnStrokes::share.
+  /// [stroke widths] For EdgeParams::mergeWidths; absent: none were found, or it would not help.
+  std::optional<double> widths = {};
+  int strokes = 0;     ///< Centre lines of the page without merging, all of them,
+  int lines = 0;       ///< and with it.
+  double share = 0.0;  ///< [-] See OverdrawnStrokes::share.
   /// Centre lines with edges.intent; absent: the page shows no lines drawn over more than once.
   std::optional<int> meant = {};
 };

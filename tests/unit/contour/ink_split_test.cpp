@@ -212,7 +212,7 @@ TEST(InkSplit, RegionsAreConnectedPartsOfOneKind) {
   EXPECT_NE(*right, *below);
   EXPECT_EQ(pieceAt(split->regions, 200, 150), disc);
   EXPECT_FALSE(pieceAt(split->regions, 150, 150)) << "paper";
-  EXPECT_NEAR(split->penPx, kPen, 1.5) << "told on whole pixels";
+  EXPECT_NEAR(split->penPx.value_or(0.0), kPen, 1.5) << "told on whole pixels";
 }
 
 // Lines of 2.5 and 6 widths beside long ones, with a thin and a broad pen.

@@ -25,14 +25,15 @@ TEST(MergeAdvice, SaysHowManyStrokesBecomeHowManyLines) {
   Recipe recipe;
   const auto advice = adviseMerge(scan, recipe, cache, {});
   ASSERT_TRUE(advice) << advice.error().message;
-  EXPECT_GT(advice->widths, 0.0);
+  ASSERT_TRUE(advice->widths);
+  EXPECT_GT(*advice->widths, 0.0);
   EXPECT_GT(advice->strokes, 1);
   EXPECT_EQ(advice->lines, 1);
   EXPECT_EQ(describe(*advice).find("stroke width") != std::string::npos, true) << describe(*advice);
   EXPECT_NE(describe(*advice).find(std::to_string(advice->strokes) + " strokes become 1 line."), std::string::npos)
       << describe(*advice);
   // What the recipe with that strength gives, is what was said.
-  recipe.edges.mergeWidths = advice->widths;
+  recipe.edges.mergeWidths = *advice->widths;
   PipelineRequest request;
   request.upTo = StageId::Contours;
   const auto out = runPipeline(scan, recipe, cache, request, {});
@@ -73,7 +74,7 @@ TEST(MergeAdvice, NoneForSingleStrokesAndOutlines) {
   Recipe recipe;
   const auto advice = adviseMerge(scan, recipe, cache, {});
   ASSERT_TRUE(advice);
-  EXPECT_EQ(advice->widths, 0.0);
+  EXPECT_FALSE(advice->widths);
   EXPECT_EQ(advice->strokes, 1);
   EXPECT_EQ(describe(*advice), "No overdrawn strokes were found.");
   recipe.edges.mode = EdgeMode::Outline;

@@ -89,10 +89,10 @@ void MergeSuggestion::take(const Result<MergeAdvice>& advice) {
     return;
   }
   said_->isMeant = advice->meant.has_value();
-  if (advice->widths > 0.0) {
-    said_->strength = advice->widths;
+  if (advice->widths) {
+    said_->strength = *advice->widths;
     Recipe after = session_.recipe();
-    after.edges.mergeWidths = advice->widths;
+    after.edges.mergeWidths = *advice->widths;
     if (!(after == session_.recipe())) session_.change(tr("Merge strokes as suggested"), std::move(after));
   }
   say(QString::fromStdString(describe(*advice)));
