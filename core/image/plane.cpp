@@ -76,8 +76,8 @@ BATTEN_HOT_LOOP void acrossPair(const float* a, const float* b, float* __restric
   for (int i = 0; i < count; ++i) out[i] += weight * (a[i] + b[i]);
 }
 
-BATTEN_HOT_LOOP void acrossFirst(const float* a, const float* m, const float* b, float* __restrict out, int count,
-                                 float middle, float side) {
+BATTEN_HOT_LOOP void acrossFirst(const float* const* rows, float* __restrict out, int count, float middle, float side) {
+  const float *a = rows[-1], *m = rows[0], *b = rows[1];
   for (int i = 0; i < count; ++i) out[i] = middle * m[i] + side * (a[i] + b[i]);
 }
 
@@ -113,7 +113,7 @@ void smoothAlong(const float* in, float* out, int count, const std::vector<float
 void smoothAcross(const float* const* rows, float* out, int count, const std::vector<float>& kernel) {
   const auto radius = static_cast<int>(kernel.size()) - 1;
   const float* const* middle = rows + radius;
-  acrossFirst(middle[-1], middle[0], middle[1], out, count, kernel[0], kernel[1]);
+  acrossFirst(middle, out, count, kernel[0], kernel[1]);
   for (int k = 2; k <= radius; ++k) {
     acrossPair(middle[-k], middle[k], out, count, kernel[k]);
   }

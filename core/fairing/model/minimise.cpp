@@ -73,13 +73,13 @@ class FairingProblem final : public LevenbergProblem {
 }  // namespace
 
 FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
-                    FairingState start, double damping, const FairingLimits& limits, const RunContext& context) {
+                    FairingState start, const FairingLimits& limits, const RunContext& context) {
   FairingProblem problem(setup, objective, corridor, std::move(start));
   LevenbergOptions options = kFairingSteps;
   options.iterations = limits.iterations;
   options.smallDecrease = limits.relativeDecrease;
   options.leastPromise = kLeastPromise * limits.relativeDecrease;
-  options.damping = damping;
+  options.damping = limits.damping;
   const LevenbergRun run = levenbergMarquardt(problem, options, context);
   const bool settled = run.why == Termination::NoProgress && problem.state().misfit <= kNoMisfit;
   return {std::move(problem.state()), settled ? Termination::Converged : run.why, run.iterations, run.damping};

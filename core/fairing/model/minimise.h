@@ -17,9 +17,10 @@ struct FairingRun {
 struct FairingLimits {
   int iterations = 40;
   double relativeDecrease = 1e-4;
+  double damping = 1e-3;  ///< [stiffness of the longest wave] to begin with.
 };
-/// Levenberg-Marquardt from a state. The model's damping is in units of the stiffness of the longest wave.
+/// Levenberg-Marquardt from a state.
 FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
-                    FairingState start, double damping, const FairingLimits& limits, const RunContext& context);
+                    FairingState start, const FairingLimits& limits, const RunContext& context);
 
 }  // namespace batten

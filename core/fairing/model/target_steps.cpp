@@ -102,8 +102,9 @@ std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& fr
   const FairingCorridor corridor{weight, 0.0, 0.0};
   auto state = evaluate(setup_, objective_, corridor, from.points, from.feet);
   if (!state) return std::nullopt;
-  FairingRun run =
-      minimise(setup_, objective_, corridor, std::move(*state), std::min(1e-3, from.damping), limits, context_);
+  FairingLimits damped = limits;
+  damped.damping = std::min(limits.damping, from.damping);
+  FairingRun run = minimise(setup_, objective_, corridor, std::move(*state), damped, context_);
   iterations_ += run.iterations;
   const auto curve = toCurve(setup_, run.state.points);
   if (!curve || context_.isCancelled()) return std::nullopt;

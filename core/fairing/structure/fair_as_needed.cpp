@@ -126,7 +126,7 @@ class NeededFairing {
     const FairingCorridor corridor{weight, 0.0, 0.0};
     auto state = evaluate(setup_, objective_, corridor, points, feet);
     if (!state) return std::nullopt;
-    FairingRun run = minimise(setup_, objective_, corridor, std::move(*state), 1e-3, kLimits, context_);
+    FairingRun run = minimise(setup_, objective_, corridor, std::move(*state), kLimits, context_);
     report_.iterations += run.iterations;
     return std::move(run.state);
   }

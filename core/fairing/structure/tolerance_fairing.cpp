@@ -73,8 +73,8 @@ BoundedRun minimiseWithin(const FairingSetup& setup, const FairingObjective& obj
     auto next = evaluate(setup, objective, corridor, result.points, feet);
     if (!next) break;
     const bool last = corridor.barrier <= kFinalGap * next->misfit;
-    const FairingLimits limits = last ? FairingLimits{20, 1e-5} : FairingLimits{4, 1e-2};
-    FairingRun run = minimise(setup, objective, corridor, std::move(*next), damping, limits, context);
+    const FairingLimits limits = last ? FairingLimits{20, 1e-5, damping} : FairingLimits{4, 1e-2, damping};
+    FairingRun run = minimise(setup, objective, corridor, std::move(*next), limits, context);
     result.iterations += std::max(run.iterations, 1);
     damping = std::min(run.damping, 1e-3);
     result.points = std::move(run.state.points);

@@ -72,14 +72,14 @@ bool hasColour(const cv::Mat& picture, const RunContext& context) {
   return found;
 }
 
-template <class Pixel>
-void rotatePixels(const Pixel* in, Pixel* out, int inWidth, int inHeight, int orientation, int begin, int end) {
-  const int width = orientation >= 5 ? inHeight : inWidth;
-  const int lastX = inWidth - 1, lastY = inHeight - 1;
-  const auto from = [&](int x, int y) { return in[std::ptrdiff_t{y} * inWidth + x]; };
+/// The rows [begin, end) of the upright picture.
+template <class Image>
+void rotateRows(const Image& in, int orientation, int begin, int end, Image& upright) {
+  const int lastX = in.width - 1, lastY = in.height - 1;
+  const auto from = [&](int x, int y) { return in.row(y)[x]; };
   for (int y = begin; y < end; ++y) {
-    Pixel* row = out + std::ptrdiff_t{y} * width;
-    for (int x = 0; x < width; ++x) {
+    auto* row = upright.row(y);
+    for (int x = 0; x < upright.width; ++x) {
       switch (orientation) {
         case 2:
           row[x] = from(lastX - x, y);
@@ -112,9 +112,8 @@ Image turnedUpright(Image image, int orientation, const RunContext& context) {
   if (orientation <= 1 || orientation > 8 || image.pixels.empty()) return image;
   const bool swapped = orientation >= 5;
   Image upright(swapped ? image.height : image.width, swapped ? image.width : image.height);
-  parallelFor(context, upright.height, kRowsPerBlock, [&](int begin, int end) {
-    rotatePixels(image.pixels.data(), upright.pixels.data(), image.width, image.height, orientation, begin, end);
-  });
+  parallelFor(context, upright.height, kRowsPerBlock,
+              [&](int begin, int end) { rotateRows(image, orientation, begin, end, upright); });
   return upright;
 }
 

@@ -58,8 +58,13 @@ RegionNoise measureNoise(const Plane& u, const RunContext& context) {
   return noise;
 }
 
-BATTEN_HOT_LOOP void gradientRow(const float* up, const float* here, const float* down, const float* mx,
-                                 const float* my, float* __restrict out, int begin, int end) {
+/// A row with its neighbours, and the slopes of the paper there.
+struct GradientRows {
+  const float *up, *here, *down, *slopeX, *slopeY;
+};
+
+BATTEN_HOT_LOOP void gradientRow(const GradientRows& rows, float* __restrict out, int begin, int end) {
+  const float *up = rows.up, *here = rows.here, *down = rows.down, *mx = rows.slopeX, *my = rows.slopeY;
   for (int i = begin; i < end; ++i) {
     const float gx = 0.5f * (here[i + 1] - here[i - 1]) - mx[i];
     const float gy = 0.5f * (down[i] - up[i]) - my[i];
@@ -93,7 +98,7 @@ Plane gradientSquares(const Plane& u, const RegionNoise& noise, const RunContext
       }
       slopeX.fillRow(y, mx.data());
       slopeY.fillRow(y, my.data());
-      gradientRow(u.row(y - 1), u.row(y), u.row(y + 1), mx.data(), my.data(), row, 1, u.width - 1);
+      gradientRow({u.row(y - 1), u.row(y), u.row(y + 1), mx.data(), my.data()}, row, 1, u.width - 1);
       row[0] = row[u.width - 1] = 0.0f;
     }
   });

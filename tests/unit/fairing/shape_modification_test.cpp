@@ -126,7 +126,7 @@ TEST(ModifyShape, FindsTheKnownCurves) {
     ASSERT_TRUE(state);
     const double startMisfit = std::sqrt(state->misfit);
     EXPECT_NEAR(startMisfit, data.at("start_krel").get<double>(), 1e-6);
-    const FairingRun run = minimise(**setup, objective, corridor, std::move(*state), 1e-3, {60, 1e-9}, {});
+    const FairingRun run = minimise(**setup, objective, corridor, std::move(*state), {60, 1e-9}, {});
     EXPECT_NEAR(std::sqrt(run.state.misfit), known.at("krel").get<double>(), 2e-3);
     const auto faired = toCurve(**setup, run.state.points);
     const auto wanted = test::toPoints(known.at("curve_at_0_25_50_75_100pct_arclength"));
