@@ -74,7 +74,7 @@ std::vector<PictureLine> linesOf(StageId stage, const PipelineOutput& out, doubl
   if (stage == StageId::Contours) {
     for (const Contour& c : out.contours->contours) lines.push_back({positionsOf(c.points), c.closed, colour(), width});
   } else if (stage == StageId::Pieces) {
-    for (const Piece& p : out.pieces->pieces) lines.push_back({p.points, p.closed, colour(), width});
+    for (const Piece& p : out.pieces->pieces) lines.push_back({positionsOf(p.points), p.closed, colour(), width});
     for (const Corner& c : out.pieces->corners) lines.push_back(circleAt(c.positionPx, 5.0 * width, width));
   } else if (stage == StageId::Segments) {
     for (const PieceSegments& p : out.segments->pieces) {

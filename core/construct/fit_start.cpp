@@ -95,11 +95,8 @@ Result<ConstructContour> onFairFit(const ConstructContour& contour, const Constr
   for (std::size_t i = 0; i < fits->size() && !context.isCancelled(); ++i) {
     ConstructPiece& piece = onFit.pieces[i];
     const FittedLine line((*fits)[i].curve, piece.closed, contour.pixelMm);
-    piece.points = line.points();
-    piece.refined.clear();
-    piece.sigmaPx.clear();
-    piece.spreadPx.clear();
-    piece.drawn.clear();
+    piece.points = piecePoints(line.points());
+    piece.isDrawn = false;
     for (Station& station : piece.stations) station = line.foot(station);
   }
   if (context.isCancelled()) return cancelled();

@@ -9,6 +9,7 @@
 
 #include "core/base/termination.h"
 #include "core/base/vec2.h"
+#include "core/contour/corner/piece_line.h"
 #include "core/contour/segment/regression_segments.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -23,23 +24,14 @@ struct ExtremumConstraint {
 };
 
 /// One piece as the constructions take it. Model frame, mm.
-struct ConstructPiece {
-  std::vector<Vec2>
-      points;  ///< Ordered edge points; the first and last are exactly the corners where there are corners.
-  std::vector<Station> stations;  ///< Regression segments, model frame.
-  bool closed = false;            ///< Smooth closed: the curve is periodic.
-  std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
-  std::vector<std::uint8_t> refined = {};  ///< Per point: 0 = known to the pixel only; empty = all are better known.
-  std::vector<float> sigmaPx = {};         ///< [px] per point: standard deviation across the line; empty = all alike.
-  /// [px] per point: half-width of the bundle of merged strokes; empty = none. The intended line
-  /// may lie anywhere between them.
-  std::vector<float> spreadPx = {};
-  bool startIsCorner = false;
-  bool endIsCorner = false;
-  std::vector<Vec2> breakpoints;  ///< Places along the line where the user wants typical curves to meet.
+struct ConstructPiece : PieceLine {
+  std::vector<Station> stations = {};  ///< Regression segments, model frame.
+  bool isDrawn = false;  ///< Of a pen stroke or an imported line: `refined` tells the points that were given.
+  std::vector<Vec2> breakpoints = {};  ///< Places along the line where the user wants typical curves to meet.
   std::vector<ExtremumConstraint> constraints = {};
   std::optional<double> detail = {};  ///< 0..1. Its own, instead of ConstructParams::detail.
 };
+
 /// All pieces of one contour: methods may pool what they have in common (noise).
 struct ConstructContour {
   std::vector<ConstructPiece> pieces;

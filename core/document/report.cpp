@@ -194,8 +194,8 @@ const char* kindName(ContourKind kind) {
 Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
   Json list = Json::array();
   const Piece& piece = out.pieces->pieces[c.piece];
-  if (piece.startIsCorner && !piece.points.empty()) list.push_back(pointToJson(piece.points.front()));
-  if (piece.endIsCorner && !piece.points.empty()) list.push_back(pointToJson(piece.points.back()));
+  if (piece.startIsCorner && !piece.points.empty()) list.push_back(pointToJson(piece.points.front().at));
+  if (piece.endIsCorner && !piece.points.empty()) list.push_back(pointToJson(piece.points.back().at));
   return list;
 }
 
@@ -210,9 +210,9 @@ Json curveToJson(const PipelineOutput& out, const Recipe& recipe, const ReportEx
             {"closed", c.closed}};
   json["kind"] = kindName(out.contours->contours[c.contour].kind);
   json["corners_px"] = cornersToJson(out, c);
-  const auto& refined = out.pieces->pieces[c.piece].refined;
-  json["points"] = refined.size();
-  json["points_not_placed"] = std::count(refined.begin(), refined.end(), std::uint8_t{0});
+  const auto& points = out.pieces->pieces[c.piece].points;
+  json["points"] = points.size();
+  json["points_not_placed"] = std::ranges::count(points, false, &PiecePoint::refined);
   json["sketched"] = figuresToJson(c.sketchedFigures, out.frame);
   json["construct"] = constructToJson(c.construct, out.frame);
   json["choice"] = choiceToJson(c);

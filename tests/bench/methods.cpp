@@ -64,12 +64,11 @@ bool apply(const Method& method, Recipe& recipe) {
 ConstructContour contourOf(const std::vector<Vec2>& points, const SegmentParams& params) {
   PieceSet set;
   Piece& piece = set.pieces.emplace_back();
-  piece.points = points;
-  piece.refined.assign(points.size(), 1);
+  piece.points = piecePoints(points);
   for (std::size_t i = 1; i < points.size(); ++i) piece.lengthPx += (points[i] - points[i - 1]).norm();
   ConstructContour contour;
   ConstructPiece& made = contour.pieces.emplace_back();
-  made.points = points;
+  made.points = piecePoints(points);
   if (const auto segments = regressionSegments(set, params, {})) made.stations = segments->pieces[0].stations;
   return contour;
 }
@@ -93,7 +92,7 @@ Outcome measure(const OpenTruth& truth, const Recipe& recipe, double noise, unsi
   }
   NurbsCurve curve = made->front().curve;
   if (recipe.fairing.mode != FairingMode::None) {
-    const auto faired = fair(curve, false, recipe.fairing, {}, FairingLine{contour.pieces[0].points, 1.0});
+    const auto faired = fair(curve, false, recipe.fairing, {}, FairingLine{positionsOf(contour.pieces[0].points), 1.0});
     if (faired)
       curve = faired->curve;
     else

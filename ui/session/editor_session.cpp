@@ -235,8 +235,8 @@ const TracedCurve* EditorSession::pinnedOf(std::optional<int> curve) const {
   const TracedCurve* nearest = nullptr;
   double best = kSamePlacePx * kSamePlacePx;
   for (const TracedCurve& candidate : pinned_->faired->curves) {
-    for (const Vec2& p : pinned_->pieces->pieces[candidate.piece].points) {
-      if (const double d = (p - anchor).squaredNorm(); d < best) best = d, nearest = &candidate;
+    for (const PiecePoint& p : pinned_->pieces->pieces[candidate.piece].points) {
+      if (const double d = (p.at - anchor).squaredNorm(); d < best) best = d, nearest = &candidate;
     }
   }
   return nearest;

@@ -25,7 +25,7 @@ std::size_t cacheBytes(const Scan& scan) {
 
 double squaredDistance(const Piece& piece, const Vec2& place) {
   double best = std::numeric_limits<double>::infinity();
-  for (const Vec2& point : piece.points) best = std::min(best, (point - place).squaredNorm());
+  for (const PiecePoint& point : piece.points) best = std::min(best, (point.at - place).squaredNorm());
   return best;
 }
 

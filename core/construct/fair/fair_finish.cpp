@@ -46,8 +46,8 @@ Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piec
   if (!curve) return curve;
   std::vector<Vec2> points(curve->controlPoints().begin(), curve->controlPoints().end());
   for (Vec2& p : points) p += piece.origin * pixelMm;
-  if (piece.pins.start) points.front() = in.points.front();
-  if (piece.pins.end) points.back() = in.points.back();
+  if (piece.pins.start) points.front() = in.points.front().at;
+  if (piece.pins.end) points.back() = in.points.back().at;
   return NurbsCurve::make(5, {curve->knots().begin(), curve->knots().end()}, std::move(points));
 }
 

@@ -127,7 +127,8 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
 double costAsked(const ConstructContour& contour, const FairFitOptions& options) {
   double length = 0.0;
   for (const ConstructPiece& piece : contour.pieces) {
-    for (std::size_t i = 1; i < piece.points.size(); ++i) length += (piece.points[i] - piece.points[i - 1]).norm();
+    for (std::size_t i = 1; i < piece.points.size(); ++i)
+      length += (piece.points[i].at - piece.points[i - 1].at).norm();
   }
   return options.extremumSignificance + 2.0 * std::log(std::max(1.0, length / (contour.pixelMm * kUsualLengthPx)));
 }

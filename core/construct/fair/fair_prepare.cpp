@@ -22,10 +22,14 @@ constexpr double kCrossingPx = 25.0;  // Gaussian: as long as merged strokes may
 // the line together.
 constexpr double kLeastWeight = 1.0 / 16.0, kMostWeight = 16.0;
 
-/// Half-width of the bundle at each point. Where strokes cross, it is deceptively small.
-std::vector<float> smoothSpread(const std::vector<float>& spread, bool closed) {
+/// [px] Half-width of the bundle at each point, 0 where there is none. Where strokes cross, it is deceptively small.
+std::vector<float> smoothSpread(const std::vector<PiecePoint>& points, bool closed) {
   std::vector<float> square;
-  for (const float s : spread) square.push_back(std::isfinite(s) ? s * s : 0.0f);
+  for (const PiecePoint& p : points) {
+    const float s = p.spreadPx.value_or(0.0f);
+    square.push_back(std::isfinite(s) ? s * s : 0.0f);
+  }
+  if (std::ranges::all_of(square, [](float s) { return s == 0.0f; })) return square;
   square = smoothValues(square, closed, kCrossingPx);
   for (float& s : square) s = std::sqrt(std::max(0.0f, s));
   return square;
@@ -35,12 +39,11 @@ std::vector<float> smoothSpread(const std::vector<float>& spread, bool closed) {
 void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, double ordinarySigmaPx) {
   std::vector<Vec2> px;
   std::vector<double> weight, spread;
-  std::vector<float> beside(in.points.size(), 0.0f);
-  if (in.spreadPx.size() == in.points.size()) beside = smoothSpread(in.spreadPx, in.closed);
-  for (std::size_t i = 0; i < in.points.size(); ++i) {
-    if (!in.points[i].allFinite()) continue;
-    px.push_back(in.points[i] / pixelMm);
-    const double sigma = i < in.sigmaPx.size() ? static_cast<double>(in.sigmaPx[i]) : 0.0;
+  const std::vector<float> beside = smoothSpread(in.points, in.closed);
+  for (int i = 0; i < std::ssize(in.points); ++i) {
+    if (!in.points[i].at.allFinite()) continue;
+    px.push_back(in.points[i].at / pixelMm);
+    const double sigma = in.points[i].sigmaPx.value_or(0.0f);
     const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
     weight.push_back(std::clamp(ratio * ratio, kLeastWeight, kMostWeight));
     spread.push_back(static_cast<double>(beside[i]));
@@ -151,9 +154,8 @@ void rejectOutliers(FairData& data, double gatePx, double spacing) {
 double ordinarySigma(const ConstructContour& contour) {
   std::vector<float> sigma;
   for (const ConstructPiece& piece : contour.pieces) {
-    const std::size_t n = std::min(piece.sigmaPx.size(), piece.points.size());
-    for (std::size_t i = 0; i < n; ++i) {
-      if (piece.sigmaPx[i] > 0.0f && std::isfinite(piece.sigmaPx[i])) sigma.push_back(piece.sigmaPx[i]);
+    for (const PiecePoint& p : piece.points) {
+      if (p.sigmaPx && *p.sigmaPx > 0.0f && std::isfinite(*p.sigmaPx)) sigma.push_back(*p.sigmaPx);
     }
   }
   if (sigma.empty()) return 0.0;

@@ -45,8 +45,8 @@ Course courseOf(const ConstructPiece& piece, double pixelMm, double gatePx) {
   data.closed = piece.closed;
   std::vector<int> original;
   for (std::size_t i = 0; i < piece.points.size(); ++i) {
-    if (!piece.points[i].allFinite()) continue;
-    data.points.push_back(piece.points[i] / pixelMm);
+    if (!piece.points[i].at.allFinite()) continue;
+    data.points.push_back(piece.points[i].at / pixelMm);
     original.push_back(static_cast<int>(i));
   }
   data.use.assign(data.points.size(), 1);
@@ -108,7 +108,7 @@ double lengthBetween(const ConstructPiece& piece, int first, int last) {
   double length = 0.0;
   for (int i = first; i < last; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    length += (piece.points[(at + 1) % n] - piece.points[at % n]).norm();
+    length += (piece.points[(at + 1) % n].at - piece.points[at % n].at).norm();
   }
   return length;
 }
@@ -240,31 +240,31 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   const std::size_t n = piece.points.size();
   constexpr std::size_t kStride = 4;  // noise of single points makes no length
   for (std::size_t i = kStride; i < n; i += kStride) {
-    pointLength += (piece.points[i] - piece.points[i - kStride]).norm() / pixelMm;
+    pointLength += (piece.points[i].at - piece.points[i - kStride].at).norm() / pixelMm;
   }
-  if (n > 0) pointLength += (piece.points[n - 1] - piece.points[(n - 1) / kStride * kStride]).norm() / pixelMm;
-  if (piece.closed && n > 0) pointLength += (piece.points.front() - piece.points.back()).norm() / pixelMm;
+  if (n > 0) pointLength += (piece.points[n - 1].at - piece.points[(n - 1) / kStride * kStride].at).norm() / pixelMm;
+  if (piece.closed && n > 0) pointLength += (piece.points.front().at - piece.points.back().at).norm() / pixelMm;
   result.lengthRatio = length / (pointLength + kLoosePx);
   std::size_t at = 0;
   if (piece.closed && n > 0) {
-    follow(polygon, piece.points.front() / pixelMm, at, 2 * polygon.size());
+    follow(polygon, piece.points.front().at / pixelMm, at, 2 * polygon.size());
   }
   double along = 0.0;
-  for (const Vec2& p : piece.points) {
+  for (const PiecePoint& point : piece.points) {
     if (check.isCancelled()) return {};
-    Passing d = follow(polygon, p / pixelMm, at, 8);
+    const Vec2 p = point.at / pixelMm;
+    Passing d = follow(polygon, p, at, 8);
     if (d.distance > kBackPx) {
-      if (const Passing further = follow(polygon, p / pixelMm, at, 24); further.distance < d.distance) d = further;
+      if (const Passing further = follow(polygon, p, at, 24); further.distance < d.distance) d = further;
     }
     if (piece.closed && (at < 2 || at + 2 >= polygon.size())) {
       std::size_t other = at < 2 ? polygon.size() - 1 : 0;
-      const Passing round = follow(polygon, p / pixelMm, other, 8);
+      const Passing round = follow(polygon, p, other, 8);
       if (round.distance < d.distance) d = round, at = other;
     }
     result.offPx.push_back(d.distance);
     // Between merged strokes the line may lie anywhere.
-    const std::size_t i = result.distancePx.size();
-    if (piece.spreadPx.size() == n) d.distance = std::max(0.0, d.distance - static_cast<double>(piece.spreadPx[i]));
+    d.distance = std::max(0.0, d.distance - static_cast<double>(point.spreadPx.value_or(0.0f)));
     result.distancePx.push_back(d.distance);
     const auto low = std::min(static_cast<std::size_t>(d.place), parameter.size() - 2);
     result.parameter.push_back(std::lerp(parameter[low], parameter[low + 1], d.place - static_cast<double>(low)));

@@ -14,6 +14,7 @@
 #include "core/contour/segment/regression_segments.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -96,8 +97,8 @@ SmoothSections::SmoothSections(const ConstructPiece& piece, bool isStroke, doubl
   smooth_ = between(sharp_, piece);
 }
 
-std::vector<Vec2> SmoothSections::pointsOf(const PointRange& range) const {
-  std::vector<Vec2> points;
+std::vector<PiecePoint> SmoothSections::pointsOf(const PointRange& range) const {
+  std::vector<PiecePoint> points;
   const std::size_t n = piece_.points.size();
   for (int i = range.first; i <= range.last; ++i) points.push_back(piece_.points[static_cast<std::size_t>(i) % n]);
   return points;
@@ -109,12 +110,6 @@ std::vector<ConstructPiece> SmoothSections::stretches() const {
   for (const PointRange& range : smooth_) {
     ConstructPiece piece;
     piece.points = pointsOf(range);
-    const std::size_t n = piece_.points.size();
-    for (int i = range.first; i <= range.last; ++i) {
-      const std::size_t at = static_cast<std::size_t>(i) % n;
-      if (piece_.sigmaPx.size() == n) piece.sigmaPx.push_back(piece_.sigmaPx[at]);
-      if (piece_.spreadPx.size() == n) piece.spreadPx.push_back(piece_.spreadPx[at]);
-    }
     piece.startIsCorner = piece_.startIsCorner && range.first == 0;
     piece.endIsCorner = piece_.endIsCorner && range.last + 1 == static_cast<int>(piece_.points.size());
     pieces.push_back(std::move(piece));
@@ -123,8 +118,8 @@ std::vector<ConstructPiece> SmoothSections::stretches() const {
     ConstructPiece* owner = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (ConstructPiece& piece : pieces) {
-      for (const Vec2& p : piece.points) {
-        const double distance = (p - constraint.point).squaredNorm();
+      for (const PiecePoint& p : piece.points) {
+        const double distance = (p.at - constraint.point).squaredNorm();
         if (distance < least) least = distance, owner = &piece;
       }
     }
@@ -201,7 +196,8 @@ Result<ConstructedPiece> SmoothSections::withSharpFeatures(const RunContext& con
   whole.report.why = Termination::Converged;
   whole.report.note = sharpFeatureNote(sharp_.size());
   if (smooth_.empty()) {
-    auto curve = piece_.closed ? tightLoop(piece_.points, pixelMm_) : cornerFill(piece_.points, pixelMm_, {}, {});
+    auto curve = piece_.closed ? tightLoop(positionsOf(piece_.points), pixelMm_)
+                               : cornerFill(positionsOf(piece_.points), pixelMm_, {}, {});
     if (!curve) return fail(curve.error());
     whole.curve = std::move(*curve);
     whole.report.why = Termination::Degenerate;
@@ -214,7 +210,7 @@ Result<ConstructedPiece> SmoothSections::withSharpFeatures(const RunContext& con
   std::vector<NurbsCurve> parts, fills;
   double total = 0.0;  // [mm] of the parts so far
   const auto tight = [&](int first, int last, const std::optional<CurveEnd>& a, const std::optional<CurveEnd>& b) {
-    auto curve = cornerFill(pointsOf({first, last}), pixelMm_, a, b);
+    auto curve = cornerFill(positionsOf(pointsOf({first, last})), pixelMm_, a, b);
     if (!curve) return curve;
     parts.push_back(*curve);
     fills.push_back(*curve);
@@ -280,12 +276,9 @@ Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& conte
   PieceSet set;
   set.pieces.resize(1);
   Piece& px = set.pieces[0];
-  for (const Vec2& p : piece_.points) px.points.push_back(p / pixelMm_);
-  px.closed = piece_.closed;
-  px.startIsCorner = piece_.startIsCorner;
-  px.endIsCorner = piece_.endIsCorner;
-  for (std::size_t i = 1; i < px.points.size(); ++i) px.lengthPx += (px.points[i] - px.points[i - 1]).norm();
-  px.refined.assign(px.points.size(), 1);
+  px = Piece{inFrame(piece_, [&](const Vec2& p) { return Vec2(p / pixelMm_); })};
+  px.lengthPx = polylineLength(positionsOf(px.points), false);
+  for (PiecePoint& p : px.points) p.refined = true;
   SegmentParams adaptive;
   adaptive.mode = SegmentMode::Adaptive;
   const auto segments = regressionSegments(set, adaptive, context);

@@ -42,7 +42,7 @@ class SmoothSections {
   Result<ConstructedPiece> withSharpFeatures(const RunContext&) const;
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;
-  std::vector<Vec2> pointsOf(const PointRange&) const;
+  std::vector<PiecePoint> pointsOf(const PointRange&) const;
 
   const ConstructPiece& piece_;
   double pixelMm_;

@@ -62,13 +62,11 @@ ThinnedPiece thinnedPiece(const ConstructPiece& piece, double pixelMm, const Con
   const auto take = [&](const Vec2& p) {
     if (p.allFinite() && (all.empty() || p != all.back())) all.push_back(p);
   };
-  if (piece.drawn.empty()) {
-    for (const Vec2& p : piece.points) take(p);
-  } else {
-    for (const int i : piece.drawn) take(piece.points[i]);
-    // A stroke that a corner cuts ends there, drawn or not.
-    if (!piece.closed && !piece.points.empty()) take(piece.points.back());
+  for (const PiecePoint& p : piece.points) {
+    if (p.refined || !piece.isDrawn) take(p.at);
   }
+  // A stroke that a corner cuts ends there, drawn or not.
+  if (piece.isDrawn && !piece.closed && !piece.points.empty()) take(piece.points.back().at);
   ThinnedPiece result;
   result.before = static_cast<int>(all.size());
   const std::vector<int> kept = params.removal == PointRemoval::Step

@@ -98,7 +98,7 @@ class BoxedLine {
 
 class Refiner {
  public:
-  Refiner(const Piece& piece, const ConstructPiece& given, StationSet start, double pixelMm, double tolerancePx)
+  Refiner(const PieceLine& piece, const ConstructPiece& given, StationSet start, double pixelMm, double tolerancePx)
       : meter_(piece), given_(given), set_(std::move(start)), pixelMm_(pixelMm) {
     limitPx_ = std::max(tolerancePx, kNoises * noiseOf(meter_));
   }
@@ -309,13 +309,8 @@ StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, doubl
   const bool fewPoints = piece.points.size() < 2 * start.stations.size();
   if (!(tolerancePx > 0.0) || !(pixelMm > 0.0) || !std::isfinite(pixelMm) || fewPoints) return start;
   if (start.stations.size() < (piece.closed ? 3u : 2u)) return start;
-  Piece px;
-  px.closed = piece.closed;
-  px.refined = piece.refined;
-  for (const Vec2& p : piece.points) {
-    if (!p.allFinite()) return start;
-    px.points.push_back(p / pixelMm);
-  }
+  const PieceLine px = inFrame(piece, [&](const Vec2& p) { return Vec2(p / pixelMm); });
+  if (!std::ranges::all_of(px.points, [](const PiecePoint& p) { return p.at.allFinite(); })) return start;
   Refiner refiner(px, piece, start, pixelMm, tolerancePx);
   if (!refiner.placeStations()) return start;
   std::optional<StationSet> best;

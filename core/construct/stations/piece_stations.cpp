@@ -100,7 +100,7 @@ void reverseStations(std::vector<Station>& stations) {
 }  // namespace
 
 std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClosed, ConstructEnds ends) {
-  std::vector<Vec2> all = piece.points;
+  std::vector<Vec2> all = positionsOf(piece.points);
   for (const Station& s : piece.stations) {
     if (s.point.allFinite()) all.push_back(s.point);
   }
@@ -109,14 +109,14 @@ std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClose
   if (piece.closed) {
     if (stations.size() > 1 && (stations.front().point - stations.back().point).norm() <= tooNear) stations.pop_back();
     if (static_cast<int>(stations.size()) < fewestClosed && piece.points.size() >= 3 && size > 0.0) {
-      stations = cleaned(measuredAround(piece.points, std::max(8, fewestClosed)), tooNear);
+      stations = cleaned(measuredAround(positionsOf(piece.points), std::max(8, fewestClosed)), tooNear);
     }
     return stations;
   }
   if (stations.empty() || piece.points.size() < 2 || ends == ConstructEnds::Stations) return stations;
-  settleStart(stations, piece.points.front(), piece.startIsCorner, 0.0);
+  settleStart(stations, piece.points.front().at, piece.startIsCorner, 0.0);
   reverseStations(stations);
-  settleStart(stations, piece.points.back(), piece.endIsCorner, 1.0);
+  settleStart(stations, piece.points.back().at, piece.endIsCorner, 1.0);
   reverseStations(stations);
   return cleaned(stations, tooNear);
 }
@@ -136,7 +136,7 @@ std::vector<double> arcCorrectedDistances(std::span<const Station> stations, boo
 Result<ConstructedPiece> straightPiece(const ConstructPiece& piece, const std::string& note) {
   std::vector<Vec2> ends;
   if (piece.points.size() >= 2) {
-    ends = {piece.points.front(), piece.points.back()};
+    ends = {piece.points.front().at, piece.points.back().at};
   } else if (piece.stations.size() >= 2) {
     ends = {piece.stations.front().point, piece.stations.back().point};
   }

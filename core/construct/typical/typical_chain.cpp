@@ -293,7 +293,7 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
   constexpr double kLeftLinePx = 5.0;
   const bool asInPaper = params.typical == TypicalMode::Growing && params.growingAsInPaper;
   if (!asInPaper &&
-      (leavesLine(*curve, line) || !(deviation(*curve, piece.points, true).rms < kLeftLinePx * pixelMm))) {
+      (leavesLine(*curve, line) || !(deviation(*curve, positionsOf(piece.points), true).rms < kLeftLinePx * pixelMm))) {
     return pathInstead(piece, pixelMm, params, context);
   }
   ConstructedPiece result{std::move(*curve), {}};

@@ -64,7 +64,7 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pix
   const double length = curve.isEmpty() ? 0.0 : ArcLength(curve).total();
   if (!(pixelMm > 0.0) || !(length > kLeastFairPx * pixelMm)) return std::nullopt;
   // A fit that lost its line is no guide.
-  if (!(deviation(curve, piece.points, true).rms < kLostRmsPx * pixelMm)) return std::nullopt;
+  if (!(deviation(curve, positionsOf(piece.points), true).rms < kLostRmsPx * pixelMm)) return std::nullopt;
   TypicalLine line;
   line.unitMm = pixelMm;
   line.closed = piece.closed;
@@ -123,8 +123,8 @@ TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const Const
 
 std::vector<Vec2> pointsAlong(const ConstructPiece& piece, const TypicalLine& line) {
   std::vector<Vec2> all;
-  for (const Vec2& p : piece.points) {
-    if (p.allFinite()) all.push_back(line.toLine(p));
+  for (const PiecePoint& p : piece.points) {
+    if (p.at.allFinite()) all.push_back(line.toLine(p.at));
   }
   if (line.closed && !all.empty()) {
     const auto first = std::min_element(all.begin(), all.end(), [&](const Vec2& a, const Vec2& b) {

@@ -50,13 +50,21 @@ int pointsToDrop(const Piece& piece, bool isPen, bool fromEnd, const Vec2& corne
   double arc = 0.0;
   for (int k = 0; k < n; ++k) {
     const int i = fromEnd ? n - 1 - k : k;
-    const Vec2& p = piece.points[i];
-    if (k > 0) arc += (p - piece.points[fromEnd ? n - k : k - 1]).norm();
+    const Vec2& p = piece.points[i].at;
+    if (k > 0) arc += (p - piece.points[fromEnd ? n - k : k - 1].at).norm();
     if (arc > kZonesLookedAt * zone + kSliverPx) break;
-    const bool guessed = drop == k && piece.refined[i] == 0 && !isPen;
+    const bool guessed = drop == k && !piece.points[i].refined && !isPen;
     if ((p - corner).norm() < zone || arc < zone || guessed) drop = k + 1;
   }
   return drop;
+}
+
+// What a corner knows where its piece has no other point.
+PiecePoint besideNoPoint(const std::vector<PiecePoint>& dropped) {
+  PiecePoint alone;
+  if (!dropped.empty() && dropped.front().sigmaPx) alone.sigmaPx = kCornerSigmaPx;
+  if (!dropped.empty() && dropped.front().spreadPx) alone.spreadPx = 0.0f;
+  return alone;
 }
 
 // One piece from point index `from` to `to` (unwrapped, to >= from) with its ends put on the corners.
@@ -71,10 +79,9 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   piece.isPen = contour.kind == ContourKind::Pen;
   for (int i = from; i <= to; ++i) {
     const ContourPoint& p = contour.points[wrapIndex(i, n)];
-    piece.points.push_back(p.at);
-    piece.refined.push_back(p.refined ? 1 : 0);
-    if (p.sigmaPx) piece.sigmaPx.push_back(*p.sigmaPx);
-    if (p.bundle) piece.spreadPx.push_back(0.5f * (p.bundle->left + p.bundle->right));
+    std::optional<float> spreadPx;
+    if (p.bundle) spreadPx = 0.5f * (p.bundle->left + p.bundle->right);
+    piece.points.push_back({p.at, p.refined, p.sigmaPx, spreadPx});
   }
   const auto zoneOf = [&](const PlacedCorner* placed) { return placed->exact ? placed->zone : kGuessedZonePx; };
   int head = 0, tail = 0;
@@ -82,33 +89,21 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
     head = pointsToDrop(piece, isDrawn(contour.kind), false, start->corner.positionPx, zoneOf(start));
   if (end != nullptr) tail = pointsToDrop(piece, isDrawn(contour.kind), true, end->corner.positionPx, zoneOf(end));
   if (head + tail >= std::ssize(piece.points)) head = static_cast<int>(piece.points.size()), tail = 0;
-  const auto cutEnds = [&](auto& values) {
-    values.erase(values.end() - tail, values.end());
-    values.erase(values.begin(), values.begin() + head);
+  const PiecePoint alone = besideNoPoint(piece.points);
+  piece.points.erase(piece.points.end() - tail, piece.points.end());
+  piece.points.erase(piece.points.begin(), piece.points.begin() + head);
+  const bool drawn = isDrawn(contour.kind);
+  // Of a corner: what is known of the line next to it.
+  const PiecePoint first = piece.points.empty() ? alone : piece.points.front();
+  const PiecePoint last = piece.points.empty() ? alone : piece.points.back();
+  const auto at = [&](const PlacedCorner& placed, const PiecePoint& beside) {
+    return PiecePoint{placed.corner.positionPx, placed.exact || drawn, beside.sigmaPx, beside.spreadPx};
   };
-  cutEnds(piece.points);
-  cutEnds(piece.refined);
-  if (start != nullptr) {
-    piece.points.insert(piece.points.begin(), start->corner.positionPx);
-    piece.refined.insert(piece.refined.begin(), start->exact || isDrawn(contour.kind) ? 1 : 0);
-    piece.startIsCorner = true;
-  }
-  if (end != nullptr) {
-    piece.points.push_back(end->corner.positionPx);
-    piece.refined.push_back(end->exact || isDrawn(contour.kind) ? 1 : 0);
-    piece.endIsCorner = true;
-  }
-  const auto cutValues = [&](std::vector<float>& values, float ofAlone) {
-    if (values.empty()) return;
-    cutEnds(values);
-    // Of a corner: what is known of the line next to it.
-    const float first = values.empty() ? ofAlone : values.front(), last = values.empty() ? ofAlone : values.back();
-    if (start != nullptr) values.insert(values.begin(), first);
-    if (end != nullptr) values.push_back(last);
-  };
-  cutValues(piece.sigmaPx, kCornerSigmaPx);
-  cutValues(piece.spreadPx, 0.0f);
-  piece.lengthPx = polylineLength(piece.points, false);
+  if (start != nullptr) piece.points.insert(piece.points.begin(), at(*start, first));
+  if (end != nullptr) piece.points.push_back(at(*end, last));
+  piece.startIsCorner = start != nullptr;
+  piece.endIsCorner = end != nullptr;
+  piece.lengthPx = polylineLength(positionsOf(piece.points), false);
   return piece;
 }
 
@@ -122,7 +117,7 @@ std::vector<Piece> piecesOf(const ContourSet& set, int c, const std::vector<Plac
   if (corners.empty()) {
     pieces.push_back(makePiece(set, c, 0, n - 1, nullptr, nullptr));
     pieces.back().closed = contour.closed;
-    pieces.back().lengthPx = polylineLength(pieces.back().points, contour.closed);
+    pieces.back().lengthPx = polylineLength(positionsOf(pieces.back().points), contour.closed);
   } else if (contour.closed) {
     for (int i = 0; i < count; ++i) {
       const PlacedCorner& next = corners[(i + 1) % count];

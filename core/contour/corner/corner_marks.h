@@ -8,6 +8,7 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
+#include "core/contour/corner/piece_line.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
@@ -57,19 +58,12 @@ struct Corner {
   double snapPx = 0.0;             ///< [px] Distance from the mark.
 };
 
-/// A stretch of one contour from corner to corner (or end), or a whole closed contour without corner. Image frame.
-struct Piece {
+/// A stretch of one contour from corner to corner (or end), or a whole closed contour without corner. Image frame, px.
+struct Piece : PieceLine {
   int contour = 0;
   int index = 0;                      ///< Position within the contour.
   int firstPoint = 0, lastPoint = 0;  ///< Of the contour; of a closed one the last may run past the seam.
-  bool closed = false;                ///< Smooth closed: periodic, no start and no end.
-  std::vector<Vec2> points;  ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
-  std::vector<std::uint8_t> refined;  ///< As in Contour, same size.
-  std::vector<float> sigmaPx;         ///< As in Contour: same size or empty.
-  std::vector<float> spreadPx;        ///< [px] half-width of the bundle of merged strokes: same size, or empty: none.
-  bool startIsCorner = false;
-  bool endIsCorner = false;
-  bool isPen = false;  ///< Of a pen stroke: `refined` tells the drawn points.
+  bool isPen = false;                 ///< Of a pen stroke: `refined` tells the drawn points.
   double lengthPx = 0.0;
 };
 

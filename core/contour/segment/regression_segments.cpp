@@ -20,7 +20,7 @@ constexpr double kSmallestSpacingPx = 8.0;
 constexpr double kAdaptiveGrowth = 1.2;
 constexpr double kAveragedPx = 5.0;  // the tolerance speaks of the line, not of its noise
 
-void pinEnds(const Piece& piece, std::vector<FittedStation>& stations) {
+void pinEnds(const PieceLine& piece, std::vector<FittedStation>& stations) {
   const auto pin = [](FittedStation& s, const Vec2& corner) {
     const Vec2 shift = corner - s.station.point;
     s.station.point = corner;
@@ -28,8 +28,8 @@ void pinEnds(const Piece& piece, std::vector<FittedStation>& stations) {
     s.station.to += shift;
   };
   if (piece.closed || stations.empty()) return;
-  if (piece.startIsCorner) pin(stations.front(), piece.points.front());
-  if (piece.endIsCorner) pin(stations.back(), piece.points.back());
+  if (piece.startIsCorner) pin(stations.front(), piece.points.front().at);
+  if (piece.endIsCorner) pin(stations.back(), piece.points.back().at);
 }
 
 // Not complete when cancelled.
@@ -115,11 +115,12 @@ PieceSegments adaptiveSegments(const MeasuredPiece& piece, const SegmentParams& 
 
 /// The points that groups are made of: of a pen stroke those that were drawn, of other lines all.
 std::vector<Vec2> groupedPoints(const Piece& piece) {
-  if (!piece.isPen || piece.refined.size() != piece.points.size()) return piece.points;
+  if (!piece.isPen) return positionsOf(piece.points);
   std::vector<Vec2> points;
-  for (std::size_t i = 0; i < piece.points.size(); ++i)
-    if (piece.refined[i] != 0) points.push_back(piece.points[i]);
-  return points.size() >= 2 ? points : piece.points;
+  for (const PiecePoint& p : piece.points) {
+    if (p.refined) points.push_back(p.at);
+  }
+  return points.size() >= 2 ? points : positionsOf(piece.points);
 }
 
 PieceSegments groupSegments(const std::vector<Vec2>& points, int groups) {
@@ -143,7 +144,7 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params, const 
   if (piece.points.empty()) return {};
   const MeasuredPiece measured(piece);
   if (piece.points.size() < 2 || !(measured.length() > 0.0)) {
-    return {{{piece.points.front(), Vec2::UnitX(), piece.points.front(), piece.points.front()}}, 0.0};
+    return {{{piece.points.front().at, Vec2::UnitX(), piece.points.front().at, piece.points.front().at}}, 0.0};
   }
   switch (params.mode) {
     case SegmentMode::Stations: {

@@ -36,8 +36,10 @@ LocalQuadratic fitWindow(const MeasuredPiece& piece, double s, double window) {
 
 }  // namespace
 
-MeasuredPiece::MeasuredPiece(const Piece& piece) : piece_(piece), s_(cumulativeLength(piece.points)) {
-  length_ = polylineLength(piece.points, piece.closed);
+MeasuredPiece::MeasuredPiece(const PieceLine& piece) : piece_(piece) {
+  const std::vector<Vec2> positions = positionsOf(piece.points);
+  s_ = cumulativeLength(positions);
+  length_ = polylineLength(positions, piece.closed);
 }
 
 double MeasuredPiece::s(int i) const {
@@ -47,10 +49,7 @@ double MeasuredPiece::s(int i) const {
   return s_[j] + length_ * ((i - j) / n);
 }
 
-double MeasuredPiece::weight(int i) const {
-  const int j = slot(i);
-  return j < std::ssize(piece_.refined) && piece_.refined[j] == 0 ? kPixelPointWeight : 1.0;
-}
+double MeasuredPiece::weight(int i) const { return piece_.points[slot(i)].refined ? 1.0 : kPixelPointWeight; }
 
 int MeasuredPiece::lowerBound(double value) const {
   double rounds = 0.0;

@@ -11,14 +11,14 @@ namespace batten {
 /// A piece with its arc length; a closed one can be read beyond its ends. @pre it outlives this, and has points.
 class MeasuredPiece {
  public:
-  explicit MeasuredPiece(const Piece& piece);
+  explicit MeasuredPiece(const PieceLine& piece);
   double length() const { return length_; }
   bool closed() const { return piece_.closed; }
   int count() const { return static_cast<int>(s_.size()); }
-  const Piece& piece() const { return piece_; }
+  const PieceLine& piece() const { return piece_; }
   /// Arc length of point `i`; of a closed piece any integer, growing by the length with every round.
   double s(int i) const;
-  const Vec2& point(int i) const { return piece_.points[slot(i)]; }
+  const Vec2& point(int i) const { return piece_.points[slot(i)].at; }
   double weight(int i) const;
   /// First index with s >= value.
   int lowerBound(double value) const;
@@ -26,7 +26,7 @@ class MeasuredPiece {
  private:
   int slot(int i) const { return closed() ? wrapIndex(i, count()) : i; }
 
-  const Piece& piece_;
+  const PieceLine& piece_;
   std::vector<double> s_;
   double length_ = 0.0;
 };

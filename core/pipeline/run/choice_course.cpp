@@ -66,7 +66,7 @@ CourseStretch runOf(const Course& course, const Piece& piece) {
   std::vector<double> shares;
   const std::size_t count = std::min(kPlaces, piece.points.size());
   for (std::size_t i = 0; i < count; ++i)
-    shares.push_back(course.shareAt(piece.points[i * (piece.points.size() - 1) / (count - 1)]));
+    shares.push_back(course.shareAt(piece.points[i * (piece.points.size() - 1) / (count - 1)].at));
   double forwards = 0.0, way = 0.0;
   for (std::size_t i = 1; i < shares.size(); ++i) {
     double step = shares[i] - shares[i - 1];

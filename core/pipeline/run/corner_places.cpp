@@ -63,9 +63,10 @@ std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, doubl
     for (int c = begin; c < end && !context.isCancelled(); ++c) {
       const Contour& contour = set.contours[c];
       ConstructPiece piece;
-      piece.points = positionsOf(contour.points);
+      const std::vector<Vec2> positions = positionsOf(contour.points);
+      piece.points = piecePoints(positions);
       // What is as small as this and round is as sharp as a cut all over.
-      if (contour.closed && polylineLength(piece.points, true) < kSmallLoopPx) continue;
+      if (contour.closed && polylineLength(positions, true) < kSmallLoopPx) continue;
       piece.closed = contour.closed;
       for (const PointRange& range : sharpFeatures(piece, contour.kind == ContourKind::Centreline, 1.0, {}))
         found[c].push_back({c, range.first, range.last});

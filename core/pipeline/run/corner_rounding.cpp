@@ -66,8 +66,8 @@ Neighbours neighboursOf(FairedSet& set, const PieceSet& pieces, const Corner& co
     if (piece.contour != corner.contour || piece.points.empty() || curve.faired.isEmpty()) continue;
     // Pieces begin and end with the very place of their corner.
     const auto isHere = [&](const Vec2& p) { return p == corner.positionPx; };
-    if (piece.endIsCorner && isHere(piece.points.back())) found.before = &curve;
-    if (piece.startIsCorner && isHere(piece.points.front())) found.behind = &curve;
+    if (piece.endIsCorner && isHere(piece.points.back().at)) found.before = &curve;
+    if (piece.startIsCorner && isHere(piece.points.front().at)) found.behind = &curve;
   }
   return found;
 }
@@ -227,7 +227,7 @@ void measureAgain(TracedCurve& curve, const NurbsCurve& unrounded, const Piece& 
                   const RunContext& context) {
   curve.fairing.roundedMm =
       std::max(deviation(curve.faired, unrounded, context).max, deviation(unrounded, curve.faired, context).max);
-  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame), context);
+  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(positionsOf(piece.points), frame), context);
 }
 
 }  // namespace

@@ -34,25 +34,9 @@ std::vector<Vec2> breakpointsOf(const std::vector<std::size_t>& points, const Re
 
 /// A piece with its stations in the model frame: what every method takes.
 ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, const PageFrame& frame) {
-  ConstructPiece made;
-  made.points = pointsToModel(piece.points, frame);
-  made.refined = piece.refined;
-  made.sigmaPx = piece.sigmaPx;
-  made.spreadPx = piece.spreadPx;
+  ConstructPiece made{inFrame(piece, [&](const Vec2& p) { return frame.pointToModel(p); })};
   for (const Station& s : segments.stations) made.stations.push_back(stationToModel(s, frame));
-  made.closed = piece.closed;
-  made.startIsCorner = piece.startIsCorner;
-  made.endIsCorner = piece.endIsCorner;
   return made;
-}
-
-/// Of a pen stroke: which of the points were drawn, and not put in between.
-std::vector<int> drawnPoints(const Piece& piece) {
-  std::vector<int> drawn;
-  for (std::size_t i = 0; i < piece.refined.size(); ++i) {
-    if (piece.refined[i] != 0) drawn.push_back(static_cast<int>(i));
-  }
-  return drawn;
 }
 
 /// The pieces [first, last) of one contour.
@@ -77,7 +61,7 @@ ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, con
   input.pixelMm = frame.mmPerPx;
   for (std::size_t i = range.first; i < range.last; ++i) {
     input.pieces.push_back(pieceInput(pieces.pieces[i], segments.pieces[i], frame));
-    if (isDrawn(contour.kind)) input.pieces.back().drawn = drawnPoints(pieces.pieces[i]);
+    input.pieces.back().isDrawn = isDrawn(contour.kind);
   }
   return input;
 }
@@ -247,7 +231,8 @@ class ContourBuilder {
     curve.sketched = made.curve;
     curve.dense = made.dense;
     curve.construct = std::move(made.report);
-    curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_), context_);
+    curve.sketchedFigures =
+        figuresOf(made.curve, piece.closed, pointsToModel(positionsOf(piece.points), frame_), context_);
   }
 
   const ContourSet& contours_;

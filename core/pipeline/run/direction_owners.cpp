@@ -21,7 +21,7 @@ std::optional<PlaceOnPiece> placeNear(const PieceSet& set, const Vec2& px) {
   for (std::size_t k = 0; k < set.pieces.size(); ++k) {
     const auto& points = set.pieces[k].points;
     for (std::ptrdiff_t i = 0; i < std::ssize(points); ++i) {
-      const double distance = (points[i] - px).squaredNorm();
+      const double distance = (points[i].at - px).squaredNorm();
       if (distance > nearest || (found && distance == nearest)) continue;
       nearest = distance;
       found = PlaceOnPiece{k, i};
@@ -33,7 +33,7 @@ std::optional<PlaceOnPiece> placeNear(const PieceSet& set, const Vec2& px) {
 /// The way a piece runs at one of its points, not normalised.
 Vec2 wayAt(const Piece& piece, std::ptrdiff_t point) {
   const std::ptrdiff_t last = std::ssize(piece.points) - 1;
-  const auto at = [&](std::ptrdiff_t i) { return piece.points[std::clamp<std::ptrdiff_t>(i, 0, last)]; };
+  const auto at = [&](std::ptrdiff_t i) { return piece.points[std::clamp<std::ptrdiff_t>(i, 0, last)].at; };
   return at(point + kChordPoints) - at(point - kChordPoints);
 }
 
@@ -70,7 +70,7 @@ void reverseDirection(Recipe& recipe, const PieceSet& set, std::size_t piece) {
     return place && place->piece == piece;
   });
   const std::ptrdiff_t middle = std::ssize(points) / 2;
-  const Vec2 at = points[middle];
+  const Vec2 at = points[middle].at;
   const Vec2 way = wayAt(set.pieces[piece], middle);
   const bool isReversed = now && now->isReversed;
   if (way.norm() > 0.0) recipe.directions.push_back({at, at + (isReversed ? way : Vec2(-way))});

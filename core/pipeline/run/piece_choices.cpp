@@ -30,7 +30,7 @@ constexpr double kAboutAsNearPx = 2.0;
 
 double distanceTo(const Piece& piece, const Vec2& p) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Vec2& q : piece.points) nearest = std::min(nearest, (q - p).squaredNorm());
+  for (const PiecePoint& q : piece.points) nearest = std::min(nearest, (q.at - p).squaredNorm());
   return std::sqrt(nearest);
 }
 
@@ -72,11 +72,11 @@ class CourseFinder {
       box.max().array() += kCourseReachPx;
     }
     for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
-      const Eigen::AlignedBox2d box = boxOf(set.pieces[piece].points);
+      const Eigen::AlignedBox2d box = boxOf(positionsOf(set.pieces[piece].points));
       if (std::none_of(courses.begin(), courses.end(), [&](const auto& c) { return c.intersects(box); })) continue;
-      for (const Vec2& p : set.pieces[piece].points) {
-        cells_.add(p, places_.size());
-        places_.push_back({p, piece});
+      for (const PiecePoint& p : set.pieces[piece].points) {
+        cells_.add(p.at, places_.size());
+        places_.push_back({p.at, piece});
       }
     }
     feet_.resize(places_.size());
@@ -214,12 +214,12 @@ std::vector<std::vector<std::size_t>> assignExtremumChoices(const PieceSet& set,
 }
 
 Vec2 anchorOf(const Piece& piece) {
-  return piece.points.empty() ? Vec2(Vec2::Zero()) : piece.points[piece.points.size() / 2];
+  return piece.points.empty() ? Vec2(Vec2::Zero()) : piece.points[piece.points.size() / 2].at;
 }
 
 std::vector<Vec2> anchorsOf(const Piece& piece) {
   constexpr double kStraightPx = 1.5, kRoundedTo = 0.1;
-  std::vector<Vec2> points = piece.points;
+  std::vector<Vec2> points = positionsOf(piece.points);
   if (piece.closed && !points.empty()) points.push_back(points.front());
   std::vector<Vec2> anchors;
   for (const int i : thinnedByTolerance(points, {}, kStraightPx)) {

@@ -37,7 +37,7 @@ std::vector<Vec2> placesOf(const Piece& piece) {
     const std::ptrdiff_t i = (2 * k + 1) * count / (2 * kPlacesNoted);
     if (i == last || i >= count) continue;
     last = i;
-    const Vec2 p = piece.points[i] / kPlaceRoundingPx;
+    const Vec2 p = piece.points[i].at / kPlaceRoundingPx;
     places.push_back(kPlaceRoundingPx * Vec2(std::round(p.x()), std::round(p.y())));
   }
   return places;
@@ -62,7 +62,7 @@ class PlaceOwners {
   }
 
   void look(const Piece& piece, std::size_t index) {
-    for (const Vec2& point : piece.points) {
+    for (const Vec2& point : positionsOf(piece.points)) {
       grid_.around(point, [&](std::size_t at) {
         NotedPlace& place = places_[at];
         const double distance = (place.at - point).norm();

@@ -37,9 +37,7 @@ std::size_t bytesOf(const ContourSet& set) {
 }
 std::size_t bytesOf(const PieceSet& set) {
   std::size_t bytes = sizeof(set) + vectorBytes(set.corners);
-  for (const Piece& p : set.pieces)
-    bytes +=
-        sizeof(p) + vectorBytes(p.points) + vectorBytes(p.refined) + vectorBytes(p.sigmaPx) + vectorBytes(p.spreadPx);
+  for (const Piece& p : set.pieces) bytes += sizeof(p) + vectorBytes(p.points);
   return bytes;
 }
 std::size_t bytesOf(const PieceNumbers& numbers) {

@@ -15,8 +15,8 @@ std::vector<std::vector<std::size_t>> assignSegmentPoints(const PieceSet& pieces
     std::size_t owner = pieces.pieces.size();
     double nearest = recipe.corners.snapDistancePx * recipe.corners.snapDistancePx;
     for (std::size_t k = 0; k < pieces.pieces.size(); ++k) {
-      for (const Vec2& p : pieces.pieces[k].points) {
-        const double away = (p - place).squaredNorm();
+      for (const PiecePoint& p : pieces.pieces[k].points) {
+        const double away = (p.at - place).squaredNorm();
         if (away >= nearest) continue;
         nearest = away;
         owner = k;

@@ -171,16 +171,16 @@ std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const 
   const double pixel = output_.frame.mmPerPx;
   const CurveWalk walk(shape, curve.closed, pixel);
   if (!(walk.length() > 0.0)) return std::nullopt;
-  const std::vector<double> along = cumulativeLength(piece.points);
-  const double whole = along.back() + (piece.closed ? (piece.points.front() - piece.points.back()).norm() : 0.0);
+  const std::vector<double> along = cumulativeLength(positionsOf(piece.points));
+  const double whole = along.back() + (piece.closed ? (piece.points.front().at - piece.points.back().at).norm() : 0.0);
   if (!(whole > 0.0)) return std::nullopt;
   // A faired or simplified curve may be shorter or longer than its line.
   const double samplesPerPx = walk.length() / walk.step() / whole;
   std::vector<WidthSample> measured;
-  std::ptrdiff_t at = curve.closed ? walk.nearest(output_.frame.pointToModel(piece.points[0])) : 0;
+  std::ptrdiff_t at = curve.closed ? walk.nearest(output_.frame.pointToModel(piece.points[0].at)) : 0;
   for (int i = 0; i < std::ssize(piece.points); ++i) {
     const double gone = i > 0 ? along[i] - along[i - 1] : 0.0;
-    at = walk.near(at + std::lround(gone * samplesPerPx), output_.frame.pointToModel(piece.points[i]));
+    at = walk.near(at + std::lround(gone * samplesPerPx), output_.frame.pointToModel(piece.points[i].at));
     if (const auto px = widths.widthAt(piece, piece.firstPoint + i, along[i], whole - along[i]))
       measured.push_back({walk.arcLength(at), output_.frame.lengthToModel(*px)});
   }

@@ -29,15 +29,14 @@ ConstructPiece measured(const test::PlaneCurve& curve, double from, double to, i
   PieceSet set;
   Piece& px = set.pieces.emplace_back();
   px.closed = closed;
-  for (int i = 0; i < points + (closed ? 0 : 1); ++i) px.points.push_back(curve(from + (to - from) * i / points));
-  px.refined.assign(px.points.size(), 1);
+  for (int i = 0; i < points + (closed ? 0 : 1); ++i) px.points.push_back({curve(from + (to - from) * i / points)});
   ConstructPiece piece;
   piece.closed = closed;
   piece.stations = regressionSegments(set, {}, {}).value().pieces[0].stations;
   for (Station& s : piece.stations) {
     for (Vec2* p : {&s.point, &s.from, &s.to}) *p *= mm;
   }
-  for (const Vec2& p : px.points) piece.points.push_back(mm * p);
+  for (const PiecePoint& p : px.points) piece.points.push_back({mm * p.at});
   return piece;
 }
 
@@ -51,7 +50,7 @@ double farthestPx(const ConstructPiece& piece, ConstructMethod method, double cl
   const auto made = construct(contour, params, {}).value();
   EXPECT_EQ(made[0].report.stationsAdded > 0, closeness > 0.0);
   EXPECT_LT(largestCurvatureJump(made[0].curve, piece.closed), 1e-9);
-  return deviation(made[0].curve, piece.points, true).max / mm;
+  return deviation(made[0].curve, positionsOf(piece.points), true).max / mm;
 }
 
 TEST(CloserStations, KeepACurveOnAHairpin) {
@@ -134,7 +133,7 @@ TEST(CloserStations, LeaveWhatHasNoPointsToMeasure) {
   const auto never = [](const StationSet&) { return std::vector<std::vector<Vec2>>{}; };
   EXPECT_EQ(adaptiveStations(bare, givenStations(bare.stations), 1.0, 0.1, never, {}).added, 0);
   auto broken = measured(hairpin, 0.0, kHairpinLength, 500, false, 1.0);
-  broken.points[7].x() = std::nan("");
+  broken.points[7].at.x() = std::nan("");
   EXPECT_EQ(adaptiveStations(broken, givenStations(broken.stations), 1.0, 0.1, never, {}).added, 0);
 }
 

@@ -56,7 +56,7 @@ TEST(AsInPapers, ManyMidpointsGiveFourControlPointsMore) {
     EXPECT_LT((curve->curve.point(curve->curve.end()) - piece.stations.back().point).norm(), 1.0) << m;
     const auto whole = made(piece, nurbs(ConstructEnds::Line));
     ASSERT_TRUE(whole);
-    EXPECT_EQ(whole->curve.point(whole->curve.start()), piece.points.front()) << "by default to the line's ends";
+    EXPECT_EQ(whole->curve.point(whole->curve.start()), piece.points.front().at) << "by default to the line's ends";
   }
 }
 
@@ -82,7 +82,7 @@ TEST(AsInPapers, UniformKnotsEndShortOfTheLine) {
   params.knots = SharpKnots::Uniform;
   const auto free = made(quarter(7), params);
   ASSERT_TRUE(held && free);
-  const Vec2 end = quarter(7).points.front();
+  const Vec2 end = quarter(7).points.front().at;
   EXPECT_LT((held->curve.point(held->curve.start()) - end).norm(), 1e-9);
   EXPECT_GT((free->curve.point(free->curve.start()) - end).norm(), 1.0);
   EXPECT_FALSE(free->report.note.empty());

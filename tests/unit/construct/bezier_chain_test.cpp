@@ -85,12 +85,12 @@ TEST(ConstructBezierChain, IsTrueAndFair) {
     auto open = test::pieceOf(test::roofLine, 0, 900, 24, false);
     disturb(open.stations, noise, 2);
     const auto line = constructBezierChain(open, 1.0, {}, {}).value();
-    EXPECT_LT(deviation(line.curve, open.points, true).max, 1.0);
+    EXPECT_LT(deviation(line.curve, positionsOf(open.points), true).max, 1.0);
     EXPECT_EQ(curvatureExtrema(line.curve, 5e-3 / extent(line.curve), false).size(), 5u);
     auto closed = test::pieceOf(test::ellipsePoint, 0, 2 * pi, 30, true);
     disturb(closed.stations, noise, 3);
     const auto around = constructBezierChain(closed, 1.0, {}, {}).value();
-    EXPECT_LT(deviation(around.curve, closed.points, true).max, 1.0);
+    EXPECT_LT(deviation(around.curve, positionsOf(closed.points), true).max, 1.0);
     EXPECT_EQ(curvatureExtrema(around.curve, 5e-3 / extent(around.curve), true).size(), 4u);
   }
 }
@@ -101,7 +101,7 @@ TEST(ConstructBezierChain, TamesNoise) {
   disturb(piece.stations, 0.3, 4);
   const auto made = constructBezierChain(piece, 1.0, {}, {}).value();
   EXPECT_LT(variation(made.curve), 1.3 * truth);
-  EXPECT_LT(deviation(made.curve, piece.points, true).max, 1.0);
+  EXPECT_LT(deviation(made.curve, positionsOf(piece.points), true).max, 1.0);
 }
 
 TEST(ConstructBezierChain, WithoutLowPassIsThePathOfThePaperWithOneCurvatureAtEveryJoint) {
@@ -140,7 +140,7 @@ TEST(ConstructBezierChain, AnythingGivesAFiniteCurveOrAnError) {
     const auto count = random() % 12;
     for (std::size_t i = 0; i < count; ++i) {
       const Vec2 p(where(random), where(random));
-      piece.points.push_back(p);
+      piece.points.push_back({p});
       if (random() % 4 != 0) piece.stations.push_back({p, Vec2(where(random), where(random)), p, p});
     }
     const auto made = constructBezierChain(piece, trial % 5 == 0 ? 0.0 : 1.0, {}, {});

@@ -30,7 +30,7 @@ constexpr double kCutoffPx = 60.0;
 ConstructPiece longWave() {
   const auto bends = test::curveOfCurvature(4000.0, [](double s) { return 0.012 * std::sin(s / 25.0); });
   ConstructPiece piece;
-  piece.points = test::noisyPoints(bends, kSigmaPx, 3);
+  piece.points = piecePoints(test::noisyPoints(bends, kSigmaPx, 3));
   return piece;
 }
 

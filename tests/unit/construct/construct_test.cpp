@@ -51,11 +51,11 @@ TEST_P(EachMethod, FollowsAnEllipseInPiecesOrClosed) {
   ASSERT_EQ(one->size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ((*one)[i].curve, (*many)[i].curve);
-    EXPECT_LT(deviation((*one)[i].curve, contour.pieces[i].points, true).max, 3.0);
+    EXPECT_LT(deviation((*one)[i].curve, positionsOf(contour.pieces[i].points), true).max, 3.0);
   }
   const auto& open = (*one)[0].curve;
-  EXPECT_LT((open.point(open.start()) - contour.pieces[0].points.front()).norm(), 1e-9);
-  EXPECT_LT((open.point(open.end()) - contour.pieces[0].points.back()).norm(), 1e-9);
+  EXPECT_LT((open.point(open.start()) - contour.pieces[0].points.front().at).norm(), 1e-9);
+  EXPECT_LT((open.point(open.end()) - contour.pieces[0].points.back().at).norm(), 1e-9);
 }
 
 TEST_P(EachMethod, CancelsAndRefusesNothingness) {

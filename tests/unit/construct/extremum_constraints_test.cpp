@@ -22,7 +22,7 @@ ConstructedPiece fitWith(const std::vector<Vec2>& points, bool closed, std::vect
   ConstructContour contour;
   contour.pixelMm = 1.0;
   contour.pieces.resize(1);
-  contour.pieces[0].points = points;
+  contour.pieces[0].points = piecePoints(points);
   contour.pieces[0].closed = closed;
   contour.pieces[0].constraints = std::move(constraints);
   auto fit = fairFit(contour, {}, {});
@@ -122,7 +122,7 @@ TEST(ExtremumConstraints, WhatFindsNoExtremumOrCannotGoIsSaid) {
 TEST(ExtremumConstraints, OtherMethodsAndShortLinesIgnoreThem) {
   ConstructContour contour;
   contour.pieces.resize(1);
-  contour.pieces[0].points = {Vec2(0, 0), Vec2(1, 0), Vec2(2, 0.1), Vec2(3, 0)};
+  contour.pieces[0].points = piecePoints(std::vector{Vec2(0, 0), Vec2(1, 0), Vec2(2, 0.1), Vec2(3, 0)});
   contour.pieces[0].constraints = {{Vec2(1, 0), true, 0}};
   const auto fit = fairFit(contour, {}, {});
   ASSERT_TRUE(fit.has_value());

@@ -51,16 +51,17 @@ TEST(FairFit, EndsExactlyAtCorners) {
     contour.pixelMm = 0.2645833;
     contour.pieces.resize(1);
     ConstructPiece& piece = contour.pieces[0];
-    piece.points = test::noisyPoints(truth, 0.127, seed);
-    piece.points.front() = truth.points.front() + 0.3 * truth.normals.front();  // a corner is never quite on the line
-    piece.points.back() = truth.points.back() - 0.2 * truth.normals.back();
-    for (Vec2& p : piece.points) p = p * contour.pixelMm + Vec2(100.0, 50.0);
+    piece.points = piecePoints(test::noisyPoints(truth, 0.127, seed));
+    piece.points.front().at =
+        truth.points.front() + 0.3 * truth.normals.front();  // a corner is never quite on the line
+    piece.points.back().at = truth.points.back() - 0.2 * truth.normals.back();
+    for (PiecePoint& p : piece.points) p.at = p.at * contour.pixelMm + Vec2(100.0, 50.0);
     piece.startIsCorner = piece.endIsCorner = true;
     const auto fit = fairFit(contour, {}, {});
     ASSERT_TRUE(fit.has_value());
     const NurbsCurve& c = fit->front().curve;
-    EXPECT_EQ(c.point(c.start()), piece.points.front());
-    EXPECT_EQ(c.point(c.end()), piece.points.back());
+    EXPECT_EQ(c.point(c.start()), piece.points.front().at);
+    EXPECT_EQ(c.point(c.end()), piece.points.back().at);
     EXPECT_EQ(test::extremaOf(c, false).size(), 0U) << seed;
   }
 }
@@ -69,14 +70,15 @@ TEST(FairFit, TinyPiecesDoNotSpoilAContour) {
   ConstructContour contour;
   const auto truth = test::curveOfCurvature(200.0, [](double) { return 0.01; });
   contour.pieces.resize(5);
-  contour.pieces[0].points = test::noisyPoints(truth, 0.127, 1);
-  contour.pieces[1].points = {{0.0, 0.0}, {3.0, 4.0}};
+  contour.pieces[0].points = piecePoints(test::noisyPoints(truth, 0.127, 1));
+  contour.pieces[1].points = {{Vec2(0.0, 0.0)}, {Vec2(3.0, 4.0)}};
   contour.pieces[1].startIsCorner = contour.pieces[1].endIsCorner = true;
-  contour.pieces[2].points = {{0.0, 0.0}, {1.0, 0.1}, {1.0, 0.1}, {2.0, 0.0}, {3.0, 0.2}, {4.0, 0.1}};
-  for (std::size_t i = 0; i < 480; i += 16) contour.pieces[3].points.push_back(truth.points[i]);
+  contour.pieces[2].points =
+      piecePoints(std::vector<Vec2>{{0.0, 0.0}, {1.0, 0.1}, {1.0, 0.1}, {2.0, 0.0}, {3.0, 0.2}, {4.0, 0.1}});
+  for (std::size_t i = 0; i < 480; i += 16) contour.pieces[3].points.push_back({truth.points[i]});
   contour.pieces[3].endIsCorner = true;
   for (int i = 0; i < 20; ++i)
-    contour.pieces[4].points.emplace_back(3.0 * std::cos(i * 0.314), 3.0 * std::sin(i * 0.314));
+    contour.pieces[4].points.push_back({Vec2(3.0 * std::cos(i * 0.314), 3.0 * std::sin(i * 0.314))});
   contour.pieces[4].closed = true;
   const auto fit = fairFit(contour, {}, {});
   ASSERT_TRUE(fit.has_value()) << fit.error().message;
@@ -93,7 +95,7 @@ TEST(FairFit, TinyPiecesDoNotSpoilAContour) {
     EXPECT_LT((line.point(u) - Vec2(0.3, 0.4) * i).norm(), 1e-12);
   }
   EXPECT_LT(test::rmsFrom(truth, (*fit)[3].curve), 0.02);
-  EXPECT_EQ((*fit)[3].curve.point((*fit)[3].curve.end()), contour.pieces[3].points.back());
+  EXPECT_EQ((*fit)[3].curve.point((*fit)[3].curve.end()), contour.pieces[3].points.back().at);
   const NurbsCurve& loop = (*fit)[4].curve;
   for (int i = 0; i <= 10; ++i) {
     EXPECT_NEAR(loop.point(loop.start() + (loop.end() - loop.start()) * i / 10.0).norm(), 3.0, 0.3);
@@ -121,9 +123,9 @@ TEST(FairFit, SameCurveWithAnyNumberOfThreadsAndAnyScale) {
   ConstructContour contour, scaled;
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
     contour.pieces.emplace_back();
-    contour.pieces.back().points = test::noisyPoints(truth, 0.127, seed);
+    contour.pieces.back().points = piecePoints(test::noisyPoints(truth, 0.127, seed));
     scaled.pieces.push_back(contour.pieces.back());
-    for (Vec2& p : scaled.pieces.back().points) p *= 0.125;
+    for (PiecePoint& p : scaled.pieces.back().points) p.at *= 0.125;
   }
   scaled.pixelMm = 0.125;
   RunContext one, four;
@@ -145,7 +147,7 @@ TEST(FairFit, RefusesNonsenseWithAMessage) {
   contour.pixelMm = 1.0;
   EXPECT_TRUE(fairFit(contour, {}, {}).value().empty());
   contour.pieces.resize(1);
-  contour.pieces[0].points = {{1.0, 1.0}};
+  contour.pieces[0].points = {{Vec2(1.0, 1.0)}};
   const auto fit = fairFit(contour, {}, {});
   ASSERT_FALSE(fit.has_value());
   EXPECT_EQ(fit.error().code, ErrorCode::Numerical);

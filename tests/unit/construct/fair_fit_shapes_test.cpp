@@ -56,7 +56,7 @@ TEST(FairFit, LongLinesAskMoreOfABump) {
     ConstructContour contour;
     contour.pixelMm = 0.1;
     contour.pieces.resize(2);
-    for (ConstructPiece& piece : contour.pieces) piece.points = {Vec2(0.0, 0.0), Vec2(0.05 * px, 0.0)};
+    for (ConstructPiece& piece : contour.pieces) piece.points = {{Vec2(0.0, 0.0)}, {Vec2(0.05 * px, 0.0)}};
     return costAsked(contour, {});
   };
   EXPECT_DOUBLE_EQ(asked(300.0), FairFitOptions().extremumSignificance);
@@ -68,7 +68,7 @@ TEST(FairFit, LongLinesAskMoreOfABump) {
 Result<std::vector<ConstructedPiece>> fitWithAllPoints(std::vector<Vec2> points) {
   ConstructContour contour;
   contour.pieces.resize(1);
-  contour.pieces[0].points = std::move(points);
+  contour.pieces[0].points = piecePoints(std::move(points));
   FairFitOptions options;
   options.knotRemovalTolerance = 0.0;
   return fairFit(contour, options, {});
@@ -108,7 +108,7 @@ TEST(FairFit, LongContoursKeepEveryExtremumAndCanBeCancelled) {
   context.cancel.cancel();
   ConstructContour contour;
   contour.pieces.resize(1);
-  contour.pieces[0].points = points;
+  contour.pieces[0].points = piecePoints(points);
   const auto stopped = fairFit(contour, {}, context);
   ASSERT_FALSE(stopped.has_value());
   EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);

@@ -78,9 +78,9 @@ ConstructedPiece fitUneven(std::uint32_t seed, bool told) {
   ConstructContour contour;
   contour.pieces.resize(1);
   ConstructPiece& piece = contour.pieces[0];
-  piece.points = unevenPoints(truth, unevenSigma, seed);
+  piece.points = piecePoints(unevenPoints(truth, unevenSigma, seed));
   for (std::size_t i = 0; told && i < piece.points.size(); ++i)
-    piece.sigmaPx.push_back(static_cast<float>(unevenSigma((static_cast<double>(i) + 0.5))));
+    piece.points[i].sigmaPx = static_cast<float>(unevenSigma((static_cast<double>(i) + 0.5)));
   auto fit = fairFit(contour, {}, {});
   EXPECT_TRUE(fit.has_value());
   return fit ? fit->front() : ConstructedPiece{};
@@ -146,10 +146,10 @@ TEST(FairFit, WeightsBringTheCurveNearer) {
     ConstructContour contour;
     contour.pieces.resize(1);
     ConstructPiece& piece = contour.pieces[0];
-    piece.points = unevenPoints(truth, sigma, seed);
+    piece.points = piecePoints(unevenPoints(truth, sigma, seed));
     const auto without = fairFit(contour, {}, {});
     for (std::size_t i = 0; i < piece.points.size(); ++i)
-      piece.sigmaPx.push_back(static_cast<float>(sigma(static_cast<double>(i) + 0.5)));
+      piece.points[i].sigmaPx = static_cast<float>(sigma(static_cast<double>(i) + 0.5));
     const auto with = fairFit(contour, {}, {});
     ASSERT_TRUE(with.has_value() && without.has_value());
     told += std::pow(test::rmsFrom(truth, with->front().curve), 2);
@@ -185,13 +185,13 @@ ConstructContour wanderingArc(float spreadPx, double waves = 1.0) {
   contour.isStroke = true;
   contour.pieces.resize(1);
   ConstructPiece& piece = contour.pieces[0];
-  piece.points = test::noisyPoints(truth, 0.03, 5);
+  piece.points = piecePoints(test::noisyPoints(truth, 0.03, 5));
   for (std::size_t i = 0; i < piece.points.size(); ++i) {
     const double s = static_cast<double>(i);
     const double off = waves * (0.3 * std::sin(s / 11.0) + 0.2 * std::sin(s / 17.0 + 1.0));
-    piece.points[i] += off * truth.normals[std::min(truth.normals.size() - 1, 16 * i)];
+    piece.points[i].at += off * truth.normals[std::min(truth.normals.size() - 1, 16 * i)];
+    piece.points[i].spreadPx = spreadPx;
   }
-  piece.spreadPx.assign(piece.points.size(), spreadPx);
   return contour;
 }
 
@@ -213,7 +213,7 @@ TEST(FairNoise, WavesOfMergedStrokesAreNotDrawn) {
 
 TEST(FairNoise, StrokesThatWereNotMergedLeaveTheFitAsItWas) {
   ConstructContour one = wanderingArc(0.0f), none = one;
-  none.pieces[0].spreadPx.clear();
+  for (PiecePoint& p : none.pieces[0].points) p.spreadPx.reset();
   const auto a = fairFit(one, {}, {}), b = fairFit(none, {}, {});
   ASSERT_TRUE(a && b);
   EXPECT_TRUE(a->front().curve == b->front().curve);

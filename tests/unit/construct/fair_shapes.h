@@ -137,7 +137,7 @@ inline Result<std::vector<ConstructedPiece>> fitOne(std::vector<Vec2> points, bo
   ConstructContour contour;
   contour.pixelMm = pixelMm;
   contour.pieces.resize(1);
-  contour.pieces[0].points = std::move(points);
+  contour.pieces[0].points = piecePoints(std::move(points));
   contour.pieces[0].closed = closed;
   return fairFit(contour, {}, {});
 }

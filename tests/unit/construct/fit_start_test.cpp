@@ -18,7 +18,7 @@ ConstructPiece noisyEllipse(double from, double to, int stations, bool closed, d
   std::mt19937 random(7);
   std::normal_distribution<double> scatter(0.0, noise);
   const auto moved = [&](const Vec2& p) { return Vec2(p.x() + scatter(random), p.y() + scatter(random)); };
-  for (Vec2& p : piece.points) p = moved(p);
+  for (PiecePoint& p : piece.points) p.at = moved(p.at);
   for (Station& s : piece.stations) {
     s.point = moved(s.point);
     const double turn = scatter(random) / 30.0;
@@ -62,7 +62,7 @@ TEST(FitStart, FreesTheStationsOfTheirNoise) {
       EXPECT_LT((moved[k].point - given[k].point).norm(), 1.0) << i << " " << k;
     }
     EXPECT_LT(after, 0.4 * before) << i;
-    for (const Vec2& p : fitted->pieces[i].points) EXPECT_LT(besideEllipse(p), 0.25);
+    for (const PiecePoint& p : fitted->pieces[i].points) EXPECT_LT(besideEllipse(p.at), 0.25);
   }
 }
 
@@ -98,8 +98,8 @@ TEST(FitStart, LeavesWhatHasNoNoise) {
     const double apart = method == ConstructMethod::ControlPolygon ? 0.2 : 0.01;
     EXPECT_LT(deviation(fit->front().curve, line->front().curve).max, apart) << static_cast<int>(method);
     const auto& curve = fit->front().curve;
-    EXPECT_LT((curve.point(curve.start()) - contour.pieces[0].points.front()).norm(), 1e-9);
-    EXPECT_LT((curve.point(curve.end()) - contour.pieces[0].points.back()).norm(), 1e-9);
+    EXPECT_LT((curve.point(curve.start()) - contour.pieces[0].points.front().at).norm(), 1e-9);
+    EXPECT_LT((curve.point(curve.end()) - contour.pieces[0].points.back().at).norm(), 1e-9);
   }
 }
 

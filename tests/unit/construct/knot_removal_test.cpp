@@ -42,7 +42,7 @@ ConstructedPiece fitWith(const Shape& shape, double share, bool corners = false)
   contour.pixelMm = 0.1;
   contour.pieces.resize(1);
   ConstructPiece& piece = contour.pieces[0];
-  for (const Vec2& p : shape.points) piece.points.push_back(0.1 * p + Vec2(20.0, 30.0));
+  for (const Vec2& p : shape.points) piece.points.push_back({0.1 * p + Vec2(20.0, 30.0)});
   piece.closed = shape.closed;
   piece.startIsCorner = piece.endIsCorner = corners;
   FairFitOptions options;

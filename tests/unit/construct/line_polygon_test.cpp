@@ -40,8 +40,7 @@ ConstructContour contourOf(const PaperK& k) {
     const bool last = i == k.sharp.size();
     const std::size_t to = last ? k.points.size() - 1 : static_cast<std::size_t>(k.sharp[i]);
     ConstructPiece& piece = contour.pieces.emplace_back();
-    piece.points.assign(k.points.begin() + static_cast<std::ptrdiff_t>(from),
-                        k.points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+    piece.points = piecePoints(std::span(k.points).subspan(from, to - from + 1));
     piece.startIsCorner = i > 0;
     piece.endIsCorner = !last;
     from = to;
@@ -164,7 +163,7 @@ TEST(LinePolygon, AClosedLineStartsAtItsFirstCornerAndIsPeriodicWithout) {
   const std::vector<Vec2> corners = {{0, 0}, {60, 0}, {60, 60}, {0, 60}};
   for (std::size_t i = 0; i < 4; ++i) {
     ConstructPiece& piece = square.pieces.emplace_back();
-    for (int s = 0; s <= 6; ++s) piece.points.push_back(corners[i] + (corners[(i + 1) % 4] - corners[i]) * s / 6.0);
+    for (int s = 0; s <= 6; ++s) piece.points.push_back({corners[i] + (corners[(i + 1) % 4] - corners[i]) * s / 6.0});
     piece.startIsCorner = piece.endIsCorner = true;
   }
   const LinePolygon line = linePolygon(square, polygonParams(3));
@@ -185,14 +184,17 @@ TEST(LinePolygon, AClosedLineStartsAtItsFirstCornerAndIsPeriodicWithout) {
 
 TEST(ConstructControlPolygon, APenStrokeUsesOnlyItsDrawnPoints) {
   ConstructPiece piece;
-  for (int i = 0; i <= 40; ++i) piece.points.emplace_back(i, i < 20 ? 0.0 : 0.3 * (i - 20));
-  piece.drawn = {0, 13, 20, 31, 40};
+  for (int i = 0; i <= 40; ++i) piece.points.push_back({Vec2(i, i < 20 ? 0.0 : 0.3 * (i - 20))});
+  const std::array drawn{0, 13, 20, 31, 40};
+  piece.isDrawn = true;
+  for (PiecePoint& p : piece.points) p.refined = false;
+  for (const int i : drawn) piece.points[i].refined = true;
   const auto made = constructControlPolygon(piece, 1.0, polygonParams(2), {}).value();
   EXPECT_EQ(made.report.pointsBefore, 5);
   EXPECT_EQ(made.report.pointsAfter, 5);
   ASSERT_EQ(made.curve.controlPointCount(), 5);
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(made.curve.controlPoints()[i], piece.points[piece.drawn[i]]);
+    EXPECT_EQ(made.curve.controlPoints()[i], piece.points[drawn[i]].at);
   }
 }
 

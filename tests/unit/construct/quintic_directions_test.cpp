@@ -49,7 +49,7 @@ TEST(ConstructQuinticNurbs, DirectionsTakeUnevenStations) {
   params.gradients = GradientUse::Directions;
   const auto made = constructQuinticNurbs(piece, 1.0, params, {});
   ASSERT_TRUE(made);
-  EXPECT_LT(deviation(made->curve, piece.points, true).max, 0.5);
+  EXPECT_LT(deviation(made->curve, positionsOf(piece.points), true).max, 0.5);
   EXPECT_LT((made->curve.point(made->curve.start()) - piece.stations.front().point).norm(), 1e-9);
   EXPECT_LT((made->curve.point(made->curve.end()) - piece.stations.back().point).norm(), 1e-9);
 }

@@ -130,7 +130,7 @@ Measured measure(const ConstructPiece& piece, const ConstructParams& params) {
   const auto made = constructQuinticNurbs(piece, 1.0, params, {});
   EXPECT_TRUE(made);
   if (!made) return {};
-  return {deviation(made->curve, piece.points, true).rms,
+  return {deviation(made->curve, positionsOf(piece.points), true).rms,
           static_cast<int>(curvatureExtrema(made->curve, 5e-3 / extent(made->curve), piece.closed).size())};
 }
 
@@ -161,10 +161,10 @@ TEST(ConstructQuinticNurbs, UnevenStationsAreNoHarm) {
 TEST(ConstructQuinticNurbs, OpenEndsAreExact) {
   auto piece = test::pieceOf(test::ellipsePoint, 0.2, 2.0, 12, false);
   piece.startIsCorner = piece.endIsCorner = true;
-  piece.points.front() += Vec2(0.3, -0.2);
+  piece.points.front().at += Vec2(0.3, -0.2);
   const auto made = constructQuinticNurbs(piece, 1.0, {}, {}).value();
-  EXPECT_EQ(made.curve.point(made.curve.start()), piece.points.front());
-  EXPECT_EQ(made.curve.point(made.curve.end()), piece.points.back());
+  EXPECT_EQ(made.curve.point(made.curve.start()), piece.points.front().at);
+  EXPECT_EQ(made.curve.point(made.curve.end()), piece.points.back().at);
   EXPECT_EQ(made.curve.degree(), 5);
   const double length = ArcLength(made.curve).total();
   EXPECT_NEAR(made.curve.end() - made.curve.start(), length, 0.01 * length);
@@ -175,9 +175,9 @@ TEST(ConstructQuinticNurbs, StationsInsideThePieceAreExtendedToItsEnds) {
   const auto groups = test::stationsOf(test::ellipsePoint, 0.28, 1.9, 11, false);
   piece.stations = groups;
   const auto made = constructQuinticNurbs(piece, 1.0, {}, {}).value();
-  EXPECT_EQ(made.curve.point(made.curve.start()), piece.points.front());
-  EXPECT_EQ(made.curve.point(made.curve.end()), piece.points.back());
-  EXPECT_LT(deviation(made.curve, piece.points, true).max, 0.5);
+  EXPECT_EQ(made.curve.point(made.curve.start()), piece.points.front().at);
+  EXPECT_EQ(made.curve.point(made.curve.end()), piece.points.back().at);
+  EXPECT_LT(deviation(made.curve, positionsOf(piece.points), true).max, 0.5);
 }
 
 TEST(ConstructQuinticNurbs, ClosedCurvesMeetWithAllDerivatives) {
@@ -187,7 +187,7 @@ TEST(ConstructQuinticNurbs, ClosedCurvesMeetWithAllDerivatives) {
     const auto a = made.curve.derivatives(made.curve.start(), 4), b = made.curve.derivatives(made.curve.end(), 4);
     for (std::size_t d = 0; d < 5; ++d) EXPECT_LT((a[d] - b[d]).norm(), 1e-8 * (1.0 + a[d].norm())) << d;
     if (m >= 40) {
-      EXPECT_LT(deviation(made.curve, piece.points, true).rms, 0.02);
+      EXPECT_LT(deviation(made.curve, positionsOf(piece.points), true).rms, 0.02);
     }
     if (m >= 60) {
       EXPECT_EQ(curvatureExtrema(made.curve, 5e-3 / extent(made.curve), true).size(), 4u);
@@ -214,7 +214,7 @@ TEST(ConstructQuinticNurbs, AnythingGivesAFiniteCurveOrAnError) {
     const auto count = random() % 9;
     for (std::size_t i = 0; i < count; ++i) {
       const Vec2 p(where(random), where(random));
-      piece.points.push_back(p);
+      piece.points.push_back({p});
       if (random() % 4 != 0) piece.stations.push_back({p, Vec2(where(random), where(random)), p, p});
       if (random() % 5 == 0) piece.stations.push_back({p, Vec2::Zero(), p, p});
     }

@@ -94,7 +94,7 @@ TEST(SharpFeatures, FairLinesHaveNoSharpTurns) {
   for (const double radius : {15.0, 40.0, 300.0}) {
     const auto truth = test::curveOfCurvature(5.0 * radius, [&](double) { return 1.0 / radius; });
     ConstructPiece piece;
-    piece.points = test::noisyPoints(truth, 0.127, 3);
+    piece.points = piecePoints(test::noisyPoints(truth, 0.127, 3));
     EXPECT_TRUE(sharpFeatures(piece, false, 1.0, {}).empty()) << radius;
   }
 }
@@ -141,7 +141,7 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
       const auto fit = test::fitOne(circle, closed);
       ASSERT_TRUE(fit.has_value());
       ConstructPiece piece;
-      piece.points = bulged(circle, out, at);
+      piece.points = piecePoints(bulged(circle, out, at));
       piece.closed = closed;
       SmoothSections parts(piece, false, 1.0, {});
       ASSERT_EQ(parts.stretches().size(), 1U);
@@ -150,7 +150,7 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
       ASSERT_TRUE(whole.has_value()) << whole.error().message;
       EXPECT_EQ(whole->report.why, Termination::Converged) << closed;
       EXPECT_NE(whole->report.note.find("at 1 place"), std::string::npos) << whole->report.note;
-      EXPECT_LT(farthest(piece.points, whole->curve), 1.5) << closed;
+      EXPECT_LT(farthest(positionsOf(piece.points), whole->curve), 1.5) << closed;
       EXPECT_LE(whole->curve.controlPointCount(), fit->front().curve.controlPointCount() + 40);
       double worst = 0.0;  // the rest is the curve of before
       for (int i = 0; i < kCount; i += 5) {

@@ -42,7 +42,8 @@ inline ConstructPiece pieceOf(const PlaneCurve& curve, double from, double to, i
   piece.closed = closed;
   piece.stations = stationsOf(curve, from, to, count, closed);
   constexpr int kPoints = 600;
-  for (int i = 0; i < kPoints + (closed ? 0 : 1); ++i) piece.points.push_back(curve(from + (to - from) * i / kPoints));
+  for (int i = 0; i < kPoints + (closed ? 0 : 1); ++i)
+    piece.points.push_back({curve(from + (to - from) * i / kPoints)});
   return piece;
 }
 

@@ -23,13 +23,11 @@ constexpr std::array kMethods = {ConstructMethod::Nurbs, ConstructMethod::Bezier
 ConstructPiece pieceThrough(const std::vector<Vec2>& points, bool closed,
                             const std::vector<std::uint8_t>& refined = {}) {
   PieceSet set;
-  set.pieces.emplace_back().points = points;
-  set.pieces[0].closed = closed;
-  set.pieces[0].refined = refined;
-  ConstructPiece piece;
-  piece.refined = refined;
-  piece.points = points;
-  piece.closed = closed;
+  Piece& px = set.pieces.emplace_back();
+  px.points = piecePoints(points);
+  for (std::size_t i = 0; i < refined.size(); ++i) px.points[i].refined = refined[i] != 0;
+  px.closed = closed;
+  ConstructPiece piece{px};
   piece.stations = regressionSegments(set, {}, {}).value().pieces[0].stations;
   return piece;
 }
@@ -112,7 +110,8 @@ TEST(StayWithin, GoesNotAstrayInGaps) {
       const auto given = constructed(piece, method, 0.0), closer = constructed(piece, method, 2.0);
       ASSERT_TRUE(given && closer) << trial << (closer ? "" : closer.error().message);
       const NurbsCurve &a = given->front().curve, &b = closer->front().curve;
-      EXPECT_LT(deviation(b, piece.points, true).max, std::max(4.0, deviation(a, piece.points, true).max + 2.5))
+      EXPECT_LT(deviation(b, positionsOf(piece.points), true).max,
+                std::max(4.0, deviation(a, positionsOf(piece.points), true).max + 2.5))
           << trial;
       EXPECT_LT(ArcLength(b).total(), 1.1 * ArcLength(a).total()) << trial;
     }
@@ -145,8 +144,8 @@ TEST(StayWithin, IsKeptOrTold) {
     const auto piece = pieceThrough(sharpLine(random), false);
     for (const auto method : kMethods) {
       const auto given = constructed(piece, method, 0.0).value(), closer = constructed(piece, method, 2.0).value();
-      const double before = deviation(given[0].curve, piece.points, true).max;
-      const double after = deviation(closer[0].curve, piece.points, true).max;
+      const double before = deviation(given[0].curve, positionsOf(piece.points), true).max;
+      const double after = deviation(closer[0].curve, positionsOf(piece.points), true).max;
       EXPECT_TRUE(given[0].report.note.empty());
       told += closer[0].report.note.empty() ? 0 : 1;
       worse += after > before + 1.0 ? 1 : 0;
@@ -187,7 +186,7 @@ TEST(StayWithin, GoesByThePointsThatAreBetterKnown) {
   }
   const auto weighted = pieceThrough(points, false, refined);
   auto alike = weighted;
-  alike.refined.clear();
+  for (PiecePoint& p : alike.points) p.refined = true;
   for (const auto method : kMethods) {
     const auto a = constructed(weighted, method, 0.4).value(), b = constructed(alike, method, 0.4).value();
     EXPECT_GT(a[0].report.stationsAdded, 2);

@@ -77,7 +77,7 @@ TEST(Cancelling, IsHeardWhileCornersAreLocated) {
 TEST(Cancelling, IsHeardWhileStationsAreLaid) {
   PieceSet set;
   Piece& piece = set.pieces.emplace_back();
-  piece.points = zigzag(kPoints);
+  piece.points = piecePoints(zigzag(kPoints));
   SegmentParams params;
   params.mode = SegmentMode::Adaptive;
   params.tolerancePx = 0.02;

@@ -94,10 +94,9 @@ TEST(CornerMarks, CornersOfACurvedLetterAreFoundToATenthOfAPixel) {
     for (std::size_t i = 0; i < pieces->pieces.size(); ++i) {
       const Piece& piece = pieces->pieces[i];
       EXPECT_TRUE(piece.startIsCorner && piece.endIsCorner && !piece.closed);
-      EXPECT_EQ(piece.points.front(), pieces->corners[i].positionPx);
-      EXPECT_EQ(piece.points.back(), pieces->corners[(i + 1) % pieces->corners.size()].positionPx);
-      EXPECT_EQ(piece.points.size(), piece.refined.size());
-      for (const Vec2& p : piece.points) EXPECT_LE(test::distanceToPolyline(truth, p), 0.5);
+      EXPECT_EQ(piece.points.front().at, pieces->corners[i].positionPx);
+      EXPECT_EQ(piece.points.back().at, pieces->corners[(i + 1) % pieces->corners.size()].positionPx);
+      for (const PiecePoint& p : piece.points) EXPECT_LE(test::distanceToPolyline(truth, p.at), 0.5);
     }
   }
   printf("corner error rms %.4f worst %.4f (%d corners)\n", std::sqrt(square / count), worst, count);
@@ -221,8 +220,8 @@ TEST(CornerMarks, TurningAngleIsPositiveToTheLeftInTheModelFrame) {
   EXPECT_NEAR((pieces->corners[0].positionPx - Vec2(60, 100)).norm(), 0.0, 1e-6);
   ASSERT_EQ(pieces->pieces.size(), 2u);
   EXPECT_FALSE(pieces->pieces[0].startIsCorner);
-  EXPECT_EQ(pieces->pieces[0].points.front(), Vec2(0, 100));
-  EXPECT_EQ(pieces->pieces[1].points.back(), Vec2(60, 40));
+  EXPECT_EQ(pieces->pieces[0].points.front().at, Vec2(0, 100));
+  EXPECT_EQ(pieces->pieces[1].points.back().at, Vec2(60, 40));
 }
 
 std::vector<Vec2> circle(double radius) {
@@ -258,7 +257,7 @@ TEST(CornerMarks, ClosedContours) {
   ASSERT_TRUE(smooth.has_value());
   ASSERT_EQ(smooth->pieces.size(), 1u);
   EXPECT_TRUE(smooth->pieces[0].closed);
-  EXPECT_EQ(smooth->pieces[0].points, positionsOf(set.contours[0].points));
+  EXPECT_EQ(positionsOf(smooth->pieces[0].points), positionsOf(set.contours[0].points));
   EXPECT_NEAR(smooth->pieces[0].lengthPx, 2 * std::numbers::pi * 60, 0.05);
   const std::vector<CornerMark> marks{{Vec2(212, 150)}, {Vec2(211, 150)}, {Vec2(400, 400)}};
   const auto one = splitAtCorners(set, marks, {}, {});
@@ -268,7 +267,7 @@ TEST(CornerMarks, ClosedContours) {
   EXPECT_EQ(one->sameCorner, (std::vector<MarkPair>{{1, 0, 0.0}}));
   ASSERT_EQ(one->pieces.size(), 1u);
   EXPECT_FALSE(one->pieces[0].closed);
-  EXPECT_EQ(one->pieces[0].points.front(), one->pieces[0].points.back());
+  EXPECT_EQ(one->pieces[0].points.front().at, one->pieces[0].points.back().at);
   EXPECT_NEAR(one->pieces[0].lengthPx, 2 * std::numbers::pi * 60, 1.0);
 }
 
@@ -281,7 +280,7 @@ TEST(CornerMarks, TinyAndDegenerateContours) {
       const auto pieces = splitAtCorners(fromPoints(points, closed), marks, {}, {});
       ASSERT_TRUE(pieces.has_value());
       for (const Piece& piece : pieces->pieces) {
-        for (const Vec2& p : piece.points) EXPECT_TRUE(p.allFinite());
+        for (const PiecePoint& p : piece.points) EXPECT_TRUE(p.at.allFinite());
       }
       EXPECT_TRUE(suggestCorners(fromPoints(points, closed), 0.5, 16.0, {}).empty());
     }

@@ -70,12 +70,12 @@ TEST(PenContour, IsCutAtTheDrawnPointNearestToAMark) {
     EXPECT_EQ(pieces->corners[0].positionPx, Vec2(110, 10));
     EXPECT_EQ(pieces->lostMarks, std::vector<int>{1});
     ASSERT_EQ(pieces->pieces.size(), 2u);
-    EXPECT_EQ(pieces->pieces[0].points.back(), Vec2(110, 10));
-    EXPECT_EQ(pieces->pieces[1].points.front(), Vec2(110, 10));
-    EXPECT_EQ(pieces->pieces[0].points.front(), Vec2(10, 10));
-    EXPECT_EQ(pieces->pieces[1].points.back(), Vec2(110, 110));
+    EXPECT_EQ(pieces->pieces[0].points.back().at, Vec2(110, 10));
+    EXPECT_EQ(pieces->pieces[1].points.front().at, Vec2(110, 10));
+    EXPECT_EQ(pieces->pieces[0].points.front().at, Vec2(10, 10));
+    EXPECT_EQ(pieces->pieces[1].points.back().at, Vec2(110, 110));
     for (const Piece& piece : pieces->pieces) {
-      EXPECT_EQ(std::count(piece.refined.begin(), piece.refined.end(), 1), 3) << "the drawn points, corner included";
+      EXPECT_EQ(std::ranges::count(piece.points, true, &PiecePoint::refined), 3) << "the drawn points, corner included";
     }
     EXPECT_NEAR(pieces->pieces[0].lengthPx + pieces->pieces[1].lengthPx, 200.0, 1e-9);
   }

@@ -47,9 +47,8 @@ Piece arc(double radius, double angle, bool closed, double noise = 0.0) {
   for (int i = 0; i < n; ++i) {
     const double a = angle * i / (closed ? n : n - 1);
     const double r = radius + (noise > 0.0 ? noise * gauss(random) : 0.0);
-    piece.points.emplace_back(300 + r * std::cos(a), 300 + r * std::sin(a));
+    piece.points.push_back({Vec2(300 + r * std::cos(a), 300 + r * std::sin(a))});
   }
-  piece.refined.assign(piece.points.size(), 1);
   return piece;
 }
 
@@ -85,8 +84,8 @@ TEST(Stations, EndsAtCornersAreExact) {
   Piece piece = arc(200.0, 1.5, false, 0.1);
   piece.startIsCorner = piece.endIsCorner = true;
   const PieceSegments result = segments(piece, {});
-  EXPECT_EQ(result.stations.front().point, piece.points.front());
-  EXPECT_EQ(result.stations.back().point, piece.points.back());
+  EXPECT_EQ(result.stations.front().point, piece.points.front().at);
+  EXPECT_EQ(result.stations.back().point, piece.points.back().at);
   EXPECT_GT(result.residualRmsPx, 0.05);
   EXPECT_LT(result.residualRmsPx, 0.15);
 }
@@ -122,11 +121,9 @@ TEST(Sturges, CountsThePointsOfAPenStrokeThatWereDrawn) {
     Piece piece = arc(400.0, 2.5, false);
     const int all = 5 * (drawn - 1) + 1;
     piece.points.clear();
-    piece.refined.clear();
     for (int i = 0; i < all; ++i) {
       const double a = 2.5 * i / (all - 1);
-      piece.points.emplace_back(300.0 + 400.0 * std::cos(a), 300.0 + 400.0 * std::sin(a));
-      piece.refined.push_back(i % 5 == 0 ? 1 : 0);
+      piece.points.push_back({Vec2(300.0 + 400.0 * std::cos(a), 300.0 + 400.0 * std::sin(a)), i % 5 == 0});
     }
     piece.isPen = true;
     EXPECT_EQ(std::ssize(segments(piece, params).stations), groups) << drawn;
@@ -157,9 +154,9 @@ TEST(Stations, DegeneratePiecesStayFinite) {
                                std::vector<Vec2>(9, Vec2(2, 2))}) {
       for (const bool closed : {false, true}) {
         Piece piece;
-        piece.points = points;
+        piece.points = piecePoints(points);
+        for (PiecePoint& p : piece.points) p.refined = false;
         piece.closed = closed;
-        piece.refined.assign(points.size(), 0);
         const PieceSegments result = segments(piece, params);
         EXPECT_EQ(result.stations.empty(), points.empty());
         for (const Station& s : result.stations) {

@@ -27,10 +27,9 @@ NurbsCurve clothoidPath(unsigned seed) {
     if (truth.name != "clothoid") continue;
     PieceSet set;
     Piece& piece = set.pieces.emplace_back();
-    piece.points = test::noisyPoints(truth, 0.1, seed);
-    piece.refined.assign(piece.points.size(), 1);
+    piece.points = piecePoints(test::noisyPoints(truth, 0.1, seed));
     for (std::size_t i = 1; i < piece.points.size(); ++i)
-      piece.lengthPx += (piece.points[i] - piece.points[i - 1]).norm();
+      piece.lengthPx += (piece.points[i].at - piece.points[i - 1].at).norm();
     ConstructContour contour;
     ConstructPiece& made = contour.pieces.emplace_back();
     made.points = piece.points;

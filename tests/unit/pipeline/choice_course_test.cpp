@@ -19,9 +19,8 @@ Piece arc(double fromDeg, double toDeg) {
   const double step = fromDeg < toDeg ? 1.0 : -1.0;
   for (double a = fromDeg; step * a <= step * toDeg; a += step) {
     const double rad = a * std::numbers::pi / 180.0;
-    piece.points.emplace_back(300.0 + 200.0 * std::cos(rad), 300.0 + 200.0 * std::sin(rad));
+    piece.points.push_back({Vec2(300.0 + 200.0 * std::cos(rad), 300.0 + 200.0 * std::sin(rad))});
   }
-  piece.refined.assign(piece.points.size(), 1);
   piece.lengthPx = std::abs(toDeg - fromDeg) * std::numbers::pi / 180.0 * 200.0;
   return piece;
 }
@@ -60,7 +59,7 @@ TEST(ChoiceCourse, ALineThatRunsAsItDidKeepsItsChoiceExactly) {
   const PieceChoice choice = drawnOn(line);
   EXPECT_EQ(alongPiece(choice, line), choice);
   Piece moved = arc(2, 197);
-  for (Vec2& p : moved.points) p += Vec2(1.5, -1.0);
+  for (PiecePoint& p : moved.points) p.at += Vec2(1.5, -1.0);
   EXPECT_EQ(alongPiece(choice, moved), choice);
 }
 

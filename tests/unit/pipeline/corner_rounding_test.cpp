@@ -33,9 +33,9 @@ struct Angle {
 
   explicit Angle(int degree) {
     pieces.pieces.resize(2);
-    pieces.pieces[0].points = {{0, 0}, {100, 0}};
+    pieces.pieces[0].points = {{Vec2(0, 0)}, {Vec2(100, 0)}};
     pieces.pieces[0].endIsCorner = true;
-    pieces.pieces[1].points = {{100, 0}, {100, 80}};
+    pieces.pieces[1].points = {{Vec2(100, 0)}, {Vec2(100, 80)}};
     pieces.pieces[1].startIsCorner = true;
     Corner corner;
     corner.mark = 0;
@@ -46,7 +46,7 @@ struct Angle {
       TracedCurve& curve = set.curves.emplace_back();
       curve.piece = i;
       const auto& p = pieces.pieces[i].points;
-      curve.sketched = curve.faired = line(p[0], p[1], degree);
+      curve.sketched = curve.faired = line(p[0].at, p[1].at, degree);
     }
   }
 };
@@ -209,10 +209,10 @@ TEST(RoundCorners, TheFiguresAreThoseOfTheRoundedCurve) {
   const PageFrame frame{200, 100, 0.5};
   for (std::size_t k = 0; k < 2; ++k) {
     Piece& piece = angle.pieces.pieces[k];
-    const Vec2 a = piece.points[0], b = piece.points[1];
+    const Vec2 a = piece.points[0].at, b = piece.points[1].at;
     piece.points.clear();
-    for (int i = 0; i < 100; ++i) piece.points.push_back(a + (b - a) * i / 100.0);
-    piece.points.push_back(b);
+    for (int i = 0; i < 100; ++i) piece.points.push_back({a + (b - a) * i / 100.0});
+    piece.points.push_back({b});
     angle.set.curves[k].faired = line(frame.pointToModel(a), frame.pointToModel(b), 5);
   }
   roundCorners(angle.set, angle.pieces, angle.recipe, frame);
@@ -255,9 +255,9 @@ TEST(RecipeFile, KeepsRoundedCornersAndSegmentPoints) {
 TEST(SegmentPoints, BelongToTheNearestPieceWithinReach) {
   Angle angle(5);
   for (Piece& piece : angle.pieces.pieces) {
-    const Vec2 a = piece.points[0], b = piece.points[1];
+    const Vec2 a = piece.points[0].at, b = piece.points[1].at;
     piece.points.clear();
-    for (int i = 0; i <= 100; ++i) piece.points.push_back(a + (b - a) * i / 100.0);
+    for (int i = 0; i <= 100; ++i) piece.points.push_back({a + (b - a) * i / 100.0});
   }
   angle.recipe.segmentPoints = {{Vec2(50, 3)}, {Vec2(97, 40)}, {Vec2(0, 70)}};
   EXPECT_EQ(assignSegmentPoints(angle.pieces, angle.recipe), (std::vector<std::vector<std::size_t>>{{0}, {1}}));

@@ -14,12 +14,12 @@ namespace {
 PieceSet lineAndRing() {
   PieceSet set;
   Piece& line = set.pieces.emplace_back();
-  for (int x = 20; x <= 220; x += 2) line.points.emplace_back(x, 100);
+  for (int x = 20; x <= 220; x += 2) line.points.push_back({Vec2(x, 100)});
   Piece& ring = set.pieces.emplace_back();
   ring.contour = 1;
   ring.closed = true;
   for (int i = 0; i < 200; ++i)
-    ring.points.emplace_back(300 + 80 * std::cos(M_PI * i / 100), 300 + 80 * std::sin(M_PI * i / 100));
+    ring.points.push_back({Vec2(300 + 80 * std::cos(M_PI * i / 100), 300 + 80 * std::sin(M_PI * i / 100))});
   return set;
 }
 

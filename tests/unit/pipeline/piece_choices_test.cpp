@@ -18,8 +18,7 @@ namespace {
 Piece wave(double from, double to, double down = 0.0) {
   Piece piece;
   for (double x = from; x <= to; x += 1.0) {
-    piece.points.emplace_back(x, 200.0 + down + 40.0 * std::sin(2.0 * std::numbers::pi * x / 400.0));
-    piece.refined.push_back(1);
+    piece.points.push_back({Vec2(x, 200.0 + down + 40.0 * std::sin(2.0 * std::numbers::pi * x / 400.0))});
   }
   piece.lengthPx = to - from;
   return piece;
@@ -96,7 +95,7 @@ TEST(PieceChoices, AShortLineThatIsJoinedToALongOneDoesNotTakeItAlong) {
 
 TEST(PieceChoices, TheNextPartBehindACornerIsNotTaken) {
   Piece next;  // goes on from the end of the line, and is no longer than the reach
-  for (double d = 0.0; d <= 7.0; d += 1.0) next.points.push_back(wave(0, 500).points.back() + d * Vec2(0.8, 0.6));
+  for (double d = 0.0; d <= 7.0; d += 1.0) next.points.push_back({wave(0, 500).points.back().at + d * Vec2(0.8, 0.6)});
   const PieceSet set = setOf({next, wave(0, 500)});
   EXPECT_EQ(ownersOf(set, withoutPiece(set, 1)), (Owners{std::nullopt, 0}));
 }
@@ -125,8 +124,8 @@ TEST(PieceChoices, APartThatIsChangedLeavesTheOthersAsTheyAre) {
 TEST(PieceChoices, AClosedLineIsKnownAllAround) {
   Piece circle;
   for (int i = 0; i < 600; ++i)
-    circle.points.emplace_back(300.0 + 100.0 * std::cos(i * std::numbers::pi / 300.0),
-                               300.0 + 100.0 * std::sin(i * std::numbers::pi / 300.0));
+    circle.points.push_back({300.0 * Vec2::Ones() + 100.0 * Vec2(std::cos(i * std::numbers::pi / 300.0),
+                                                                 std::sin(i * std::numbers::pi / 300.0))});
   circle.closed = true;
   const PieceSet set = setOf({circle});
   const std::vector<PieceChoice> choices = withoutPiece(set, 0);

@@ -20,7 +20,7 @@ namespace {
 Piece wavy(double from, double to, double down = 0.0) {
   Piece piece;
   for (double x = from; x <= to; x += 1.0)
-    piece.points.emplace_back(x, 200.0 + down + 40.0 * std::sin(2.0 * std::numbers::pi * x / 400.0));
+    piece.points.push_back({Vec2(x, 200.0 + down + 40.0 * std::sin(2.0 * std::numbers::pi * x / 400.0))});
   piece.lengthPx = to - from;
   return piece;
 }
@@ -68,7 +68,7 @@ TEST(PieceNumbers, ANumberIsNeverGivenToAnotherLine) {
   EXPECT_EQ(gone.ofPiece, Numbers{1});
   // One that crosses where the lost line ran, once, is another line.
   Piece crossing;
-  for (double y = 0.0; y <= 400.0; y += 1.0) crossing.points.emplace_back(150.0, y);
+  for (double y = 0.0; y <= 400.0; y += 1.0) crossing.points.push_back({Vec2(150.0, y)});
   EXPECT_EQ(numberPieces(numberedSet({crossing, wavy(0, 300)}), gone.known).ofPiece, (Numbers{3, 1}));
   EXPECT_EQ(numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50)}), gone.known).ofPiece, (Numbers{1, 2}));
 }

@@ -255,7 +255,7 @@ TEST(Pipeline, ChoicesOutliveAThresholdThatMovesAndComesBack) {
   choice.anchorsPx = {anchorOf(before.pieces->pieces[0])};
   choice.included = false;
   recipe.choices = {choice};
-  recipe.extremumChoices = {{before.pieces->pieces[0].points[5], true}};
+  recipe.extremumChoices = {{before.pieces->pieces[0].points[5].at, true}};
   recipe.cornerMarks = {{Vec2(200, 40)}};
   recipe.corners.snapDistancePx = 60.0;
   const auto chosen = run(recipe, cache);

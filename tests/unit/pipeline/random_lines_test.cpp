@@ -38,13 +38,12 @@ ConstructPiece randomPiece(std::mt19937& random) {
   const int steps = static_cast<int>(length / 2.0);
   for (int i = 0; i <= steps; ++i) {
     const double x = normal(random), y = normal(random);
-    piece.points.push_back(at + Vec2(x, y));
+    piece.points.push_back({at + Vec2(x, y)});
     const double f = static_cast<double>(i) / steps;
     const bool straight = f > straightFrom && f < straightTo;
     angle += straight ? 0.0 : bend / steps * (0.3 + std::sin(wave * f + phase));
     at += 2.0 * Vec2(std::cos(angle), std::sin(angle));
   }
-  piece.refined.assign(piece.points.size(), 1);
   piece.lengthPx = length;
   PieceSet set;
   set.pieces.push_back(piece);
@@ -109,10 +108,10 @@ void expectSoundConstruction(const ConstructedPiece& made, const ConstructPiece&
   const NurbsCurve& curve = made.curve;
   const double size = extent(curve);
   if (piece.startIsCorner) {
-    EXPECT_LT((curve.point(curve.start()) - piece.points.front()).norm(), 1e-9 * size);
+    EXPECT_LT((curve.point(curve.start()) - piece.points.front().at).norm(), 1e-9 * size);
   }
   if (piece.endIsCorner) {
-    EXPECT_LT((curve.point(curve.end()) - piece.points.back()).norm(), 1e-9 * size);
+    EXPECT_LT((curve.point(curve.end()) - piece.points.back().at).norm(), 1e-9 * size);
   }
   for (const SegmentNote& note : made.report.segments) {
     EXPECT_TRUE(std::isfinite(note.lengthMm) && std::isfinite(note.startKappa) && std::isfinite(note.endKappa));
@@ -174,7 +173,7 @@ TEST_P(RandomLines, GiveSoundCurvesInEveryWay) {
       recipe.fairing.target = *targetOfNumber(trial % 7);
       recipe.fairing.toleranceMm = 0.02 * std::pow(100.0, uniform(random));
       recipe.fairing.targets.monotone = trial % 3 != 0;
-      const FairingLine line{trial % 2 == 0 ? contour.pieces[0].points : std::vector<Vec2>{}, 1.0};
+      const FairingLine line{trial % 2 == 0 ? positionsOf(contour.pieces[0].points) : std::vector<Vec2>{}, 1.0};
       const auto faired = movesEdgeLengths(recipe.fairing) ? fairByEdgeLengths(curve, false, recipe.fairing, {})
                                                            : fair(curve, false, recipe.fairing, {}, line);
       ASSERT_TRUE(faired) << faired.error().message;

@@ -203,12 +203,12 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
                     tr("Hollow marks on the curve: click one to keep it.")});
   const auto& pieces = session_.output().pieces;
   if (!pieces || curve.piece < 0 || static_cast<std::size_t>(curve.piece) >= pieces->pieces.size()) return;
-  const auto& refined = pieces->pieces[curve.piece].refined;
-  const auto fallback = std::count(refined.begin(), refined.end(), std::uint8_t{0});
+  const auto& points = pieces->pieces[curve.piece].points;
+  const auto fallback = std::ranges::count(points, false, &PiecePoint::refined);
   // A line drawn by hand is where the hand drew it.
   if (fallback > 0 && !strokeOf(session_, session_.selectedCurve()))
     rows.push_back({tr("Points not located"),
-                    {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
+                    {{tr("%1 of %2").arg(fallback).arg(points.size())}},
                     tr("Points without a clear edge in the grey values. Those of an outline lie on the pixel "
                        "borders, those of a centre line on the skeleton of the ink, mostly where strokes meet.")});
 }
