@@ -103,7 +103,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   buildProfiles();
   buildFigures();
   column->addWidget(caption(tr("Curves"), this));
-  column->addWidget(new CurveList(session, Judged::Result, this));
+  column->addWidget(new CurveList(session, Judged::Result, this), 1);
   column->addStretch();
   followSession();
   refresh();
