@@ -5,10 +5,12 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QPainter>
+#include <QPainterPath>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTest>
 #include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls/column_delegate.h"
 #include "ui/panels/stages/curves/curve_list.h"
+#include "ui/panels/stages/fairing_figures.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
 
@@ -249,6 +252,63 @@ TEST_F(Layout, TheListOfCurvesUsesTheRoomThereIs) {
     EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0);
     EXPECT_LT(list->height(), 25 * row) << "no longer than its curves";
   }
+}
+
+TEST_F(Layout, TheListOfCurvesStaysUnderTheMouseThatClicksIt) {
+  openPage(test::drawnPage({640, 400}, [](QPainter& painter) {
+    painter.drawLine(40, 40, 600, 60);
+    painter.drawEllipse(60, 100, 220, 160);
+    QPainterPath wave({320, 300});
+    wave.cubicTo({400, 100}, {500, 500}, {610, 150});
+    painter.drawPath(wave);
+  }));
+  window_->setStage(PanelStage::Fairing);
+  QTest::mouseClick(find<QAbstractButton>("fairing.mode.tolerance"), Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  auto* list = find<QWidget>("panel.fairing")->findChild<CurveList*>();
+  ASSERT_EQ(list->count(), 3);
+  std::set<int> places;
+  std::set<bool> isSaid;
+  for (int row = 0; row < list->count(); ++row) {
+    QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, list->visualItemRect(list->item(row)).center());
+    ASSERT_TRUE(settle());
+    ASSERT_EQ(session().selectedCurve(), row);
+    ASSERT_TRUE(waitUntil([this] { return !session().isTargeting(); }));
+    QTest::qWait(30);
+    places.insert(list->mapTo(window_.get(), QPoint(0, 0)).y());
+    isSaid.insert(!fairingNote(*session().selected()).text.isEmpty());
+  }
+  EXPECT_EQ(isSaid.size(), 2u) << "of one curve something is said, of another nothing";
+  EXPECT_EQ(places.size(), 1u);
+}
+
+TEST_F(Layout, CornersAreShownFromTheEdgesOnAndWhereTheyAreMarked) {
+  openPage(test::zigzagPage());
+  auto* canvas = find<CurveCanvas>("canvas");
+  const auto isSeen = [&] {
+    const QImage with = canvas->grab().toImage();
+    window_->view().setVisible(Layer::Corners, !window_->view().isVisible(Layer::Corners));
+    const QImage other = canvas->grab().toImage();
+    window_->view().setVisible(Layer::Corners, !window_->view().isVisible(Layer::Corners));
+    return with != other && window_->view().isVisible(Layer::Corners);
+  };
+  window_->setStage(PanelStage::Corners);
+  clickCanvas({200, 100});
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().recipe().cornerMarks.size(), 1u);
+  for (const PanelStage stage : kPanelStages) {
+    window_->setStage(stage);
+    window_->action(ActionId::ToolSelect)->trigger();
+    EXPECT_EQ(isSeen(), stage >= PanelStage::Edges) << label(stage).toStdString();
+  }
+  // Where they are marked they are seen in any stage.
+  window_->setStage(PanelStage::Threshold);
+  window_->action(ActionId::ToolSelect)->trigger();
+  const QImage without = canvas->grab().toImage();
+  window_->action(ActionId::ToolCorners)->trigger();
+  const QPoint at = canvas->toWidget(session().recipe().cornerMarks[0].positionPx).toPoint();
+  const QRect around(at - QPoint(8, 8), QSize(17, 17));
+  EXPECT_NE(canvas->grab().toImage().copy(around), without.copy(around));
 }
 
 TEST_F(Layout, ButtonsStayWhereTheyAreWhileListsGrow) {

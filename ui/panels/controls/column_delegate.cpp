@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 constexpr int kBeforePx = 6;  ///< Left of the first column.
-constexpr int kBetweenPx = 12;
+constexpr int kBetweenPx = 10;
 constexpr QChar kTab = u'\t';
 
 QFont rowFont() { return uiFont(12); }
@@ -68,8 +68,12 @@ void ColumnDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option
   const bool isSelected = row.state.testFlag(QStyle::State_Selected);
   painter->setPen(row.palette.color(isSelected ? QPalette::HighlightedText : QPalette::Text));
   const QStringList parts = index.data(Qt::DisplayRole).toString().split(kTab);
-  for (int c = 0; c < std::ssize(alignments_) && c < parts.size(); ++c)
-    painter->drawText(columnRect(option.rect, c), Qt::AlignVCenter | alignments_[c], parts[c]);
+  for (int c = 0; c < std::ssize(alignments_) && c < parts.size(); ++c) {
+    const QRect box = columnRect(option.rect, c);
+    const bool goesOn = c + 1 == std::ssize(alignments_);
+    painter->drawText(box, Qt::AlignVCenter | alignments_[c],
+                      goesOn ? painter->fontMetrics().elidedText(parts[c], Qt::ElideRight, box.width()) : parts[c]);
+  }
   painter->restore();
 }
 

@@ -14,6 +14,7 @@ class HintList : public QListWidget {
   HintList(const QString& hint, int rows, QWidget* parent) : QListWidget(parent), hint_(hint) {
     setFixedHeight(rows * kRowPx + 2 * frameWidth());
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   }
   /// As many more rows as the layout has room for: for the last of a panel, below which nothing moves.
   void useRoomBelow() {

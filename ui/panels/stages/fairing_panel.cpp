@@ -345,7 +345,10 @@ void FairingPanel::refreshFigures() {
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
   note_->setText(said.text);
-  note_->setVisible(!said.text.isEmpty());
+  // The usual two lines keep their place, so that the list does not move away under a click on one of its rows.
+  note_->setMinimumHeight(2 * note_->fontMetrics().lineSpacing());
+  note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  note_->setVisible(curve != nullptr);
   if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
   raise_->setVisible(said.neededMm.has_value());
 }

@@ -7,6 +7,7 @@
 #include <QPainter>
 #include <QPointer>
 #include <QStyledItemDelegate>
+#include <QTimer>
 #include <algorithm>
 
 #include "ui/panels/controls/panel_parts.h"
@@ -144,6 +145,13 @@ CurveList::~CurveList() = default;
 void CurveList::showEvent(QShowEvent* event) {
   QListWidget::showEvent(event);
   judge();
+  if (wasSeen_) return;
+  wasSeen_ = true;
+  // The row selected was scrolled to when the list had no height yet, which left the first ones above it.
+  QTimer::singleShot(0, this, [this] {
+    scrollToTop();
+    scrollTo(currentIndex());
+  });
 }
 
 QSize CurveList::sizeHint() const { return {240, heightOfRows(std::min(count(), kLeastRows))}; }
