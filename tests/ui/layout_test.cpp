@@ -252,6 +252,20 @@ TEST_F(Layout, TheListOfCurvesUsesTheRoomThereIs) {
     EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0);
     EXPECT_LT(list->height(), 25 * row) << "no longer than its curves";
   }
+  // So does the list of what is exported.
+  window_->setStage(PanelStage::Export);
+  find<QComboBox>("export.choice")->setFocus();
+  QTest::keyClick(find<QComboBox>("export.choice"), Qt::Key_End);
+  auto* ticks = find<QListWidget>("export.list");
+  ASSERT_TRUE(waitUntil([&] { return ticks->isVisible() && ticks->count() == 24; }));
+  const int line = ticks->sizeHintForRow(0);
+  EXPECT_TRUE(waitUntil([&] { return ticks->height() >= 24 * line; }, 5000)) << ticks->height() / line;
+  const int gap = find<QWidget>("export.all")->mapTo(window_.get(), QPoint(0, 0)).y() -
+                  ticks->mapTo(window_.get(), QPoint(0, ticks->height())).y();
+  EXPECT_LT(gap, 20) << "what is below follows at once";
+  window_->resize(1366, 700);
+  ASSERT_TRUE(waitUntil([&] { return window_->height() == 700; }, 5000));
+  EXPECT_TRUE(waitUntil([&] { return ticks->height() < 9 * line; }, 5000)) << ticks->height() / line;
 }
 
 TEST_F(Layout, TheListOfCurvesStaysUnderTheMouseThatClicksIt) {

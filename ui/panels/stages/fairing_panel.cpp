@@ -348,7 +348,8 @@ void FairingPanel::refreshFigures() {
   // The usual two lines keep their place, so that the list does not move away under a click on one of its rows.
   note_->setMinimumHeight(2 * note_->fontMetrics().lineSpacing());
   note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  note_->setVisible(curve != nullptr);
+  const bool isFairing = shown(session_.recipe()).mode != FairingMode::None;
+  note_->setVisible(curve != nullptr && (isFairing || !said.text.isEmpty()));
   if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
   raise_->setVisible(said.neededMm.has_value());
 }
