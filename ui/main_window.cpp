@@ -247,15 +247,15 @@ void MainWindow::enterStage(PanelStage stage) {
   switch (stage) {
     case PanelStage::Scan:
       turn(true, {Layer::LogImage});
-      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb});
+      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners});
       break;
     case PanelStage::Threshold:
       turn(true, {Layer::Mask, Layer::Regions});
-      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb});
+      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners});
       break;
     case PanelStage::CleanUp:
       turn(true, {Layer::Mask});
-      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb});
+      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners});
       break;
     case PanelStage::Edges:
       turn(true, {Layer::Edges, Layer::Curve, Layer::Fallback});

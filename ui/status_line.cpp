@@ -170,11 +170,12 @@ void StatusLine::refreshScale() {
   setScale_->setVisible(assumed);
   if (assumed) return;
   const PageFrame frame = frameFor(*session_.scan(), session_.recipe());
-  scale_->setText(
-      tr("%1 dpi · %2").arg(resolutionText(own ? *own : session_.scan()->dpi.value_or(0.0)), pageSizeText(frame)));
-  scale_->setToolTip(session_.recipe().scaleLine ? tr("Resolution measured on the drawing, and the size of the page")
-                     : own                       ? tr("Resolution set by you, and the size of the page")
-                                                 : tr("Resolution from the file, and the size of the page"));
+  // The size of the page stands in the corner of the drawing.
+  scale_->setText(tr("%1 dpi").arg(resolutionText(own ? *own : session_.scan()->dpi.value_or(0.0))));
+  const QString origin = session_.recipe().scaleLine ? tr("Resolution measured on the drawing; the page is %1.")
+                         : own                       ? tr("Resolution set by you; the page is %1.")
+                                                     : tr("Resolution from the file; the page is %1.");
+  scale_->setToolTip(origin.arg(pageSizeText(frame)));
 }
 
 void StatusLine::refreshWork() {

@@ -9,6 +9,7 @@
 
 #include "app/cli/exit_codes.h"
 #include "app/cli/shown_digits.h"
+#include "core/base/name_text.h"
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/exchange/curve_file.h"
@@ -78,7 +79,7 @@ int runCompare(const std::string& first, const std::string& second) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const Json& x, const Json& y) {
     return x.at("similarity").get<double>() > y.at("similarity").get<double>();
   });
-  const Json result{{"first", first}, {"second", second}, {"pairs", pairs}};
+  const Json result{{"first", nameText(first)}, {"second", nameText(second)}, {"pairs", pairs}};
   std::cout << withoutControls(result.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
   return endOutput();
 }

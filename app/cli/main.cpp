@@ -27,7 +27,9 @@ using namespace batten::cli;
 
 std::string footer() {
   return "Exit codes: " + exitCodeHelp() +
-         ".\nAn error is one line on stderr. stdout holds only what programs can read.";
+         ".\nAn error is one line on stderr. stdout holds only what programs can read. In its names a byte that is no "
+         "UTF-8 "
+         "is \\xHH, and a backslash before such a form is \\x5c.";
 }
 
 std::string dumpHelp() {

@@ -12,6 +12,7 @@
 #include "app/cli/shown_digits.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/angle.h"
+#include "core/base/name_text.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
 #include "core/contour/corner/corner_certainty.h"
@@ -76,7 +77,7 @@ int runSuggest(const TraceArguments& arguments) {
   const auto advice = adviceFor(arguments);
   if (!advice) return reportError(advice.error());
   nlohmann::ordered_json json{
-      {"scan", arguments.scan},
+      {"scan", nameText(arguments.scan)},
       {"edges.merge", withDecimals(advice->merge.widths.value_or(0.0), 3)},
       {"edges.intent", advice->merge.meant.has_value()},
       {"strokes", advice->merge.strokes},

@@ -15,6 +15,7 @@
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
+#include "core/base/name_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
@@ -88,8 +89,11 @@ class Trace {
   }
 
   std::string summary() const {
-    nlohmann::ordered_json json{{"scan", arguments_.scan}};
-    if (!arguments_.imports.empty()) json["imports"] = arguments_.imports;
+    nlohmann::ordered_json json{{"scan", nameText(arguments_.scan)}};
+    if (!arguments_.imports.empty()) {
+      auto& imports = json["imports"] = nlohmann::ordered_json::array();
+      for (const std::string& name : arguments_.imports) imports.push_back(nameText(name));
+    }
     if (scan_.pages > 1) json["page"] = scan_.page.number;
     json["curves"] = curves_;
     json["pieces"] = pieces_;
@@ -117,7 +121,7 @@ class Trace {
 
   Result<void> save(const std::filesystem::path& path, std::string_view bytes) {
     auto saved = saveAtomically(path, bytes);
-    if (saved) files_.push_back(path.string());
+    if (saved) files_.push_back(nameText(path.string()));
     return saved;
   }
 
@@ -164,11 +168,11 @@ class Trace {
     for (const auto& output : plan_.outputs) {
       const auto report = exportToFile(document, output.settings, output.path, context_);
       if (!report) return fail(report.error());
-      files_.push_back(output.path.string());
-      checks_.push_back(output.path.filename().string() + ": " + sentenceOf(*report));
+      files_.push_back(nameText(output.path.string()));
+      checks_.push_back(nameText(output.path.filename().string()) + ": " + sentenceOf(*report));
     }
     if (auto written = writeReportPages(plan_.reports, scan_, plan_.recipe, out_, context_); !written) return written;
-    for (const auto& report : plan_.reports) files_.push_back(report.path.string());
+    for (const auto& report : plan_.reports) files_.push_back(nameText(report.path.string()));
     return {};
   }
 
@@ -278,7 +282,7 @@ class Trace {
   PipelineOutput out_;
   std::optional<Explanation> explanation_;
   std::size_t curves_ = 0, pieces_ = 0;
-  std::vector<std::string> files_, checks_;
+  std::vector<std::string> files_, checks_;  ///< Names as nameText gives them.
 };
 
 }  // namespace
@@ -290,7 +294,7 @@ int reportPage(const TraceArguments& arguments, Error error) {
   const std::string why = error.message;
   error.message = "Page " + arguments.page + ": " + why;
   const int code = reportError(error);
-  const nlohmann::ordered_json json{{"scan", arguments.scan},
+  const nlohmann::ordered_json json{{"scan", nameText(arguments.scan)},
                                     {"page", integerFromText(arguments.page).value_or(0)},
                                     {"curves", 0},
                                     {"pieces", 0},

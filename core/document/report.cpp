@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/angle.h"
+#include "core/base/name_text.h"
 #include "core/construct/pieces.h"
 #include "core/document/curve_series.h"
 #include "core/fairing/fairing.h"
@@ -418,7 +419,7 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
                          const ReportExtras& extras) {
   Json json{{"format", "batten-report"}, {"version", 1}};
   const std::optional<double> dpi = recipe.dpi ? recipe.dpi : scan.dpi;
-  json["image"] = {{"path", scan.path},
+  json["image"] = {{"path", nameText(scan.path)},
                    {"format", scan.info.format},
                    {"width", scan.grey.width},
                    {"height", scan.grey.height},
@@ -449,7 +450,7 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
                      {"message", out.error->message}};
   }
   json["peak_memory_bytes"] = extras.peakMemoryBytes > 0 ? Json(extras.peakMemoryBytes) : Json(nullptr);
-  // Paths come from the system in any encoding: what is not UTF-8 is replaced, never thrown over.
+  // Texts of other programs may hold anything: what is not UTF-8 is replaced, never thrown over.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

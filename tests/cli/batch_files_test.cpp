@@ -129,17 +129,34 @@ TEST_F(BatchFiles, NamesAreTheirBytes) {
   EXPECT_TRUE(fs::exists(file("out/" + name + ".svg")));
   EXPECT_EQ(count(readFile(file("s.html")), "figure class=\"done\""), 1);
   EXPECT_NE(readFile(file("s.html")).find("out/Entw%FCrfe%20%221%22%5C%F0%9F%9A%97%20%C3%BC.svg"), std::string::npos);
-  EXPECT_NE(readFile(file("r")).find("Entw\\udcfcrfe"), std::string::npos) << readFile(file("r"));
+  EXPECT_NE(readFile(file("r")).find("Entw\\\\xfcrfe"), std::string::npos) << readFile(file("r"));
   ASSERT_EQ(run("batch " + file("in") + " --to " + file("out") + " --write-manifest " + file("m.jsonl")).code, 0);
-  EXPECT_NE(readFile(file("m.jsonl")).find("Entw\\udcfcrfe"), std::string::npos);
+  EXPECT_NE(readFile(file("m.jsonl")).find("Entw\\\\xfcrfe"), std::string::npos);
   EXPECT_EQ(run("batch " + file("m.jsonl") + " --results " + file("r")).code, 0);
   EXPECT_EQ(linesIn(file("r")), 1) << "the manifest names the same files";
-  // A manifest that was written with the bytes themselves.
-  std::string raw = readFile(file("m.jsonl"));
-  while (raw.find("\\udcfc") != std::string::npos) raw.replace(raw.find("\\udcfc"), 6, "\xfc");
-  write("m.jsonl", raw);
-  EXPECT_EQ(run("batch " + file("m.jsonl") + " --results " + file("r")).code, 0);
-  EXPECT_EQ(linesIn(file("r")), 1);
+  for (const json& each : linesOf(readFile(file("r")))) EXPECT_TRUE(each["scan"].is_string());
+  // Manifests of other programs: with the bytes themselves, and as Python writes them.
+  const std::string ours = readFile(file("m.jsonl")), form = "\\\\xfc";
+  for (const std::string& theirs : {std::string("\xfc"), std::string("\\udcfc")}) {
+    std::string raw = ours;
+    while (raw.find(form) != std::string::npos) raw.replace(raw.find(form), form.size(), theirs);
+    write("m.jsonl", raw);
+    EXPECT_EQ(run("batch " + file("m.jsonl") + " --results " + file("r")).code, 0);
+    EXPECT_EQ(linesIn(file("r")), 1) << theirs;
+  }
+}
+
+TEST_F(BatchFiles, ANameThatLooksLikeABytesFormIsAnother) {
+  fs::create_directory(file("in"));
+  drawPage("in/\xff");
+  drawPage("in/\\xff");
+  const auto done = run("batch " + file("in") + " --to " + file("out"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  std::set<std::string> scans;
+  for (const json& each : linesOf(done.out)) scans.insert(fs::path(each["scan"].get<std::string>()).filename());
+  EXPECT_EQ(scans, (std::set<std::string>{"\\xff.png", "\\x5cxff.png"}));
+  EXPECT_TRUE(fs::exists(file("out/\xff.svg")));
+  EXPECT_TRUE(fs::exists(file("out/\\xff.svg")));
 }
 
 TEST_F(BatchFiles, TwoCallsShareThePagesAndTellEachOnce) {

@@ -71,7 +71,13 @@ TEST_F(HostileInput, NamesAreBytes) {
   ASSERT_EQ(two.code, 0) << two.err;
   EXPECT_NE(test::readFile(file("\xff.svg")), "");
   EXPECT_NE(test::readFile(file("\xfe.svg")), "");
-  EXPECT_EQ(json::parse(two.out)["files"].size(), 2u);
+  EXPECT_EQ(json::parse(two.out)["files"], json::array({file("\\xff.svg"), file("\\xfe.svg")}));
+  for (const char* mark : {"\xef\xbf\xbd", "\\udc"}) EXPECT_EQ(two.out.find(mark), std::string::npos) << two.out;
+  write("\xfd.png", test::readFile(scan));
+  const Outcome own = run("trace '" + file("\xfd.png") + "' -o '" + file("\xfd.json") + "'");
+  ASSERT_EQ(own.code, 0) << own.err;
+  EXPECT_EQ(json::parse(own.out)["scan"], (folder_ / "\\xfd.png").string());
+  EXPECT_EQ(json::parse(own.out)["checks"][0].get<std::string>().find("\\xfd.json: "), 0u) << own.out;
   // A scan whose name is what a lossy reading would make of another name.
   const std::string lossy = file("\xef\xbf\xbd.png"), bytes = test::readFile(scan);
   write("\xef\xbf\xbd.png", bytes);

@@ -50,7 +50,7 @@ TEST_F(TrueSize, AKnownLengthIsMeasuredOnTheDrawing) {
   ASSERT_TRUE(session().recipe().scaleLine);
   EXPECT_NEAR(*session().recipe().dpi, px / 4.0, 1e-6);
   EXPECT_NEAR(session().recipe().scaleLine->lengthMm, 101.6, 1e-9);
-  const QString status = find<QLabel>("status.scale")->text();
+  const QString status = find<QLabel>("status.scale")->toolTip();
   EXPECT_TRUE(status.contains(QStringLiteral(" mm"))) << status.toStdString();
   // An end that is dragged keeps the length.
   drag({500, 200}, {300, 200});
@@ -122,7 +122,9 @@ TEST_F(TrueSize, PaperAndWidthSayItToo) {
   QTest::keyClick(paper, Qt::Key_Down);
   ASSERT_EQ(paper->currentText(), QStringLiteral("A4"));
   EXPECT_NEAR(*session().recipe().dpi, 50.8, 1e-9);
-  EXPECT_TRUE(find<QLabel>("status.scale")->text().contains(QStringLiteral("297.0 × 210.0 mm")));
+  const auto* status = find<QLabel>("status.scale");
+  EXPECT_TRUE(status->toolTip().contains(QStringLiteral("297.0 × 210.0 mm"))) << status->toolTip().toStdString();
+  EXPECT_FALSE(status->text().contains(QStringLiteral("mm"))) << "the chip on the drawing says it";
   type(find<QLineEdit>("scale.width"), QStringLiteral("594"));
   EXPECT_NEAR(*session().recipe().dpi, 25.4, 1e-9);
   type(find<QLineEdit>("scale.width"), QStringLiteral("10 in"));

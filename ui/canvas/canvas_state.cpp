@@ -282,7 +282,7 @@ void CurveCanvas::State::paint(QPainter& painter) {
       paintSpans(painter, *this);
     }
     if (areExtremaShown()) paintExtrema(painter, *this);
-    if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
+    if (view.isVisible(Layer::Corners) || view.tool() == Tool::Corners) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
     paintSegmentPoints(painter, *this);
     if (!ghost.isEmpty()) paintGhost(painter, *this, ghost);

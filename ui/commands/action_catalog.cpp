@@ -100,7 +100,7 @@ std::vector<ActionInfo> viewActions() {
        tr("Show the uncertainty of the curvature due to scan noise in the comb."), true},
       {ShowStrokes, "show-strokes", menu, tr("Strokes"), keys({"Alt+S"}),
        tr("Show stroke widths, merged strokes and bridged gaps."), true},
-      {ShowFallback, "show-fallback", menu, tr("Unplaced points"), keys({"Alt+U"}),
+      {ShowFallback, "show-fallback", menu, tr("Points not located"), keys({"Alt+U"}),
        tr("Show points that could not be located on the grey values of the scan."), true},
   };
 }

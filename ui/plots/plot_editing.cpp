@@ -106,9 +106,8 @@ bool PlotEditing::isOnTarget(const QPoint& position) const {
   const double s = plot_->xAxis->pixelToCoord(position.x());
   for (const PlotSeries& series : data_.series) {
     if (series.role != PlotRole::ChosenTarget && series.role != PlotRole::DrawnTarget) continue;
-    const auto at = std::lower_bound(series.s.begin(), series.s.end(), s);
-    if (at == series.s.end()) continue;
-    const double y = plot_->yAxis->coordToPixel(series.value[at - series.s.begin()]);
+    if (series.s.empty()) continue;
+    const double y = plot_->yAxis->coordToPixel(series.at(s));
     if (std::abs(y - position.y()) < kLineReachPx) return true;
   }
   return false;

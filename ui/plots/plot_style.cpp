@@ -81,11 +81,8 @@ QVector<double> RoundLogTicker::createTickVector(double, const QCPRange& range) 
 }
 
 QString RoundLogTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
-  return QString::number(tick, tick < 1e6 && tick > 1e-4 ? 'f' : 'g',
-                         tick < 1.0    ? 3
-                         : tick < 10.0 ? 1
-                                       : 0)
-      .remove(QStringLiteral(".0"));
+  constexpr int kDigits = 6;  // without zeros behind them: "0.1", "0.25", "5", "1000"
+  return QString::number(tick, 'g', kDigits);
 }
 
 double PlainTicker::getTickStep(const QCPRange& range) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "ui/theme/theme.h"
 
@@ -14,6 +16,8 @@ namespace {
 constexpr int kSlots = 24;             // places along the shown stretch that are tried
 constexpr double kApartPx = 18.0;      // between two numbers
 constexpr double kFromCurvePx = 10.0;  // half the height of a number, and a little
+constexpr double kFromOthersPx = 4.0;  // from the lines of other targets: so that it is seen on which one it stands
+constexpr double kLookPx = 3.0;        // between the places of a line that are looked at
 constexpr double kFromEdgePx = 8.0;    // of the plot
 
 bool isTarget(const PlotSeries& series) {
@@ -52,35 +56,53 @@ void TargetLabels::show(const PlotData& data) {
   place();
 }
 
-bool TargetLabels::placeOne(std::size_t line, bool clear, std::vector<QPointF>& taken) {
+/// How far a line passes by a place, looked at as far around it as a number reaches.
+double TargetLabels::passesBy(const PlotSeries& line, const QPointF& place) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  std::optional<double> before;
+  for (double dx = -kFromCurvePx; dx <= kFromCurvePx; dx += kLookPx) {
+    const double dy = plot_->yAxis->coordToPixel(line.at(plot_->xAxis->pixelToCoord(place.x() + dx))) - place.y();
+    // A steep line passes between two places that are both far away.
+    const bool isCrossed = before && (*before < 0.0) != (dy < 0.0);
+    nearest = std::min(nearest, isCrossed ? std::abs(dx) : std::hypot(dx, dy));
+    before = dy;
+  }
+  return nearest;
+}
+
+void TargetLabels::placeOne(std::size_t line, std::vector<QPointF>& taken) {
   const QCPRange shown = plot_->xAxis->range();
   const QRectF inside =
       QRectF(plot_->axisRect()->rect()).adjusted(kFromEdgePx, kFromEdgePx, -kFromEdgePx, -kFromEdgePx);
-  // Each begins at a place of its own and looks on from there.
+  // Each begins at a place of its own and looks on from there for one that is clear, or as clear as there is.
   const int first = (static_cast<int>(line) * kSlots / static_cast<int>(lines_.size()) + kSlots / 12) % kSlots;
-  for (int k = 0; k < kSlots; ++k) {
+  double best = 0.0;
+  std::optional<QPointF> found;
+  for (int k = 0; k < kSlots && best < 1.0; ++k) {
     const double s = shown.lower + shown.size() * ((first + k) % kSlots + 0.5) / kSlots;
-    const double value = lines_[line].at(s);
-    const QPointF at(plot_->xAxis->coordToPixel(s), plot_->yAxis->coordToPixel(value));
+    const QPointF at(plot_->xAxis->coordToPixel(s), plot_->yAxis->coordToPixel(lines_[line].at(s)));
     const auto isNear = [&](const QPointF& other) {
       return std::hypot(other.x() - at.x(), other.y() - at.y()) < kApartPx;
     };
-    const auto isOnCurve = [&](const PlotSeries& curve) {
-      return std::abs(plot_->yAxis->coordToPixel(curve.at(s)) - at.y()) < kFromCurvePx;
-    };
     if (!std::isfinite(at.y()) || !inside.contains(at) || std::any_of(taken.begin(), taken.end(), isNear)) continue;
-    if (clear && std::any_of(curves_.begin(), curves_.end(), isOnCurve)) continue;
-    texts_[line]->position->setCoords(s, value);
-    taken.push_back(at);
-    return true;
+    double clear = 1.0;
+    for (const PlotSeries& curve : curves_) clear = std::min(clear, passesBy(curve, at) / kFromCurvePx);
+    for (std::size_t other = 0; other < lines_.size(); ++other)
+      if (other != line) clear = std::min(clear, passesBy(lines_[other], at) / kFromOthersPx);
+    if (found && clear <= best) continue;
+    best = clear;
+    found = at;
   }
-  return false;
+  texts_[line]->setVisible(found.has_value());
+  if (!found) return;
+  texts_[line]->position->setCoords(plot_->xAxis->pixelToCoord(found->x()), plot_->yAxis->pixelToCoord(found->y()));
+  taken.push_back(*found);
 }
 
 void TargetLabels::place() {
   std::vector<QPointF> taken;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (texts_[i]) texts_[i]->setVisible(placeOne(i, true, taken) || placeOne(i, false, taken));
+    if (texts_[i]) placeOne(i, taken);
   }
 }
 

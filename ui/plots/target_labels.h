@@ -13,7 +13,8 @@ class QCustomPlot;
 namespace batten {
 
 /// The numbers of the six targets on their lines in a plot, each where its line is inside the plot and clear of the
-/// other numbers and, where there is such a place, of the curves. They follow the stretch that is shown.
+/// other numbers, and as clear of the curves and of the other targets as there is a place. They follow the stretch that
+/// is shown.
 class TargetLabels {
  public:
   explicit TargetLabels(QCustomPlot* plot) : plot_(plot) {}
@@ -24,8 +25,8 @@ class TargetLabels {
 
  private:
   QCustomPlot* plot_;
-  /// @param clear whether the number keeps off the curves, too. @return whether there was a place.
-  bool placeOne(std::size_t line, bool clear, std::vector<QPointF>& taken);
+  void placeOne(std::size_t line, std::vector<QPointF>& taken);
+  double passesBy(const PlotSeries& line, const QPointF& place) const;
   std::vector<PlotSeries> lines_, curves_;
   std::vector<QPointer<QCPItemText>> texts_;
 };

@@ -33,19 +33,20 @@ QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
   // Seen along the line, whichever way it runs: where it bends most, or least.
   const bool isPeak = note.maximum == (note.kappa > 0.0);
   QString text = isPeak ? extremumText("Curvature maximum") : extremumText("Curvature minimum");
-  const QString cost = QString::number(note.removalCost, 'f', note.removalCost < 9.95 ? 1 : 0);
-  const QString chi = QStringLiteral(" (χ² %1)").arg(cost);
+  const auto rounded = [](double cost) { return QString::number(cost, 'f', cost < 9.95 ? 1 : 0); };
+  const QString significance =
+      extremumText(" (significance %1, %2 asked)").arg(rounded(note.removalCost), rounded(note.askedCost));
   text += QStringLiteral(" · ");
   if (note.kept) {
     text += (mark.isCertain                       ? extremumText("certain")
              : note.removalCost >= note.askedCost ? extremumText("probable")
                                                   : extremumText("not certain")) +
-            chi;
+            significance;
   } else {
     text += (note.removalCost >= note.askedCost         ? extremumText("drawn, but removed")
              : note.removalCost >= 0.5 * note.askedCost ? extremumText("doubtful, dropped")
                                                         : extremumText("noise, dropped")) +
-            chi;
+            significance;
   }
   if (mark.wantedToKeep) {
     text += *mark.wantedToKeep == note.kept

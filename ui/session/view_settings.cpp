@@ -42,7 +42,7 @@ QString label(Layer layer) {
     case Layer::Strokes:
       return QObject::tr("Strokes");
     case Layer::Fallback:
-      return QObject::tr("Unplaced points");
+      return QObject::tr("Points not located");
   }
   return {};
 }

@@ -11,6 +11,8 @@
 #include <QStyleFactory>
 #include <optional>
 
+#include "ui/theme/tool_tips.h"
+
 namespace batten {
 namespace {
 
@@ -98,6 +100,12 @@ void applyTheme(ThemeChoice choice) {
   if (QApplication::style()->name().compare(QLatin1String("fusion"), Qt::CaseInsensitive) != 0 ||
       qApp->styleSheet().isEmpty())
     QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  static const auto* const tips = [] {
+    auto* lines = new ToolTipLines(qApp);
+    qApp->installEventFilter(lines);
+    return lines;
+  }();
+  Q_UNUSED(tips);
   QApplication::setFont(uiFont());
   QApplication::setPalette(paletteOf(theme));
   qApp->setStyleSheet(sheetOf(theme));

@@ -15,6 +15,7 @@
 #include "app/cli/batch/name_json.h"
 #include "app/cli/file_names.h"
 #include "core/base/json_text.h"
+#include "core/base/name_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
@@ -40,7 +41,9 @@ constexpr int kAllPages = 0;  // stands in BatchPage::page until the scan's page
 
 /// Takes one entry of a line over; what is wrong with it, if anything.
 std::optional<std::string> takeEntry(const std::string& key, const Json& value, BatchPage& page) {
-  const auto nameIn = [](const Json& one) { return one.is_string() ? nameOf(one.get<std::string>()) : std::string(); };
+  const auto nameIn = [](const Json& one) {
+    return one.is_string() ? nameOfText(one.get<std::string>()) : std::string();
+  };
   const auto isText = [&](const Json& one) {
     const std::string name = nameIn(one);
     return !name.empty() && name.find('\0') == std::string::npos;
@@ -306,14 +309,14 @@ Result<std::vector<BatchPage>> readManifest(std::string_view text, const PageDef
 
 std::string manifestLine(const BatchPage& page) {
   Json outputs = Json::array(), settings = Json::array();
-  for (const std::string& output : page.outputs) outputs.push_back(jsonText(output));
-  for (const std::string& setting : page.settings) settings.push_back(jsonText(setting));
-  Json json{{"scan", jsonText(page.scan)}, {"outputs", outputs}};
-  if (!page.recipe.empty()) json["recipe"] = jsonText(page.recipe);
+  for (const std::string& output : page.outputs) outputs.push_back(nameText(output));
+  for (const std::string& setting : page.settings) settings.push_back(nameText(setting));
+  Json json{{"scan", nameText(page.scan)}, {"outputs", outputs}};
+  if (!page.recipe.empty()) json["recipe"] = nameText(page.recipe);
   if (!page.settings.empty()) json["set"] = settings;
   if (page.dpi) json["dpi"] = *page.dpi;
   if (page.page != 1) json["page"] = page.page;
-  return lineWithNames(json);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string recordName(const BatchPage& page) { return page.outputs.front() + ".batch.json"; }

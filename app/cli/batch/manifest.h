@@ -33,7 +33,7 @@ struct PageDefaults {
 
 /// Reads a manifest: one JSON object a line, {"scan": NAME, "outputs": [NAME…], "recipe": NAME, "set": {NAME: VALUE…}
 /// or ["NAME=VALUE"…], "dpi": NUMBER, "page": NUMBER or "all"}; the first two are needed. "all" stands for every page
-/// of the scan, with -p1, -p2 … behind the names of the outputs. Names are bytes (see name_json.h). Blank lines are
+/// of the scan, with -p1, -p2 … behind the names of the outputs. Names are bytes (see name_text.h). Blank lines are
 /// passed over.
 /// @return BadParameter that names the line: no JSON, an unknown key, a wrong type, an output of two pages, an output
 /// that is a scan, a recipe or a record of the manifest, be it by way of links.

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <span>
 
-#include "app/cli/batch/name_json.h"
 #include "core/base/content_hash.h"
 #include "core/base/json_text.h"
+#include "core/base/name_text.h"
 #include "core/base/regular_file.h"
 #include "core/exchange/save_atomically.h"
 
@@ -41,15 +41,15 @@ std::string lineOf(const Json& json) { return json.dump(-1, ' ', false, Json::er
 
 std::string resultLine(const BatchPage& page, const PageResult& result) {
   Json outputs = Json::array();
-  for (const std::string& output : page.outputs) outputs.push_back(jsonText(output));
+  for (const std::string& output : page.outputs) outputs.push_back(nameText(output));
   Json json{
-      {"line", page.line}, {"scan", jsonText(page.scan)}, {"outputs", outputs}, {"status", wordOf(result.status)}};
+      {"line", page.line}, {"scan", nameText(page.scan)}, {"outputs", outputs}, {"status", wordOf(result.status)}};
   if (result.exitCode) json["exit"] = *result.exitCode;
   json["seconds"] = result.seconds;
   if (!result.error.empty()) json["error"] = result.error;
   for (const auto& [key, value] : result.figures.items()) json[key] = value;
   if (!result.key.empty()) json["key"] = result.key;
-  return lineWithNames(json);
+  return lineOf(json);
 }
 
 std::optional<std::string> fileHash(const std::string& name) {

@@ -6,14 +6,20 @@
 
 namespace batten {
 
-/// A list of fixed height, so that what stands below it stays where it is while entries come and go. Empty, it says
-/// what will be in it.
+/// A list whose height does not depend on its entries, so that what stands below it stays where it is while entries
+/// come and go. Empty, it says what will be in it.
 class HintList : public QListWidget {
  public:
   /// @param rows how many entries are seen without scrolling.
   HintList(const QString& hint, int rows, QWidget* parent) : QListWidget(parent), hint_(hint) {
     setFixedHeight(rows * kRowPx + 2 * frameWidth());
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  }
+  /// As many more rows as the layout has room for: for the last of a panel, below which nothing moves.
+  void useRoomBelow() {
+    setMaximumHeight(QWIDGETSIZE_MAX);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);
   }
 
  protected:
@@ -22,7 +28,9 @@ class HintList : public QListWidget {
     if (count() > 0) return;
     QPainter painter(viewport());
     painter.setPen(palette().color(QPalette::PlaceholderText));
-    painter.drawText(viewport()->rect().adjusted(8, 4, -8, -4), Qt::AlignCenter | Qt::TextWordWrap, hint_);
+    QRect box = viewport()->rect().adjusted(8, 4, -8, -4);
+    box.setHeight(minimumHeight());
+    painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap, hint_);
   }
 
  private:

@@ -7,12 +7,12 @@
 #include <QLayout>
 #include <QPainter>
 #include <QPushButton>
-#include <QToolTip>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "ui/theme/theme.h"
+#include "ui/theme/tool_tips.h"
 
 namespace batten {
 namespace {
@@ -150,7 +150,7 @@ bool FigureTable::event(QEvent* event) {
     const auto* help = static_cast<QHelpEvent*>(event);
     const int index = help->pos().y() / kRowHeight - (columns_.isEmpty() ? 0 : 1);
     const bool inside = index >= 0 && index < static_cast<int>(rows_.size());
-    QToolTip::showText(help->globalPos(), inside ? rows_[index].help : QString(), this);
+    showToolTip(help->globalPos(), inside ? rows_[index].help : QString(), this);
     return true;
   }
   return QWidget::event(event);

@@ -16,6 +16,7 @@
 
 #include "core/base/angle.h"
 #include "core/contour/corner/corner_suggestions.h"
+#include "ui/panels/controls/column_delegate.h"
 #include "ui/panels/controls/hint_list.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
@@ -32,15 +33,23 @@ constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
 constexpr int kRows = 6;  // of the lists
 constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
 
-QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
+QString across(const Vec2& px) { return QString::number(px.x(), 'f', 1); }
+QString down(const Vec2& px) { return QCoreApplication::translate("CornersPanel", "%1 px").arg(px.y(), 0, 'f', 1); }
 
-/// "   rounded 2 mm", "   rounded R 2 mm"; empty for a sharp corner.
+/// Parts of the row in columns of their own.
+QListWidgetItem* addRow(QListWidget* list, const QStringList& parts) {
+  auto* item = new QListWidgetItem(ColumnDelegate::joined(parts), list);
+  item->setData(Qt::AccessibleTextRole, ColumnDelegate::spoken(parts));
+  item->setFont(uiFont(12));
+  return item;
+}
+
+/// "rounded 2 mm", "rounded R 2 mm"; empty for a sharp corner.
 QString roundingOf(const CornerMark& mark) {
   if (!(mark.roundMm > 0.0)) return {};
   const QString mm = shortMillimetres(mark.roundMm);
-  return QStringLiteral("   ") + (mark.roundBy == RoundingSize::Radius
-                                      ? QCoreApplication::translate("CornersPanel", "rounded R %1").arg(mm)
-                                      : QCoreApplication::translate("CornersPanel", "rounded %1").arg(mm));
+  return mark.roundBy == RoundingSize::Radius ? QCoreApplication::translate("CornersPanel", "rounded R %1").arg(mm)
+                                              : QCoreApplication::translate("CornersPanel", "rounded %1").arg(mm);
 }
 
 QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * kDegPerRad, 0, 'f', 0); }
@@ -108,6 +117,9 @@ void CornersPanel::buildMarks() {
   column()->addWidget(rounding_);
   marks_->setObjectName(QStringLiteral("corners.list"));
   marks_->setAccessibleName(tr("Marked corners"));
+  markColumns_ =
+      new ColumnDelegate({Qt::AlignRight, Qt::AlignRight, Qt::AlignRight, Qt::AlignRight, Qt::AlignLeft}, *marks_);
+  marks_->setItemDelegate(markColumns_);
   column()->addWidget(marks_);
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), marks_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &CornersPanel::removeSelected);
@@ -175,7 +187,10 @@ void CornersPanel::buildSuggestions() {
   column()->addLayout(buttons);
   suggested_->setObjectName(QStringLiteral("corners.suggestions"));
   suggested_->setAccessibleName(tr("Suggested corners"));
-  column()->addWidget(suggested_);
+  suggestedColumns_ = new ColumnDelegate({Qt::AlignRight, Qt::AlignRight, Qt::AlignRight}, *suggested_);
+  suggested_->setItemDelegate(suggestedColumns_);
+  suggested_->useRoomBelow();
+  column()->addWidget(suggested_, 1);
   const auto setAngle = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
   const auto setScale = [this](double px) { view_.setSuggestionScalePx(px); };
   const auto show = [](NumberField* field, SliderTrack* track, double value) {
@@ -225,22 +240,23 @@ void CornersPanel::refreshMarks() {
   filling_ = true;
   marks_->clear();
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    QString angle, what = place(marks[i].positionPx);
+    QString angle;
     bool lost = false;
     std::optional<int> same;
     if (pieces) {
       const auto corner = std::find_if(pieces->corners.begin(), pieces->corners.end(),
                                        [&](const Corner& c) { return c.mark == static_cast<int>(i); });
-      if (corner != pieces->corners.end()) angle = QStringLiteral("   ") + degrees(corner->turningAngleRad);
+      if (corner != pieces->corners.end()) angle = degrees(corner->turningAngleRad);
       for (const MarkPair& pair : pieces->sameCorner)
         if (static_cast<std::size_t>(pair.mark) == i) same = pair.other;
-      if (same) angle = tr("   same corner as %1").arg(*same + 1);
       lost =
           std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
     }
-    auto* item = new QListWidgetItem(
-        tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle + roundingOf(marks[i])), marks_);
-    item->setFont(uiFont(12));
+    const QString more = lost   ? tr("no line here")
+                         : same ? tr("same corner as %1").arg(*same + 1)
+                                : roundingOf(marks[i]);
+    const Vec2& at = marks[i].positionPx;
+    auto* item = addRow(marks_, {QString::number(i + 1), across(at), down(at), lost || same ? QString() : angle, more});
     if (lost) item->setForeground(theme.bad);
     item->setToolTip(same ? tr("Both marks snap to the same corner. Remove one, or reduce the corner reach if you mean "
                                "two corners.")
@@ -258,6 +274,7 @@ void CornersPanel::refreshMarks() {
   showFound();
   close_->setText(close.join(QLatin1Char('\n')));
   close_->setVisible(!close.empty());
+  markColumns_->measure();
   filling_ = false;
   removeAll_->setEnabled(!marks.empty());
   showSelected();
@@ -322,11 +339,10 @@ void CornersPanel::showSuggestions() {
                 [this](const CornerSuggestion& s) { return isMarked(s.positionPx) || isFound(s.positionPx); });
   suggested_->clear();
   for (const auto& suggestion : suggestions_) {
-    auto* item = new QListWidgetItem(
-        QStringLiteral("px %1   %2").arg(place(suggestion.positionPx), degrees(suggestion.turningAngleRad)),
-        suggested_);
-    item->setFont(uiFont(12));
+    const Vec2& at = suggestion.positionPx;
+    addRow(suggested_, {across(at), down(at), degrees(suggestion.turningAngleRad)});
   }
+  suggestedColumns_->measure();
   suggestedNote_->setText(suggestions_.empty()
                               ? QString()  // the empty list says so, and the note keeps its place
                               : counted(static_cast<qint64>(suggestions_.size()),

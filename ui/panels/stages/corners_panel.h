@@ -17,7 +17,9 @@ class QVBoxLayout;
 
 namespace batten {
 
+class ColumnDelegate;
 class CornerRounding;
+class HintList;
 class NumberField;
 class SliderTrack;
 
@@ -59,6 +61,7 @@ class CornersPanel : public QWidget {
   EditorSession& session_;
   ViewSettings& view_;
   QListWidget* marks_;
+  ColumnDelegate* markColumns_ = nullptr;
   QLabel* found_;  ///< How many corners count without a mark.
   QPushButton* restore_;
   QLabel* close_;  ///< Names corners that lie too close together.
@@ -69,7 +72,8 @@ class CornersPanel : public QWidget {
   SliderTrack* angleTrack_;
   NumberField* scale_;
   SliderTrack* scaleTrack_;
-  QListWidget* suggested_;
+  HintList* suggested_;
+  ColumnDelegate* suggestedColumns_ = nullptr;
   QLabel* suggestedNote_;
   QPushButton* take_;
   QPushButton* takeAll_;

@@ -37,18 +37,22 @@ std::optional<int> shownDegree(const EditorSession& session, const TracedCurve& 
 }
 
 void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& session, const TracedCurve& curve) {
+  if (!wasFaired(curve) || curve.fairingUsed.mode != FairingMode::Target || !isPolynomial(curve.fairingUsed.target))
+    return;
   const auto targets = session.targets();
   const auto degree = shownDegree(session, curve);
-  if (!targets || !wasFaired(curve) || curve.fairingUsed.mode != FairingMode::Target || !degree) return;
-  const TargetProfile& profile = targets->targets.profiles[*degree - 1];
+  // The rows stand there while the targets are computed, so that what is below them stays in its place.
+  const TargetProfile* profile = targets && degree ? &targets->targets.profiles[*degree - 1] : nullptr;
   const auto& after = curve.fairing.similarityAfter;
   rows.push_back({FairingPanel::tr("Similarity S"),
-                  {{similarityText(profile.similarity)}, after ? Cell{similarityText(*after)} : noFigure()},
+                  {profile ? Cell{similarityText(profile->similarity)} : noFigure(),
+                   after ? Cell{similarityText(*after)} : noFigure()},
                   FairingPanel::tr("Similarity of the sketched profile to the target; 1 is identical. Faired: "
                                    "similarity of the faired to the sketched profile. Of radii, or where the line has "
                                    "inflections, of curvatures.")});
   rows.push_back({FairingPanel::tr("Monotone target"),
-                  {noFigure(), {profile.isMonotone ? FairingPanel::tr("yes") : FairingPanel::tr("no")}},
+                  {noFigure(),
+                   profile ? Cell{profile->isMonotone ? FairingPanel::tr("yes") : FairingPanel::tr("no")} : noFigure()},
                   FairingPanel::tr("A monotone profile adds no curvature extremum.")});
 }
 

@@ -103,7 +103,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   buildProfiles();
   buildFigures();
   column->addWidget(caption(tr("Curves"), this));
-  column->addWidget(new CurveList(session, Judged::Result, this));
+  column->addWidget(new CurveList(session, Judged::Result, this), 1);
   column->addStretch();
   followSession();
   refresh();
@@ -345,7 +345,11 @@ void FairingPanel::refreshFigures() {
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
   note_->setText(said.text);
-  note_->setVisible(!said.text.isEmpty());
+  // The usual two lines keep their place, so that the list does not move away under a click on one of its rows.
+  note_->setMinimumHeight(2 * note_->fontMetrics().lineSpacing());
+  note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  const bool isFairing = shown(session_.recipe()).mode != FairingMode::None;
+  note_->setVisible(curve != nullptr && (isFairing || !said.text.isEmpty()));
   if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
   raise_->setVisible(said.neededMm.has_value());
 }

@@ -7,6 +7,7 @@
 #include <QPainter>
 #include <QPointer>
 #include <QStyledItemDelegate>
+#include <QTimer>
 #include <algorithm>
 
 #include "ui/panels/controls/panel_parts.h"
@@ -21,6 +22,7 @@ namespace batten {
 namespace {
 
 constexpr int kCurveRow = 26;
+constexpr int kLeastRows = 10;  ///< That are seen without scrolling in the list itself, where there are as many.
 constexpr int kEyeWidth = 26;
 constexpr int kIconSize = 14;
 constexpr int kApart = 8;  ///< Between a name, which may be cut, and its figures.
@@ -41,6 +43,8 @@ enum Role {
   SameRole,
   ShapeRole
 };
+
+int heightOfRows(int rows) { return kCurveRow * std::max(1, rows) + 2; }
 
 /// Of S: fair, nearly so, or far from it.
 QColor fairnessColour(double similarity, const Theme& theme) {
@@ -121,7 +125,6 @@ CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
   setMouseTracking(true);
   setUniformItemSizes(true);
   setFrameShape(QFrame::NoFrame);
-  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setToolTip(
       tr("Click a curve to select it; click its eye, or press Space, to exclude it from fairing "
@@ -142,9 +145,16 @@ CurveList::~CurveList() = default;
 void CurveList::showEvent(QShowEvent* event) {
   QListWidget::showEvent(event);
   judge();
+  if (wasSeen_) return;
+  wasSeen_ = true;
+  // The row selected was scrolled to when the list had no height yet, which left the first ones above it.
+  QTimer::singleShot(0, this, [this] {
+    scrollToTop();
+    scrollTo(currentIndex());
+  });
 }
 
-QSize CurveList::sizeHint() const { return {240, kCurveRow * std::clamp(count(), 1, 10) + 2}; }
+QSize CurveList::sizeHint() const { return {240, heightOfRows(std::min(count(), kLeastRows))}; }
 
 void CurveList::refresh() {
   filling_ = true;
@@ -190,7 +200,9 @@ void CurveList::refresh() {
   filling_ = false;
   measure();
   judge();
-  setFixedHeight(sizeHint().height());
+  // As many rows as the panel has room for, which scrolls below that.
+  setMinimumHeight(sizeHint().height());
+  setMaximumHeight(heightOfRows(count()));
 }
 
 void CurveList::measure() {

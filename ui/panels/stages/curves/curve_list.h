@@ -73,7 +73,7 @@ class CurveList : public QListWidget {
   void take(const std::shared_ptr<const Judgements>& found, bool isAll);
   EditorSession& session_;
   Judged judged_;
-  bool filling_ = false;
+  bool filling_ = false, wasSeen_ = false;
   Columns columns_;
   std::shared_ptr<const Judgements> known_, asked_;  ///< Of the curves in their order.
   std::unique_ptr<BackgroundWorker> worker_;         ///< Last, so that it is joined before anything goes.

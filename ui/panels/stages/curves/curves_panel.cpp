@@ -8,7 +8,6 @@
 #include <array>
 #include <string_view>
 
-#include "core/pipeline/run/stroke_widths.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
@@ -22,6 +21,7 @@
 #include "ui/panels/stages/curves/pin_panel.h"
 #include "ui/session/edits/pen_edits.h"
 #include "ui/session/edits/piece_choice.h"
+#include "ui/session/selected_width.h"
 
 namespace batten {
 namespace {
@@ -58,6 +58,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
       methods_(new MethodTable(session, this)),
       knots_(new KnotPanel(session, view, this)),
       figures_(new FigureTable(this)),
+      width_(new SelectedWidth(session, this)),
       note_(note({}, this)),
       waiting_(note({}, this)),
       forget_(linkButton(tr("Forget"), QStringLiteral("curves.forgetWaiting"), this)),
@@ -75,7 +76,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(segmentsNote_);
   layout->addWidget(growing_);
   layout->addWidget(caption(tr("Curves"), this));
-  layout->addWidget(new CurveList(session, Judged::Sketched, this));
+  layout->addWidget(new CurveList(session, Judged::Sketched, this), 1);
   bindDetail();
   addWaitingRow();
   layout->addWidget(caption(tr("Selected curve"), this));
@@ -84,6 +85,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(caption(tr("Comb"), this));
   layout->addWidget(new CombControls(view, this));
   layout->addStretch();
+  connect(width_, &SelectedWidth::changed, this, &CurvesPanel::refreshFigures);
   connect(methods_, &MethodTable::helpAsked, this, &CurvesPanel::helpAsked);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::runFinished})
@@ -139,18 +141,29 @@ void CurvesPanel::addWaitingRow() {
   connect(forget_, &QPushButton::clicked, this, [this] { forgetWaitingChoices(session_); });
 }
 
-void CurvesPanel::addWidthRow(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const {
-  if (!session_.scan()) return;
-  const auto width = strokeWidthsAlong(session_.output(), *session_.scan(), curve, curve.sketched);
-  if (!width) return;
-  const WidthFigures figures = figuresOf(*width);
+void CurvesPanel::addWidthRow(std::vector<FigureTable::Row>& rows) const {
+  const auto& figures = width_->figures();
+  if (!figures && !width_->isPending()) return;
+  // The row stands there from the beginning, so that those below it stay where they are.
+  const QString text = figures ? tr("%1 mm (%2 to %3)")
+                                     .arg(figures->mean, 0, 'f', 2)
+                                     .arg(figures->least, 0, 'f', 2)
+                                     .arg(figures->largest, 0, 'f', 2)
+                               : QStringLiteral("…");
   rows.push_back(
       {tr("Stroke width"),
-       {{tr("%1 mm (%2 to %3)")
-             .arg(figures.mean, 0, 'f', 2)
-             .arg(figures.least, 0, 'f', 2)
-             .arg(figures.largest, 0, 'f', 2)}},
+       {{text}},
        tr("Mean over the length of the curve, least and largest. Export to JSON holds the width along it.")});
+}
+
+void CurvesPanel::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  width_->stop();
+}
+
+void CurvesPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  refreshFigures();
 }
 
 void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const {
@@ -272,6 +285,7 @@ void CurvesPanel::refreshRows() {
 
 void CurvesPanel::refreshFigures() {
   const TracedCurve* curve = session_.selected();
+  if (isVisible()) width_->follow();
   note_->hide();
   if (!curve) {
     figures_->setRows({{tr("No curve selected"), {{QStringLiteral("–")}}, {}}});
@@ -299,7 +313,7 @@ void CurvesPanel::refreshFigures() {
                     {{QString::number(turns)}},
                     tr("At sharp features without a corner mark the curve follows the points closely: these "
                        "extrema are not tested for significance and cannot be removed individually.")});
-  addWidthRow(rows, *curve);
+  addWidthRow(rows);
   addFitRows(rows, *curve);
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(curve->construct.note);

@@ -17,6 +17,7 @@ class MethodTable;
 class GrowingControls;
 class ParameterEditor;
 class SegmentedControl;
+class SelectedWidth;
 
 /// How lines become curves, the curves themselves, and the figures of the selected one.
 class CurvesPanel : public QWidget {
@@ -26,6 +27,10 @@ class CurvesPanel : public QWidget {
 
  signals:
   void helpAsked(const QString& page);
+
+ protected:
+  void showEvent(QShowEvent*) override;
+  void hideEvent(QHideEvent*) override;
 
  private:
   void refresh();
@@ -38,13 +43,15 @@ class CurvesPanel : public QWidget {
   void addWaitingRow();
   /// What the fair fit says of the selected curve: noise, spared control points, dropped extrema.
   void addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
-  void addWidthRow(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
+  /// Measured in the background while the panel is seen.
+  void addWidthRow(std::vector<FigureTable::Row>& rows) const;
   EditorSession& session_;
   ParameterEditor* editor_;
   SegmentedControl* detailScope_;
   MethodTable* methods_;
   KnotPanel* knots_;
   FigureTable* figures_;
+  SelectedWidth* width_;
   QLabel* note_;
   QLabel* waiting_;
   QPushButton* forget_;

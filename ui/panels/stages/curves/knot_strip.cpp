@@ -3,11 +3,11 @@
 
 #include <QHelpEvent>
 #include <QPainter>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
 #include "ui/theme/theme.h"
+#include "ui/theme/tool_tips.h"
 
 namespace batten {
 namespace {
@@ -84,10 +84,10 @@ bool KnotStrip::event(QEvent* event) {
     for (std::size_t i = 1; i < columns_.size(); ++i)
       if (std::abs(xOf(i) - help->pos().x()) < std::abs(xOf(nearest) - help->pos().x())) nearest = i;
     const Column& column = columns_[nearest];
-    QToolTip::showText(help->globalPos(),
-                       column.times > 1 ? tr("Knot %1, %2 times").arg(column.value).arg(column.times)
-                                        : tr("Knot %1").arg(column.value),
-                       this);
+    showToolTip(help->globalPos(),
+                column.times > 1 ? tr("Knot %1, %2 times").arg(column.value).arg(column.times)
+                                 : tr("Knot %1").arg(column.value),
+                this);
     return true;
   }
   return QWidget::event(event);

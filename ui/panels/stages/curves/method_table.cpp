@@ -151,7 +151,7 @@ QString helpPage(ConstructMethod method) {
 MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      scope_(new SegmentedControl({tr("Selected curve"), tr("All curves")}, this)),
+      scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
       whose_(note({}, this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("construct.method.row"));
@@ -174,9 +174,9 @@ MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     layout->addWidget(row);
     connect(row, &QAbstractButton::clicked, this, [this, method] { choose(method); });
   }
-  scope_->setNames(QStringLiteral("construct.scope"), {QStringLiteral("one"), QStringLiteral("all")});
+  scope_->setNames(QStringLiteral("construct.scope"), {QStringLiteral("all"), QStringLiteral("one")});
   scope_->setToolTip(tr("Whether a click on a method applies to the selected curve or to the whole drawing."));
-  scope_->setCurrent(0);
+  scope_->setCurrent(1);
   whose_->setObjectName(QStringLiteral("construct.method.whose"));
   layout->addSpacing(6);
   layout->addWidget(whose_);
@@ -206,7 +206,7 @@ std::optional<CurveFigures> MethodTable::figures(ConstructMethod method) const {
 }
 
 bool MethodTable::actsOnAll() const {
-  return session_.curves().size() < 2 || session_.selected() == nullptr || scope_->current() == 1;
+  return session_.curves().size() < 2 || session_.selected() == nullptr || scope_->current() == 0;
 }
 
 void MethodTable::choose(ConstructMethod method) {
@@ -235,7 +235,7 @@ void MethodTable::refresh() {
   for (std::size_t i = 0; i < kMethods.size(); ++i) rows_[i]->setChecked(kMethods[i] == now);
   const bool several = session_.curves().size() > 1, isSelected = session_.selected() != nullptr;
   scope_->setVisible(several);
-  scope_->setSegmentEnabled(0, isSelected);
+  scope_->setSegmentEnabled(1, isSelected);
   whose_->setVisible(several && isSelected);
   if (isSelected)
     whose_->setText(tr("The figures are those of %1.").arg(curveName(session_, *session_.selectedCurve())));

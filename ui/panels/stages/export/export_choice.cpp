@@ -18,7 +18,7 @@
 namespace batten {
 namespace {
 
-constexpr int kWayWidth = 118, kTickRow = 24, kMostTickRows = 8;
+constexpr int kWayWidth = 118, kTickRow = 24, kLeastTickRows = 8;
 constexpr int kNumberRole = Qt::UserRole, kIndexRole = Qt::UserRole + 1;
 
 }  // namespace
@@ -114,6 +114,8 @@ QString ExportChoice::obstacle() const {
 
 void ExportChoice::refresh() {
   ticks_->setVisible(way() == Ticked);
+  setMaximumHeight(QWIDGETSIZE_MAX);
+  setSizePolicy(QSizePolicy::Preferred, way() == Ticked ? QSizePolicy::Preferred : QSizePolicy::Fixed);
   if (way() != Ticked) return;
   filling_ = true;
   const auto curves = session_.curves();
@@ -135,7 +137,15 @@ void ExportChoice::refresh() {
   while (list_->count() > row) delete list_->takeItem(list_->count() - 1);
   filling_ = false;
   const int line = list_->count() > 0 ? std::max(list_->sizeHintForRow(0), 1) : kTickRow;
-  list_->setFixedHeight(line * std::clamp(list_->count(), 1, kMostTickRows) + 2);
+  const int least = line * std::clamp(list_->count(), 1, kLeastTickRows) + 2,
+            all = line * std::max(1, list_->count()) + 2;
+  list_->setMinimumHeight(least);
+  list_->setMaximumHeight(all);
+  // The box around the list grows with it, and no further.
+  for (QWidget* around : {ticks_, static_cast<QWidget*>(this)}) {
+    around->updateGeometry();
+    around->setMaximumHeight(around->minimumSizeHint().height() + all - least);
+  }
 }
 
 void ExportChoice::tickAll(bool ticked) {

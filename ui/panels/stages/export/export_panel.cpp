@@ -110,7 +110,7 @@ void ExportPanel::buildForm() {
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Export"), this));
   layout->addWidget(options_);
-  layout->addWidget(choice_);
+  layout->addWidget(choice_, 1);
   layout->addWidget(caption(tr("What will be written"), this));
   layout->addWidget(preview_);
   held_->setObjectName(QStringLiteral("export.held"));
