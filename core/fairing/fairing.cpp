@@ -12,6 +12,7 @@
 #include "core/fairing/structure/fair_as_needed.h"
 #include "core/fairing/structure/monotone_fairing.h"
 #include "core/fairing/structure/tolerance_fairing.h"
+#include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/log_aesthetic.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
@@ -48,7 +49,7 @@ TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
       outcomes.span = spanBetween(outcomes.splits, *job.spanAt, job.closed);
       run.levels = oneLevel({}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span));
     } else {
-      run.levels = targetLevels(job.curve, job.closed, job.params);
+      run.levels = targetLevels(job.curve, job.closed, job.params, context);
       outcomes.splits = run.levels.ofTolerance().splits;
     }
     outcomes.targets = run.levels.ofTolerance().targets;
@@ -166,8 +167,8 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     return modifyShape(curve, closed, drawn, params, context);
   }
   if (params.target == FairingTarget::LogAesthetic) {
-    const auto target =
-        logAestheticTarget(curve, closed, targetSplits(curve, closed, params), params.alpha, params.targets.samples);
+    const auto target = logAestheticTarget(targetStart(curve, closed, params, context), closed,
+                                           targetSplits(curve, closed, params), params.alpha, params.targets.samples);
     if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem, context);
     auto faired = withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
       return modifyShape(setup, target.profile, within.toleranceMm, context);

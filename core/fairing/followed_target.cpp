@@ -8,6 +8,7 @@
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/profile/drawn_profile.h"
+#include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/log_aesthetic.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/span_fairing.h"
@@ -62,7 +63,7 @@ std::optional<TargetProfile> ofSections(const std::vector<CornerSection>& sectio
     own.splits.clear();
     for (const double f : report.targetSplits)
       if (f > from + trifle && f < section.span.to - trifle) own.splits.push_back((f - from) / width);
-    const auto profile = ofDegree(fitTargets(section.curve, own), *report.targetDegree);
+    const auto profile = ofDegree(fitTargets(targetStart(section.curve, false, params), own), *report.targetDegree);
     if (!profile) return std::nullopt;
     if (!section.isStraight) all.similarity = std::min(all.similarity, profile->similarity);
     for (int i = 0; i <= kNodesBetweenCorners; ++i) {
@@ -86,8 +87,8 @@ std::optional<TargetProfile> followedTarget(const NurbsCurve& start, bool closed
     return drawn.valid ? std::optional(std::move(drawn)) : std::nullopt;
   }
   if (params.target == FairingTarget::LogAesthetic) {
-    auto wanted =
-        logAestheticTarget(start, closed, targetSplits(start, closed, params), params.alpha, params.targets.samples);
+    auto wanted = logAestheticTarget(targetStart(start, closed, params), closed, targetSplits(start, closed, params),
+                                     params.alpha, params.targets.samples);
     return wanted.profile.valid ? std::optional(std::move(wanted.profile)) : std::nullopt;
   }
   const std::vector<CornerSection> sections = cornerSections(start, closed);
@@ -95,7 +96,7 @@ std::optional<TargetProfile> followedTarget(const NurbsCurve& start, bool closed
   if (report.targetDegree && !sections.empty()) return ofSections(sections, params, report);
   TargetParams own = params.targets;
   if (report.targetDegree) own.splits = report.targetSplits;
-  const TargetSet targets = fitTargets(start, own, closed);
+  const TargetSet targets = fitTargets(targetStart(start, closed, params), own, closed);
   // Edge lengths follow one polynomial over the whole path.
   if (report.targetDegree) return ofDegree(targets, report.targetDegree);
   const std::optional<int> asked = degreeOf(params.target);

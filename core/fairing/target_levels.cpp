@@ -8,15 +8,14 @@
 
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
+#include "core/fairing/profile/curvature_samples.h"
+#include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
 #include "core/fairing/target/span_fairing.h"
 
 namespace batten {
 namespace {
-
-/// A profile of more polynomials says nothing that the curve does not say itself.
-constexpr std::size_t kMostSplits = 24;
 
 bool hasNaturalSpans(const TargetParams& params) {
   return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
@@ -44,7 +43,7 @@ class LevelFairing {
     std::size_t spans = 0;
     for (std::size_t i = levels_.first; i < levels_.all.size(); ++i) {
       const std::size_t splits = levels_.all[i].splits.size();
-      if (best_ && (splits > kMostSplits || extremaLeft() <= fewest)) break;
+      if (best_ && (std::cmp_greater(splits, kMostSplits) || extremaLeft() <= fewest)) break;
       if (best_ && splits <= spans) continue;
       spans = splits;
       if (const auto error = tryLevel(i)) {
@@ -154,13 +153,16 @@ class LevelFairing {
 
 std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const FairingParams& params) {
   const bool isNatural = hasNaturalSpans(params.targets);
+  const auto naturalOf = [&params](const NurbsCurve& one, bool isClosed) {
+    return naturalSplits(targetStart(one, isClosed, params), isClosed, params.toleranceMm);
+  };
   const auto sections = cornerSections(curve, closed);
-  if (sections.empty()) return isNatural ? naturalSplits(curve, closed, params.toleranceMm) : params.targets.splits;
+  if (sections.empty()) return isNatural ? naturalOf(curve, closed) : params.targets.splits;
   std::vector<double> splits = isNatural ? std::vector<double>{} : params.targets.splits;
   for (const CornerSection& section : sections) {
     if (section.span.from > 0.0 || closed) splits.push_back(section.span.from);
     if (!isNatural || section.isStraight) continue;
-    for (const double f : naturalSplits(section.curve, false, params.toleranceMm))
+    for (const double f : naturalOf(section.curve, false))
       splits.push_back(section.span.from + f * (section.span.to - section.span.from));
   }
   std::sort(splits.begin(), splits.end());
@@ -173,15 +175,25 @@ TargetLevels oneLevel(std::vector<double> splits, TargetSet targets) {
   return levels;
 }
 
-TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
   TargetParams targets = params.targets;
-  if (!hasNaturalSpans(targets)) return oneLevel(targets.splits, fitTargets(curve, targets, closed));
-  const std::vector<SpanLevel> spans = naturalSpanLevels(curve, closed);
+  const auto calm = withoutTremor(curve, closed, params, check);
+  const NurbsCurve& start = calm ? *calm : curve;
+  const auto fitted = [&] {
+    TargetSet set = fitTargets(start, targets, closed);
+    if (!calm) return set;
+    const CurvatureSamples sketched = sampledCurvature(curve, targets.samples);  // what is shown of the curve
+    set.perimeter = sketched.perimeter;
+    set.kappa = sketched.kappa;
+    return set;
+  };
+  if (!hasNaturalSpans(targets)) return oneLevel(targets.splits, fitted());
+  const std::vector<SpanLevel> spans = naturalSpanLevels(start, closed);
   TargetLevels levels;
   levels.first = levelOf(spans, params.toleranceMm);
   for (const SpanLevel& one : spans) {
     targets.splits = one.splits;
-    levels.all.push_back({one.fromMm, one.splits, fitTargets(curve, targets, closed)});
+    levels.all.push_back({one.fromMm, one.splits, fitted()});
   }
   return levels;
 }
@@ -196,7 +208,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
                                  const RunContext& context) {
   if (!params.spanTargets.empty())
     return fairSpans(curve, closed, targetSplits(curve, closed, params), params, context);
-  const TargetLevels levels = targetLevels(curve, closed, params);
+  const TargetLevels levels = targetLevels(curve, closed, params, context);
   const TargetSet& first = levels.ofTolerance().targets;
   if (!first.recommendedDegree)
     return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);

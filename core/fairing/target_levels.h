@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/fairing/fairing_params.h"
@@ -28,7 +29,7 @@ struct TargetLevels {
   std::size_t first = 0;         ///< The one of the tolerance that is asked for.
   const TargetLevel& ofTolerance() const { return all[first]; }
 };
-TargetLevels targetLevels(const NurbsCurve&, bool closed, const FairingParams&);
+TargetLevels targetLevels(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
 /// One list of splits, whatever the tolerance.
 TargetLevels oneLevel(std::vector<double> splits, TargetSet targets);
 

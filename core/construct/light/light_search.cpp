@@ -17,6 +17,9 @@ namespace {
 constexpr double kRankedProminence = 2e-3;  // times 1 / diagonal: extrema that have a removal deviation
 constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
 constexpr int kMostSpanDegree = 7;
+// Times the prominence of an extremum: a piece whose curvature rises by less has none that rises or falls. It may be a
+// side of a shape ten times its size, by which the shape's extrema are counted.
+constexpr double kLeastRise = 0.1;
 constexpr double kOrder = 9.0;           // a fit of c points errs by about c to the power of minus this
 constexpr double kMostGrowth = 1.6;      // of the number of points from one try to the next
 constexpr double kWorkPerPoint = 60.0;   // iterations times spans, about 0.01 ms each, per point that may be spared
@@ -43,7 +46,7 @@ class LightSearch {
     const double rise = reference.samples().back().kappa - reference.samples().front().kappa;
     if (!kept.empty()) {
       firstSign_ = kept.front().maximum ? 1 : -1;
-    } else if (!reference.isClosed() && std::abs(rise) > lightProminence(reference)) {
+    } else if (!reference.isClosed() && std::abs(rise) > kLeastRise * lightProminence(reference)) {
       firstSign_ = rise > 0.0 ? 1 : -1;
     }
     const double least = lightProminence(reference);

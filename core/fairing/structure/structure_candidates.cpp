@@ -123,14 +123,15 @@ std::optional<StructureCandidate> StructureCandidates::solved(const Basis& basis
 }
 
 StructureCandidate StructureCandidates::closer(const Basis& basis, const CurvatureStructure& structure,
-                                               StructureCandidate found) {
+                                               StructureCandidate found, int mostExtrema) {
   for (int i = 0; i < kMostBounds && !context_.isCancelled(); ++i) {
     const double bound = kTighter * found.deviationMm;
     auto outcome = basis.search->solve(structure, found.points, found.deviationMm, kBoundShare * bound, 0.0);
     iterations_ += outcome.iterations;
     if (!outcome.found) break;
     auto nearer = candidate(basis, std::move(outcome.points));
-    if (!nearer || nearer->deviationMm > 0.5 * (1.0 + kTighter) * found.deviationMm) break;
+    if (!nearer || nearer->extrema > mostExtrema) break;
+    if (nearer->deviationMm > 0.5 * (1.0 + kTighter) * found.deviationMm) break;
     found = std::move(*nearer);
   }
   return found;
@@ -191,7 +192,7 @@ std::optional<StructureCandidate> StructureCandidates::nearestOf(int most, const
   std::optional<StructureCandidate> best;
   for (Found& one : all) {
     if (best && one.curve.deviationMm > kWorthBounding * best->deviationMm) break;
-    StructureCandidate nearest = closer(*one.basis, one.structure, std::move(one.curve));
+    StructureCandidate nearest = closer(*one.basis, one.structure, std::move(one.curve), most);
     if (!best || nearest.deviationMm < best->deviationMm) best = std::move(nearest);
   }
   return best;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -67,8 +68,9 @@ class StructureCandidates {
   /// @param giveUpMm > 0: one that goes farther than this is none.
   std::optional<StructureCandidate> solved(const Basis& basis, const CurvatureStructure& structure, double estimateMm,
                                            double giveUpMm);
-  /// Bounds the distance closer and closer, as far as that goes.
-  StructureCandidate closer(const Basis& basis, const CurvatureStructure& structure, StructureCandidate found);
+  /// Bounds the distance closer and closer, as far as that goes with at most so many extrema.
+  StructureCandidate closer(const Basis& basis, const CurvatureStructure& structure, StructureCandidate found,
+                            int mostExtrema = std::numeric_limits<int>::max());
   /// The nearest of the curves of some structures over each knot vector that have at most so many extrema.
   template <class Structures>
   std::optional<StructureCandidate> nearestOf(int most, const Structures& structuresOf);

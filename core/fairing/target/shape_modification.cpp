@@ -116,16 +116,13 @@ class ShapeModification {
     const TargetStep& full = fullStep();
     report_.neededMm = full.deviationMm;
     metMisfit_ = full.misfit;
-    for (const Course& course : courses_) {
-      for (const TargetStep& step : course.steps.all()) {
-        if (isWithin(step)) take(step, &course);
-      }
-    }
+    if (!isFiltered_) takeUpTo(toleranceMm_);
     report_.withinTolerance = !courses_.front().steps.endsEarly() && report_.neededMm <= kTargetRoom * toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
-    for (const double tolerance : kRoundTolerances) {
-      const double left = tolerance - sketch_.claimedMm();
-      if (left > 0.0 && left <= toleranceMm_) useRound(left);
+    if (isFiltered_) {
+      useEach();
+    } else {
+      useRoundTolerances();
     }
     for (const Course& course : courses_) {
       if (!course_ || (course_ == &course && best_.weight > course.steps.all().front().weight)) useTolerance(course);
@@ -176,7 +173,39 @@ class ShapeModification {
   /// Extrema that the target itself has are no fault.
   int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
 
+  /// Steps within a tolerance, those that move least first.
+  void takeUpTo(double toleranceMm) {
+    std::vector<std::pair<const TargetStep*, const Course*>> within;
+    for (const Course& course : courses_)
+      for (const TargetStep& step : course.steps.all())
+        if (step.deviationMm <= kTargetRoom * toleranceMm) within.emplace_back(&step, &course);
+    if (isFiltered_) {
+      std::stable_sort(within.begin(), within.end(),
+                       [](const auto& a, const auto& b) { return a.first->deviationMm < b.first->deviationMm; });
+    }
+    for (const auto& [step, course] : within) take(*step, course);
+  }
+  void useRoundTolerances() {
+    for (const double tolerance : kRoundTolerances) {
+      const double left = tolerance - sketch_.claimedMm();
+      if (left > 0.0 && left <= toleranceMm_) useRound(left);
+    }
+  }
+  /// What each tolerance gives, from the smallest up. Curves with no more extrema than the filter leaves are all the
+  /// same to rank(); of these, too, a larger tolerance gives none with more.
+  void useEach() {
+    for (auto tolerance = kRoundTolerances.rbegin(); tolerance != kRoundTolerances.rend(); ++tolerance) {
+      const double left = *tolerance - sketch_.claimedMm();
+      if (left <= 0.0) continue;
+      if (left > toleranceMm_) break;
+      takeUpTo(left);
+      useRound(left);
+    }
+    takeUpTo(toleranceMm_);
+  }
+
   void take(const TargetStep& step, const Course* course) {
+    if (isFiltered_ && step.extrema > best_.extrema) return;
     const bool better = rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit);
     // Few extrema are no merit of a curve that is farther from the filtered curvature than the sketch: it lost long
     // waves.
@@ -188,7 +217,7 @@ class ShapeModification {
 
   /// What only this tolerance has found must not win extrema that a larger one would not find again.
   void takeOfSameRank(const TargetStep& step, const Course* course) {
-    if (rank(step) == rank(best_)) take(step, course);
+    if (isFiltered_ ? step.extrema == best_.extrema : rank(step) == rank(best_)) take(step, course);
   }
 
   /// The steps on both sides of a tolerance: the last that leaves it, and the first that keeps it.

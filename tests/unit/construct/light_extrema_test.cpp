@@ -68,6 +68,39 @@ TEST(LightExtrema, AWobblyCircleHasNoMoreThanBefore) {
   EXPECT_GE(10 * light, 9 * wheels()) << "circles stay dense";
 }
 
+/// A long side that all but does not bend, its curvature rising in two steps by less than an extremum is counted from:
+/// of a shape ten times its size one would be seen.
+NurbsCurve risingSide(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  constexpr double kLength = 3000.0;
+  constexpr int kSteps = 6000;
+  const double first = 0.1 + 0.3 * uniform(random), second = 0.6 + 0.3 * uniform(random), steep = 20.0;
+  const double rise = 0.45 * kExtremumProminence / kLength, start = 4.0 * rise * (uniform(random) - 0.5);
+  test::TruthPiece piece;
+  piece.points.push_back(Vec2::Zero());
+  double angle = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double f = (i + 0.5) / kSteps, step = kLength / kSteps;
+    const double kappa = start + 0.5 * rise * (2.0 + std::tanh(steep * (f - first)) + std::tanh(steep * (f - second)));
+    angle += 0.5 * step * kappa;
+    piece.points.push_back(piece.points.back() + step * Vec2(std::cos(angle), std::sin(angle)));
+    angle += 0.5 * step * kappa;
+  }
+  return test::denseCurve(piece, false);
+}
+
+TEST(LightExtrema, ASideThatAllButDoesNotBendGetsNoneThatAWholeShapeWouldShow) {
+  for (int seed = 1; seed <= wheels(); ++seed) {
+    const NurbsCurve dense = risingSide(static_cast<unsigned>(seed));
+    const double fine = 0.1 * kExtremumProminence / extent(dense);
+    const ConstructedPiece made = lightPieceOf(dense, false, 0.0);
+    EXPECT_LE(curvatureExtrema(made.curve, fine, false).size(), curvatureExtrema(dense, fine, false).size())
+        << "side " << seed;
+    EXPECT_TRUE(made.report.light->found) << "side " << seed;
+  }
+}
+
 /// A line without deviations larger than the tolerance keeps its extrema: none may come in.
 TEST(LightExtrema, DetailAddsNone) {
   for (int seed = 1; seed <= wheels() / 4; ++seed) {

@@ -117,6 +117,26 @@ TEST(LargerTolerance, NeverGivesMoreExtremaInAnyMode) {
   }
 }
 
+/// Two curves may both have no more extrema than the filter leaves: of these lines the one that the larger tolerance
+/// allows had two more.
+TEST(LargerTolerance, NeverGivesMoreExtremaWhereTheFilterWouldLeaveThem) {
+  std::mt19937 random(414);
+  for (int i = 0; i <= 157; ++i) {
+    const NurbsCurve line = randomLine(random);
+    if (i < 137 || i % 4 != 1) continue;
+    FairingParams params = paramsOf(FairingMode::LowPass, 0);
+    int before = countedExtrema(line, false);
+    for (const double tolerance : kTolerances) {
+      params.toleranceMm = tolerance;
+      const auto faired = fair(line, false, params, {});
+      ASSERT_TRUE(faired) << faired.error().message;
+      const int extrema = countedExtrema(faired->curve, false);
+      EXPECT_LE(extrema, before) << "line " << i << ", tolerance " << tolerance;
+      before = std::min(before, extrema);
+    }
+  }
+}
+
 TEST(LargerTolerance, WhatATargetOrANumberOfExtremaNeedsDoesNotDependOnIt) {
   std::mt19937 random(515);
   for (int i = 0; i < lineCount(); ++i) {
