@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/plane.h"
+#include "core/image/ruling/ruling_ink.h"
 #include "core/image/ruling/ruling_lattice.h"
 
 namespace batten {
@@ -19,6 +20,7 @@ constexpr double kMostMisfit = 0.75;                       // [grid] drawn lines
 constexpr double kLeastSeen = 0.8, kLeastSeenAlone = 0.7;  // of the lines; the latter where hardly any others are
 constexpr double kLeastCoverage = 0.7;                     // of the stretches of the lines that are seen
 constexpr double kAlone = 0.4, kLeastSelective = 0.25;     // of the thin lines over the ruling that belong to it
+constexpr double kLeastInk = 0.8;                          // of the length of the lines: they go on
 constexpr double kMostWidth = 0.3;                         // of the spacing
 constexpr double kDarkCoverage = 0.85;                     // asked of dark lines that make no grid
 constexpr int kDarkLines = 12;                             // likewise
@@ -90,6 +92,7 @@ std::optional<FoundLattice> lookFor(const Plane& grey, const RunContext& context
   if (l.seen < (l.selective >= kAlone ? kLeastSeenAlone : kLeastSeen) || l.coverage < kLeastCoverage ||
       l.selective < kLeastSelective)
     return std::nullopt;
+  if (inkAlongLines(grey, l, context) < kLeastInk) return std::nullopt;  // letters, dots or crossings in rows
   return found;
 }
 

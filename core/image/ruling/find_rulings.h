@@ -14,8 +14,9 @@ inline constexpr double kDarkRuling = 0.55;
 
 /// Finds the ruled lines or the grid of the paper, also on a page that is turned by up to 11 degrees, slightly curved
 /// or seen in perspective. Lines count as ruling only if they are thin, at least five, equally spaced over at least
-/// half of the page and each seen along most of it; dark ones must make a grid or fill the page. At most one family
-/// across and one down. Hatching, railings and grilles of a drawing are shorter or less even. Empty when cancelled.
+/// half of the page, each seen along most of it and with ink that goes on along it; dark ones must make a grid or fill
+/// the page. At most one family across and one down. Hatching, railings and grilles of a drawing are shorter or less
+/// even; rows of letters have gaps. Empty when cancelled.
 std::vector<RulingFamily> findRulings(const GreyImage&, const RunContext&);
 
 }  // namespace batten

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kWidest = 40;            // [px] half the softest edge that is looked at
 constexpr double kDarkestShade = 0.4;  // of the paper beside it: what is darker is no shaded paper
+constexpr double kLeastSeen = 0.5;     // of the step: what the grey itself steps, the slope of the paper left in
 constexpr double kBarShare = 0.2;      // of the page's smaller side: two opposite steps that are nearer make a bar
 constexpr double kWindowPx = 96.0;     // along the course: a line that crosses takes up a small part of it
 constexpr double kSpacingPx = 16.0;
@@ -60,11 +61,17 @@ class FoldMaker {
     if (!reach) return std::nullopt;
     strip_ = foldStripAlong(image_, course_, *reach + kFoldPaperPx, 2.0);
     const auto fine = fitFoldStep(foldStepsOf(strip_, *reach, slopes));
-    if (!fine || !isShade(*fine, *reach)) return std::nullopt;
+    if (!fine || !isSeen(*fine, *reach) || !isShade(*fine, *reach)) return std::nullopt;
     return profiled(*fine, *reach);
   }
 
  private:
+  /// Whether the grey itself steps, not its slope alone: a line along one side of the course would pass for a slope.
+  bool isSeen(const FoldStepFit& fit, int reach) const {
+    const std::vector<double> level(strip_.rows, 0.0);
+    return lowerQuantile(foldStepsOf(strip_, reach, level), 0.5) > kLeastSeen * fit.middle;
+  }
+
   bool isShade(const FoldStepFit& fit, int reach) const {
     std::vector<double> ratios;
     for (int i = 0; i < strip_.rows; ++i) {

@@ -12,6 +12,7 @@ constexpr double kLeastPart = 0.6;     // of the course must show the step
 constexpr double kLeastAtEnds = 0.3;   // of the first and the last tenth
 constexpr double kAlike = 0.35;        // relative: steps that belong to one fold
 constexpr double kLooselyAlike = 0.8;  // the same on noisy pages: no step is never a step
+constexpr double kUneven = 6.0;        // median unevennesses of the paper: what stands out of it
 
 float foldGreyAt(const GreyImage& image, const Vec2& p) {
   const double x = std::clamp(p.x() - 0.5, 0.0, image.width - 1.0),
@@ -160,7 +161,9 @@ std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
     outside.push_back(left(d));
     outside.push_back(left(-d));
   }
-  const double tolerance = std::max({0.03 * step, 0.5, 6.0 * lowerQuantile(outside, 0.5)});
+  const double uneven = kUneven * lowerQuantile(outside, 0.5);
+  if (uneven > step) return std::nullopt;  // hatching along the course: as much of a step everywhere
+  const double tolerance = std::max({0.03 * step, 0.5, uneven});
   int last = 3;
   for (int d = 2; d < reach; ++d) {
     if (left(d) > tolerance || left(-d) > tolerance) last = std::max(last, d);

@@ -149,6 +149,46 @@ TEST(Folds, NothingThatIsDrawnIsTakenForOne) {
   }
 }
 
+TEST(Folds, RegularHatchingIsNone) {
+  const PaperOf paper = [](double, double) { return 235.0; };
+  for (const double deg : {0.0, 30.0, 45.0, 90.0}) {
+    for (const double spacing : {4.25, 5.0, 7.0, 10.0, 16.0, 25.0}) {
+      for (const double share : {0.25, 0.5, 0.75}) {
+        std::vector<float> coverage;
+        for (int y = 0; y < kFoldHeight; ++y) {
+          for (int x = 0; x < kFoldWidth; ++x) {
+            const double across = x * std::cos(deg * kDeg) + y * std::sin(deg * kDeg);
+            const double off = std::fabs(std::remainder(across, spacing));
+            coverage.push_back(static_cast<float>(std::clamp(0.5 * share * spacing - off + 0.5, 0.0, 1.0)));
+          }
+        }
+        const Scan scan = renderStress(coverage, kFoldWidth, kFoldHeight, paper, {215.0, 0.0, 0.4}, 3);
+        const auto thresholds = findThresholds(scan.grey, {}, {}, {});
+        EXPECT_TRUE(thresholds->paper.folds.empty())
+            << deg << " degrees, every " << spacing << " px, " << share << " of it ink";
+      }
+    }
+  }
+}
+
+/// Lines of anti-aliased pixels that repeat exactly, as a program draws them.
+TEST(Folds, DrawnByAProgramHatchingIsNoneEither) {
+  const auto foldsOf = [](const std::vector<int>& greys, int shiftPerRow) {
+    const int period = static_cast<int>(std::ssize(greys));
+    GreyImage page(600, 400);
+    for (int y = 0; y < page.height; ++y) {
+      for (int x = 0; x < page.width; ++x)
+        page.row(y)[x] = static_cast<std::uint16_t>(greys[(x + shiftPerRow * y) % period] * 257);
+    }
+    return findThresholds(page, {}, {}, {})->paper.folds.size();
+  };
+  EXPECT_EQ(foldsOf({235, 173, 20, 166, 235, 235}, 5), 0u) << "fine, at 45 degrees";
+  std::vector<int> upright(30, 235);
+  for (const auto& [column, grey] : {std::pair(17, 190), {18, 20}, {19, 20}, {20, 20}, {21, 20}, {22, 20}, {23, 186}})
+    upright[column] = grey;
+  EXPECT_EQ(foldsOf(upright, 0), 0u) << "coarse, upright";
+}
+
 TEST(Folds, RowsAndPlacesAgree) {
   PaperFold fold;
   fold.reach = 6;
