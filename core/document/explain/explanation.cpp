@@ -32,18 +32,21 @@ struct Reference {
   RegionThresholds thresholds;
 };
 
+// Ink at the contrast asked by default, and at a lower one: a faint line can be told from texture at the first where it
+// runs together with other faint ink at the second.
 Result<Reference> makeReference(const GreyImage& page, const Recipe& recipe, const RunContext& context) {
   ThresholdParams asked;
-  asked.strength = kReferenceStrength;
   auto thresholds = findThresholds(page, {}, asked, context);
+  if (!thresholds) return fail(thresholds.error());
+  const auto clear = binarize(page, *thresholds, asked, context);
+  if (!clear) return fail(clear.error());
   // The same part of the half level on every page.
-  if (thresholds && thresholds->halfLevelShare < 1.0) {
-    asked.strength = kReferenceStrength / thresholds->halfLevelShare;
-    thresholds = findThresholds(page, {}, asked, context);
-  }
+  asked.strength = kReferenceStrength / thresholds->halfLevelShare;
+  thresholds = findThresholds(page, {}, asked, context);
   if (!thresholds) return fail(thresholds.error());
   auto ink = binarize(page, *thresholds, asked, context);
   if (!ink) return fail(ink.error());
+  *ink = either(std::move(*ink), *clear);
   for (int y = 0; y < ink->height && !recipe.regions.empty() && !context.isCancelled(); ++y) {
     for (int x = 0; x < ink->width; ++x) {
       if (ink->at(x, y) && !isInside(recipe.regions, {x + 0.5, y + 0.5})) ink->set(x, y, false);

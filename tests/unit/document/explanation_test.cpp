@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/document/report.h"
+#include "core/image/binarize.h"
+#include "core/image/bits/bit_steps.h"
 #include "tests/support/label_page.h"
 #include "tests/support/render_page.h"
 
@@ -98,6 +101,36 @@ TEST(Explanation, AFaintLineIsNotInvented) {
   const Explanation e = drawing.explain();
   EXPECT_EQ(e.invented, 0.0);
   EXPECT_GT(e.missed, 0.05) << "the ink that the curve left";
+}
+
+// At the lower contrast of the reference a faint line runs together with the tone around it and is no line any more.
+TEST(Explanation, WhatIsInkByDefaultIsInkToExplain) {
+  Drawing drawing;
+  test::LabelPage toned(500, 400), lined(500, 400);
+  toned.begin(true);
+  toned.area({{{60, 100}, {180, 100}, {180, 300}, {60, 300}}});
+  lined.begin(false);
+  lined.line({{80, 120}, {160, 280}}, 5.0);
+  const BitImage tone = toned.ink(1), line = lined.ink(1);
+  constexpr int kTone = 38, kLine = 30;  // [grey]
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 0; x < 500; ++x) {
+      // The tone has no edge: it fades over 50 px.
+      const double inside = std::min({x - 60, 180 - x, y - 100, 300 - y}) / 50.0;
+      const int depth =
+          (tone.at(x, y) ? static_cast<int>(kTone * std::clamp(inside, 0.0, 1.0)) : 0) + (line.at(x, y) ? kLine : 0);
+      drawing.scan.grey.row(y)[x] -= depth * GreyImage::kGreyUnit;
+    }
+  }
+  const auto thresholds = findThresholds(drawing.scan.grey, {}, {}, {});
+  ASSERT_TRUE(thresholds);
+  const auto ink = binarize(drawing.scan.grey, *thresholds, {}, {});
+  ASSERT_TRUE(ink);
+  ASSERT_TRUE(ink->at(120, 200)) << "the faint line";
+  FairedSet none = *drawing.out.faired;
+  for (TracedCurve& c : none.curves) c.included = false;
+  drawing.out.faired = std::make_shared<FairedSet>(none);
+  EXPECT_EQ(without(*ink, drawing.explain().missedInk).count(), 0);
 }
 
 TEST(Explanation, InkWithoutACurveIsMissed) {
