@@ -73,7 +73,7 @@ ArcLength::ArcLength(const NurbsCurve& curve) : curve_(curve) {
 double ArcLength::at(double u) const {
   if (!(u > breaks_.front())) return 0.0;
   if (u >= breaks_.back()) return total_;
-  const auto i = static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), u) - breaks_.begin()) - 1;
+  const std::size_t i = std::upper_bound(breaks_.begin(), breaks_.end(), u) - breaks_.begin() - 1;
   if (u - breaks_[i] <= 0.5 * (breaks_[i + 1] - breaks_[i])) return cumulative_[i] + gauss(curve_, breaks_[i], u);
   return cumulative_[i + 1] - gauss(curve_, u, breaks_[i + 1]);
 }

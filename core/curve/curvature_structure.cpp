@@ -10,8 +10,6 @@
 namespace batten {
 namespace {
 
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
 /// Turns of the profile: places where a rise ends or a fall ends; plateaus count at their middle.
 CurvatureStructure allExtrema(std::span<const double> kappa, bool closed) {
   CurvatureStructure result;
@@ -19,7 +17,7 @@ CurvatureStructure allExtrema(std::span<const double> kappa, bool closed) {
   std::vector<int> moves;  // samples before which the value changes, with the sign of the change
   std::vector<int> signs;
   for (int i = closed ? 0 : 1; i < count; ++i) {
-    const double step = kappa[idx(i)] - kappa[idx((i + count - 1) % count)];
+    const double step = kappa[i] - kappa[(i + count - 1) % count];
     if (step == 0.0) continue;
     moves.push_back(i);
     signs.push_back(step > 0.0 ? 1 : -1);
@@ -79,9 +77,9 @@ class Simplifier {
 
  private:
   double moveOf(int a, int b) const {
-    double width = s_[idx(b)] - s_[idx(a)];
+    double width = s_[b] - s_[a];
     if (width < 0.0) width += length_;
-    return std::abs(kappa_[idx(b)] - kappa_[idx(a)]) * width * width / (2.0 * std::numbers::pi * std::numbers::pi);
+    return std::abs(kappa_[b] - kappa_[a]) * width * width / (2.0 * std::numbers::pi * std::numbers::pi);
   }
 
   Removal cheapest() const {
@@ -155,10 +153,9 @@ CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStr
     for (std::size_t i = chosen[k] + 1; i < next; ++i) {
       const std::size_t j = i % all.extrema.size();
       if (all.extrema[j].maximum == here.maximum) continue;
-      const double value = kappa[idx(all.extrema[j].sample)];
-      const bool farther =
-          between == all.extrema.size() || (here.maximum ? value < kappa[idx(all.extrema[between].sample)]
-                                                         : value > kappa[idx(all.extrema[between].sample)]);
+      const double value = kappa[all.extrema[j].sample];
+      const bool farther = between == all.extrema.size() || (here.maximum ? value < kappa[all.extrema[between].sample]
+                                                                          : value > kappa[all.extrema[between].sample]);
       if (farther) between = j;
     }
     if (between < all.extrema.size()) result.extrema.push_back(all.extrema[between]);

@@ -46,16 +46,16 @@ std::optional<NurbsCurve> openFit(const std::vector<CurveSample>& samples, int s
     Vec2 right = sample.point;
     int from = -1, used = 0;
     for (int j = 0; j <= kFairableDegree; ++j) {
-      const double value = row.values[0][static_cast<std::size_t>(j)];
+      const double value = row.values[0][j];
       const int column = row.first + j;
       if (column == 0 || column == count - 1) {
         right -= value * (column == 0 ? first : last);
         continue;
       }
       if (from < 0) from = column - 1;
-      values[static_cast<std::size_t>(used++)] = value;
+      values[used++] = value;
     }
-    if (used > 0) system.add(from, std::span(values).first(static_cast<std::size_t>(used)), right);
+    if (used > 0) system.add(from, std::span(values).first(used), right);
   }
   auto inner = system.solve();
   if (!inner) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<NurbsCurve> closedFit(const std::vector<CurveSample>& samples, int
   auto solved = system.solve();
   if (!solved) return std::nullopt;
   form.points = std::move(*solved);
-  const std::vector<Vec2> none(static_cast<std::size_t>(count), Vec2::Zero());
+  const std::vector<Vec2> none(count, Vec2::Zero());
   const auto like = NurbsCurve::make(kFairableDegree, evenKnots(spans, length, false), none);
   if (!like) return std::nullopt;
   auto made = fromPeriodic(form, *like);

@@ -23,7 +23,7 @@ std::optional<NurbsCurve> withEnd(const NurbsCurve& curve, bool atEnd, const Vec
   const int count = curve.controlPointCount();
   if (count < (kappa ? kPointsOfCurvatures : kPointsOfTangents)) return std::nullopt;
   std::vector<Vec2> points(curve.controlPoints().begin(), curve.controlPoints().end());
-  const auto at = [&](int k) { return static_cast<std::size_t>(atEnd ? count - 1 - k : k); };
+  const auto at = [&](int k) { return atEnd ? count - 1 - k : k; };
   points[at(1)] = points[at(0)] + (points[at(1)] - points[at(0)]).dot(tangent) * tangent;
   auto turned = overSameKnots(curve, points);
   if (!turned || !kappa) return turned;
@@ -31,7 +31,7 @@ std::optional<NurbsCurve> withEnd(const NurbsCurve& curve, bool atEnd, const Vec
   const auto d = turned->derivatives(u, 2);
   // The curvature is linear in the third point's place across the tangent.
   const BasisRow row = basis(curve.degree(), curve.knots(), count, u, 2);
-  const int index = static_cast<int>(at(2)) - row.first;
+  const int index = at(2) - row.first;
   const double share = row.values[2][index], v2 = d[1].squaredNorm();
   const double now = cross(d[1], d[2]) / (v2 * std::sqrt(v2));
   if (!(share > 0.0) || !std::isfinite(now)) return std::nullopt;

@@ -68,8 +68,7 @@ std::optional<Error> validate(const ImportedFile& file) {
   std::size_t points = 0;
   for (const ImportedLine& line : file.lines) {
     points += line.points.size();
-    for (const auto& [curve, name] : line.curves)
-      points += curve.isEmpty() ? 0 : static_cast<std::size_t>(curve.controlPointCount());
+    for (const auto& [curve, name] : line.curves) points += curve.isEmpty() ? 0 : curve.controlPointCount();
   }
   if (points > kMostPoints) return bad("At most 500000 points can be imported from a file.");
   for (const ImportedLine& line : file.lines) {

@@ -100,7 +100,7 @@ bool isClamped(const Parts& parts) {
 Parts clampedParts(const Parts& parts) {
   if (isClamped(parts)) return parts;
   const double start = parts.knot(parts.degree), end = parts.knot(parts.count());
-  const auto order = static_cast<std::size_t>(parts.degree) + 1;
+  const std::size_t order = parts.degree + 1;
   std::vector<double> knots(order, start);
   for (const double k : parts.knots) {
     if (k > start && k < end) knots.push_back(k);
@@ -180,7 +180,7 @@ Result<SplitCurve> split(const NurbsCurve& curve, double u) {
   knots.insert(std::upper_bound(knots.begin(), knots.end(), at), missing, at);
   parts = overKnots(parts, std::move(knots));
   const auto [first, last] = std::equal_range(parts.knots.begin(), parts.knots.end(), at);
-  const std::size_t order = static_cast<std::size_t>(p) + 1;
+  const std::size_t order = p + 1;
 
   Parts left{p, {parts.knots.begin(), first}, {}, parts.rational};
   left.knots.insert(left.knots.end(), order, at);

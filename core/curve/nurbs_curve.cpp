@@ -195,7 +195,7 @@ std::optional<std::string> knotError(int degree, const std::vector<double>& knot
   for (std::size_t i = 0; i < knots.size(); ++i) {
     if (!std::isfinite(knots[i])) return "A knot is not a finite number.";
     if (i > 0 && knots[i] < knots[i - 1]) return "The knots decrease.";
-    const auto apart = static_cast<std::size_t>(degree) + 1;
+    const std::size_t apart = degree + 1;
     if (i >= apart && knots[i] == knots[i - apart]) return "A knot is repeated more than degree + 1 times.";
   }
   const double length = knots[count] - knots[degree];
@@ -246,8 +246,8 @@ Vec2 NurbsCurve::point(double u) const {
   const int span = spanOf(d.degree, d.knots, controlPointCount(), clampedU);
   std::array<double, kMaxDegree + 1> n;
   basisValues(d.degree, d.knots.data(), span, clampedU, n.data());
-  const auto first = static_cast<std::size_t>(span - d.degree);
-  const auto order = static_cast<std::size_t>(d.degree) + 1;
+  const std::size_t first = span - d.degree;
+  const std::size_t order = d.degree + 1;
   Vec2 sum = Vec2::Zero();
   if (d.weights.empty()) {
     for (std::size_t j = 0; j < order; ++j) sum += n[j] * d.controlPoints[first + j];
@@ -266,8 +266,8 @@ std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
   const Data& d = *data_;
   const int top = std::clamp(order, 0, kMaxOrder);
   const BasisRow row = basis(d.degree, d.knots, controlPointCount(), std::clamp(u, start(), end()), top);
-  const auto first = static_cast<std::size_t>(row.first);
-  const auto terms = static_cast<std::size_t>(d.degree) + 1;
+  const std::size_t first = row.first;
+  const std::size_t terms = d.degree + 1;
   std::array<Vec2, 5> result;
   result.fill(Vec2::Zero());
   if (d.weights.empty()) {

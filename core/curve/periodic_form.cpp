@@ -22,7 +22,7 @@ void fitPeriodic(const NurbsCurve& curve, PeriodicForm& form) {
   const SpanBasis basis(p, form.knots, m + p, m);
   BandedLeastSquares system(m, p + 1, true);
   const int perSpan = 2 * p + 2;
-  std::vector<double> values(static_cast<std::size_t>(p) + 1);
+  std::vector<double> values(p + 1);
   for (int s = 0; s < basis.spanCount(); ++s) {
     const double weight = std::sqrt(basis.width(s));
     for (int i = 0; i < perSpan; ++i) {

@@ -67,7 +67,7 @@ class PartLength {
 
 SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int wrap)
     : degree_(degree), count_(count), wrap_(wrap) {
-  const auto p = static_cast<std::size_t>(degree), size = p + 1;
+  const std::size_t p = degree, size = p + 1;
   for (std::size_t k = p; k < static_cast<std::size_t>(count); ++k) {
     const double a = knots[k], h = knots[k + 1] - a;
     if (!(h > 0.0)) continue;
@@ -110,7 +110,7 @@ SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
   SpanRow result;
   const double h = width(place.span);
   const std::size_t size = stride();
-  const double* c = &coefficients_[static_cast<std::size_t>(place.span) * size * size];
+  const double* c = &coefficients_[place.span * size * size];
   double scale = 1.0;
   for (int d = 0; d <= std::min(order, degree_); ++d) {
     auto& out = result.d[d];
@@ -118,7 +118,7 @@ SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
     for (int k = d; k <= degree_; ++k) {
       double factor = power;
       for (int i = 0; i < d; ++i) factor *= k - i;
-      const double* line = c + static_cast<std::size_t>(k) * size;
+      const double* line = c + k * size;
       for (std::size_t j = 0; j < size; ++j) out[j] += factor * line[j];
       power *= place.tau;
     }
@@ -144,8 +144,8 @@ SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : bas
 }
 
 Jet SpanCurve::at(const SpanPlace& place, int order) const {
-  const auto p = static_cast<std::size_t>(basis_->degree());
-  const Vec2* c = &coefficients_[static_cast<std::size_t>(place.span) * (p + 1)];
+  const std::size_t p = basis_->degree();
+  const Vec2* c = &coefficients_[place.span * (p + 1)];
   Jet jet;
   jet.fill(Vec2::Zero());
   jet[0] = c[p];
@@ -165,22 +165,22 @@ Jet SpanCurve::at(const SpanPlace& place, int order) const {
 }
 
 double SpanCurve::speed(const SpanPlace& place) const {
-  const auto p = static_cast<std::size_t>(basis_->degree());
-  const Vec2* c = &coefficients_[static_cast<std::size_t>(place.span) * (p + 1)];
+  const std::size_t p = basis_->degree();
+  const Vec2* c = &coefficients_[place.span * (p + 1)];
   Vec2 sum = static_cast<double>(p) * c[p];
   for (std::size_t k = p - 1; k >= 1; --k) sum = sum * place.tau + static_cast<double>(k) * c[k];
   return sum.norm() / basis_->width(place.span);
 }
 
 double SpanCurve::bendBound(int span) const {
-  const auto p = static_cast<std::size_t>(basis_->degree()), first = static_cast<std::size_t>(span) * (p + 1);
+  const std::size_t p = basis_->degree(), first = span * (p + 1);
   double bound = 0.0;
   for (std::size_t k = 2; k <= p; ++k) bound += static_cast<double>(k * (k - 1)) * coefficients_[first + k].norm();
   return bound;
 }
 
 double SpanCurve::bendBound(const SpanCurve& other, int span) const {
-  const auto p = static_cast<std::size_t>(basis_->degree()), first = static_cast<std::size_t>(span) * (p + 1);
+  const std::size_t p = basis_->degree(), first = span * (p + 1);
   double bound = 0.0;
   for (std::size_t k = 2; k <= p; ++k) {
     bound += static_cast<double>(k * (k - 1)) * (coefficients_[first + k] - other.coefficients_[first + k]).norm();

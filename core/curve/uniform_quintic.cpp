@@ -54,23 +54,22 @@ std::array<double, 6> pieceValues(double t, int order, double spacing) {
 
 }  // namespace
 
-int UniformKnots::span(double& u) const {
+UniformKnots::Place UniformKnots::placeOf(double u) const {
   double place = u * spans / length;
   if (closed && !(place >= 0.0 && place < spans)) place -= spans * std::floor(place / spans);
   const int j = place > 0.0 ? std::min(static_cast<int>(std::min(place, 1e9)), spans - 1) : 0;
-  u = place - j;
-  return j;
+  return {j, place - j};
 }
 
 BandRow UniformKnots::row(double u, int order) const {
-  const int j = span(u);
-  return {j, pieceValues(u, order, spacing())};
+  const Place place = placeOf(u);
+  return {place.span, pieceValues(place.at, order, spacing())};
 }
 
 UniformQuintic::UniformQuintic(const UniformKnots& knots, std::vector<Vec2> coefficients)
     : knots_(knots), coefficients_(std::move(coefficients)) {
   perUnit_ = knots_.spans / knots_.length;
-  const auto count = static_cast<std::size_t>(knots_.coefficients());
+  const std::size_t count = knots_.coefficients();
   polynomials_.resize(knots_.spans);
   for (std::size_t j = 0; j < polynomials_.size(); ++j) {
     for (std::size_t power = 0; power < 6; ++power) {
@@ -104,7 +103,9 @@ PlaneDerivatives UniformQuintic::at(double u, int order) const {
     span = static_cast<std::size_t>(place);
     u = place - static_cast<double>(span);
   } else {
-    span = static_cast<std::size_t>(knots_.span(u));
+    const UniformKnots::Place wrapped = knots_.placeOf(u);
+    span = wrapped.span;
+    u = wrapped.at;
   }
   const auto& p = polynomials_[span];
   PlaneDerivatives d{};
@@ -118,14 +119,9 @@ PlaneDerivatives UniformQuintic::at(double u, int order) const {
 
 double UniformQuintic::arcLength(double u) const {
   const double h = knots_.spacing();
-  double place = u;
-  int j = 0;
-  if (knots_.closed && u >= knots_.length) {
-    j = knots_.spans - 1;
-    place = u / h - j;
-  } else {
-    j = knots_.span(place);
-  }
+  const int last = knots_.spans - 1;
+  const bool isPastSeam = knots_.closed && u >= knots_.length;
+  const auto [j, place] = isPastSeam ? UniformKnots::Place{last, u / h - last} : knots_.placeOf(u);
   if (place < 0.0 || place > 1.0) {  // the end polynomial runs on: the cubic would not
     double sum = 0.0;
     for (std::size_t g = 0; g < 4; ++g)

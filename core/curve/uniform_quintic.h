@@ -27,8 +27,11 @@ struct UniformKnots {
   /// The six basis values of derivative `order` (0..4) at u; closed: u modulo length. Beyond open ends the end
   /// polynomial runs on.
   BandRow row(double u, int order) const;
-  /// Span of u and the place in it, 0..1 inside the domain.
-  int span(double& u) const;
+  struct Place {
+    int span = 0;
+    double at = 0.0;  ///< 0..1 inside the domain.
+  };
+  Place placeOf(double u) const;
 };
 
 /// Positions with derivatives at a parameter: d[k] = k-th derivative.

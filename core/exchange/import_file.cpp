@@ -276,7 +276,7 @@ void takePoints(PointFile points, std::optional<double> asked, ImportReport& rep
   std::set<std::size_t> linesWithParts;
   for (const NamedPart& part : report.parts) linesWithParts.insert(part.line);
   const auto hasParts = [&](const ImportedLine& line) {
-    return linesWithParts.contains(static_cast<std::size_t>(&line - report.file.lines.data()));
+    return linesWithParts.contains(&line - report.file.lines.data());
   };
   for (ImportedLine& line : report.file.lines) {
     for (Vec2& p : line.points) p *= mm;

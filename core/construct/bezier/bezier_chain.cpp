@@ -226,7 +226,7 @@ std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool c
   const TurningData data(stations, closed);
   const auto widthAt = [&](double s) {
     const auto after = std::upper_bound(data.start.begin(), data.start.end(), s) - data.start.begin();
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, std::ssize(data.lengths) - 1));
+    const std::size_t i = std::clamp<std::ptrdiff_t>(after - 1, 0, std::ssize(data.lengths) - 1);
     const double t = data.lengths[i] > 0.0 ? std::clamp((s - data.start[i]) / data.lengths[i], 0.0, 1.0) : 0.0;
     return (1.0 - t) * widths[i] + t * widths[(i + 1) % widths.size()];
   };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -99,11 +100,15 @@ class FinishedFit {
                                 options_.emWidthPx, context_);
     if (!local || context_.isCancelled()) return false;
     if (willBeCut_ && in_.constraints.empty() && leavesItsPoints(local->mean)) return true;
-    double circleCost = std::numeric_limits<double>::quiet_NaN();
+    std::optional<double> circleCost;
     const std::vector<PlacedConstraint> constraints = placedConstraints();
     const bool keeps =
         std::any_of(constraints.begin(), constraints.end(), [](const PlacedConstraint& w) { return w.keep; });
-    if (piece_.data.closed && !keeps && circle(local->objective(local->mean), circleCost)) return true;
+    if (piece_.data.closed && !keeps) {
+      const auto fit = fitCircle(blockMeans(frame_));
+      if (fit) circleCost = fit->squares / s0_ - local->objective(local->mean);
+      if (circleCost && *circleCost < 2.0 * options_.extremumSignificance && circle(*fit)) return true;
+    }
     auto found = findStructure(frame_, *local, options_.extremumSignificance, constraints, context_);
     if (!found) return false;
     report_.unmetConstraints = found->unmetConstraints;
@@ -169,28 +174,24 @@ class FinishedFit {
     for (const ExtremumConstraint& constraint : in_.constraints) report_.unmetConstraints.push_back(constraint.id);
   }
 
-  bool circle(double objective, double& cost) {
-    const auto fit = fitCircle(blockMeans(frame_));
-    if (!fit) return false;
-    cost = fit->squares / s0_ - objective;
-    if (!(cost < 2.0 * options_.extremumSignificance)) return false;
+  bool circle(const CircleFit& fit) {
     const PlaneDerivatives start = frame_.base.at(0.0, 1);
-    const bool left = cross(start[0] - fit->centre, start[1]) > 0.0;
-    const UniformQuintic curve = circleCurve(*fit, start[0], left);
+    const bool left = cross(start[0] - fit.centre, start[1]) > 0.0;
+    const UniformQuintic curve = circleCurve(fit, start[0], left);
     auto nurbs = placed(curve.toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
     if (!nurbs) return false;
     report_.why = Termination::Exact;
     report_.isCircle = true;
     noConstraintMet();
     // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
-    const double sigma = std::sqrt(s0_ / meanWeight() / frame_.base.knots().length) / (fit->radius * fit->radius);
+    const double sigma = std::sqrt(s0_ / meanWeight() / frame_.base.knots().length) / (fit.radius * fit.radius);
     for (const double s : {0.0, curve.knots().length}) {
       report_.noiseS.push_back(s * pixelMm_);
       report_.noiseSigma.push_back(sigma / pixelMm_);
     }
     for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
       if (!piece_.data.use[i]) continue;
-      const double e = (piece_.data.points[i] - fit->centre).norm() - fit->radius;
+      const double e = (piece_.data.points[i] - fit.centre).norm() - fit.radius;
       addResidual(e, piece_.data.weight[i]);
     }
     piece_.result = ConstructedPiece{*nurbs, report_};
@@ -286,7 +287,7 @@ class FinishedFit {
     return countExtrema(kappa, least) > static_cast<int>(structure.extrema.size());
   }
 
-  bool finishCurve(const FairPosterior& posterior, StructureResult& found, double circleCost) {
+  bool finishCurve(const FairPosterior& posterior, StructureResult& found, std::optional<double> circleCost) {
     auto curve = structuredCurve(posterior, found);
     for (int pass = 0; curve && pass < kRefinements && hasMoreExtrema(*curve, found.structure); ++pass) {
       // About the curve itself, with its own knots, the linear constraints are exact but for a tiny remainder.
@@ -363,9 +364,9 @@ class FinishedFit {
     return piece_.data.spread[std::min(static_cast<std::size_t>(at - t.begin()), t.size() - 1)];
   }
 
-  void noteExtrema(const StructureResult& found, const UniformQuintic& curve, double circleCost) {
+  void noteExtrema(const StructureResult& found, const UniformQuintic& curve, std::optional<double> circleCost) {
     const auto note = [&](const FairExtremum& e, bool kept) {
-      const double cost = e.costKnown || !kept || !std::isfinite(circleCost) ? e.removalCost : circleCost;
+      const double cost = e.costKnown || !kept ? e.removalCost : circleCost.value_or(e.removalCost);
       const double u = std::clamp(e.u, 0.0, curve.knots().length);
       ExtremumNote made{curve.arcLength(u) * pixelMm_, e.kappa / pixelMm_, e.maximum, kept, cost};
       made.point = (curve.at(u, 0)[0] + piece_.origin) * pixelMm_;

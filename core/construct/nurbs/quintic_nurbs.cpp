@@ -40,7 +40,7 @@ SplineSpace makeSpace(std::vector<double> places, bool closed) {
   const auto last = places.size() - 1;
   const double period = places[last] - places[0];
   for (int k = kQuintic; k >= 1; --k) {
-    const auto back = static_cast<std::size_t>(k);
+    const std::size_t back = k;
     space.knots.push_back(closed ? places[last - back] - period : places[0] - k * (places[1] - places[0]));
   }
   space.knots.insert(space.knots.end(), places.begin(), places.end());
@@ -295,7 +295,7 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
     const BasisRow row = space.row(space.places[i], 1);
     Vec2 r = -points[i], d = -derivatives[i];
     for (std::size_t j = 0; j <= kQuintic; ++j) {
-      const auto index = (static_cast<std::size_t>(row.first) + j) % static_cast<std::size_t>(space.unknowns);
+      const auto index = (row.first + j) % space.unknowns;
       r += row.values[0][j] * result.controlPoints[index];
       d += row.values[1][j] * result.controlPoints[index];
     }

@@ -41,7 +41,7 @@ Result<NurbsCurve> scaledToLength(int degree, std::vector<double> knots, std::ve
 
 Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) {
   std::vector<Vec2> around = points;
-  for (int i = 0; i < degree; ++i) around.push_back(points[static_cast<std::size_t>(i) % points.size()]);
+  for (int i = 0; i < degree; ++i) around.push_back(points[i % points.size()]);
   std::vector<double> knots;
   for (int i = 0; i < static_cast<int>(around.size()) + degree + 1; ++i) knots.push_back(i - degree);
   const double length = polylineLength(points, true);
@@ -97,7 +97,7 @@ std::vector<double> sharpKnotVector(int order, int controlPointCount, std::span<
     const int index = static_cast<int>(knots.size()) + 1;
     const bool isSharp = std::find(sharp.begin(), sharp.end(), index - shift) != sharp.end();
     const int room = controlPointCount - static_cast<int>(knots.size());
-    knots.insert(knots.end(), static_cast<std::size_t>(isSharp ? std::min(times, room) : 1), value);
+    knots.insert(knots.end(), isSharp ? std::min(times, room) : 1, value);
     value += 1.0;
   }
   knots.insert(knots.end(), order, value);

@@ -122,7 +122,7 @@ class BlendSearch {
     if (!std::all_of(bend.begin(), bend.end(), [](double b) { return std::isfinite(b); }))
       return std::numeric_limits<double>::infinity();
     const auto [low, high] = std::minmax_element(bend.begin(), bend.end());
-    const auto peak = static_cast<std::size_t>(high - bend.begin());
+    const std::size_t peak = high - bend.begin();
     return std::max(*high, -*low) + kTurnsBackPrice * turnsBack(bend, peak);
   }
 

@@ -177,7 +177,7 @@ class Grower {
     while (first < beside.size() && feet.t[first] < 0.0) ++first;
     const auto past = std::find_if(feet.t.begin() + static_cast<std::ptrdiff_t>(first), feet.t.end(),
                                    [](double t) { return t > 1.0; });
-    return beside.subspan(first, static_cast<std::size_t>(past - feet.t.begin()) - first);
+    return beside.subspan(first, past - feet.t.begin() - first);
   }
 
   /// The point nearest to a place that lies ahead of what has grown; a closed line's last points are not its first.

@@ -44,7 +44,7 @@ std::vector<GrowingStretch> stretchesOf(const TypicalLine& line, std::span<const
     const auto nearest = std::min_element(line.joints.begin(), line.joints.end(), [&](const Joint& a, const Joint& b) {
       return (a.point - place).squaredNorm() < (b.point - place).squaredNorm();
     });
-    cuts.push_back(static_cast<std::size_t>(nearest - line.joints.begin()));
+    cuts.push_back(nearest - line.joints.begin());
   }
   std::sort(cuts.begin(), cuts.end());
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
@@ -198,8 +198,7 @@ std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2
     // As far as it goes: an error that grows ends in a curve that is none.
     const auto drawn = std::find_if_not(grown.curves.begin(), grown.curves.end(), isDrawable);
     for (auto curve = grown.curves.begin(); curve != drawn; ++curve) appendTypical(path, *curve);
-    const std::span<const TypicalCurve> kept(grown.curves.data(),
-                                             static_cast<std::size_t>(drawn - grown.curves.begin()));
+    const std::span<const TypicalCurve> kept(grown.curves.data(), drawn - grown.curves.begin());
     if (kept.empty()) continue;
     // Where it had to stop early the rest is left to Hermite pieces.
     at = stretch.isOne ? stretch.lastJoint : passedJoint(line, stretch, kept);

@@ -78,8 +78,7 @@ class RoughPath {
     if (places_.empty()) {
       for (std::size_t k = 1; k < pieces; ++k) {
         const double wanted = turned.back() * static_cast<double>(k) / static_cast<double>(pieces);
-        nodes.push_back(run.first + static_cast<std::size_t>(std::lower_bound(turned.begin(), turned.end(), wanted) -
-                                                             turned.begin()));
+        nodes.push_back(run.first + (std::lower_bound(turned.begin(), turned.end(), wanted) - turned.begin()));
       }
     }
     for (std::size_t i = run.first + 1; i < run.last; ++i) {
@@ -119,7 +118,7 @@ class RoughPath {
     Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * n);
     Eigen::Index row = 0;
     for (Eigen::Index k = 0; k < n; ++k) {
-      const auto at = static_cast<std::size_t>(k);
+      const std::size_t at = k;
       a(row, k) = kOwn;
       b(row++) = kOwn * std::log(std::max(std::abs(joints_[nodes[at]].kappa), 1e-9));
       if (k + 1 < n) {

@@ -367,13 +367,13 @@ class StepReader {
     std::vector<double> knots;
     for (std::size_t i = 0; i < counts->size(); ++i) {
       if (!((*counts)[i] >= 1.0 && (*counts)[i] <= 8.0) || std::ssize(knots) > kMostStepKnots) return std::nullopt;
-      knots.insert(knots.end(), static_cast<std::size_t>((*counts)[i]), (*distinct)[i]);
+      knots.insert(knots.end(), (*counts)[i], (*distinct)[i]);
     }
     return knots;
   }
   /// Of a Bézier chain, or evenly spaced between repeated ends.
   static std::optional<std::vector<double>> evenKnots(bool isBezier, int degree, std::size_t points) {
-    const auto d = static_cast<std::size_t>(degree);
+    const std::size_t d = degree;
     if (points < d + 1 || (isBezier && (points - 1) % d != 0)) return std::nullopt;
     std::vector<double> knots(d + 1, 0.0);
     const std::size_t spans = isBezier ? (points - 1) / d : points - d;

@@ -83,7 +83,7 @@ class StepScanner {
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     constexpr std::uint64_t kMost = std::uint64_t{1} << 53;  // a reference is kept as a number
     if (error != std::errc() || value >= kMost) return std::nullopt;
-    at_ = static_cast<std::size_t>(end - text_.data());
+    at_ = end - text_.data();
     return value;
   }
 
@@ -189,7 +189,7 @@ class StepScanner {
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value.number);
     if (error != std::errc() || !std::isfinite(value.number)) return wrong("a number is invalid");
     value.kind = StepValue::Kind::Number;
-    at_ = static_cast<std::size_t>(end - text_.data());
+    at_ = end - text_.data();
     return true;
   }
 

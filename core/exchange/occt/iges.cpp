@@ -48,9 +48,8 @@ Handle(IGESData_IGESEntity) splineEntity(const NurbsCurve& curve) {
   Handle(TColStd_HArray1OfReal) weights = new TColStd_HArray1OfReal(0, upper, 1.0);
   Handle(TColgp_HArray1OfXYZ) poles = new TColgp_HArray1OfXYZ(0, upper);
   for (int i = 0; i <= upper; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    poles->SetValue(i, place(curve.controlPoints()[k]));
-    if (curve.isRational()) weights->SetValue(i, curve.weights()[k]);
+    poles->SetValue(i, place(curve.controlPoints()[i]));
+    if (curve.isRational()) weights->SetValue(i, curve.weights()[i]);
   }
   const bool isClosed = curve.controlPoints().front() == curve.controlPoints().back();
   Handle(IGESGeom_BSplineCurve) entity = new IGESGeom_BSplineCurve;

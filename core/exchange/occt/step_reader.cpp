@@ -68,7 +68,7 @@ std::vector<double> knotsOf(const Spline& spline, int count) {
   for (int i = 1; i <= count; ++i) {
     const int times = spline->KnotMultiplicitiesValue(i);
     if (times < 1 || times > 8) return {};
-    knots.insert(knots.end(), static_cast<std::size_t>(times), spline->KnotsValue(i));
+    knots.insert(knots.end(), times, spline->KnotsValue(i));
   }
   return knots;
 }

@@ -96,9 +96,9 @@ std::string row(const std::string& begin, const BezierPiece& piece, int degree) 
   const std::vector<Vec2> coefficients = coefficientsOf(piece);
   std::string text = begin + "," + exactNumber(piece.start) + "," + exactNumber(piece.end);
   for (const int axis : {0, 1}) {
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) {
+    for (int k = 0; k <= degree; ++k) {
       text += ",";
-      if (k < coefficients.size()) text += exactNumber(coefficients[k][axis]);
+      if (k < std::ssize(coefficients)) text += exactNumber(coefficients[k][axis]);
     }
   }
   return text + "\n";

@@ -133,7 +133,7 @@ bool any(const RowFlags& flags) { return std::find(flags.begin(), flags.end(), s
 PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterReport& report,
                     const RunContext& context) {
   const bool replicate = params.border == FilterBorder::Replicate;
-  const auto rows = static_cast<std::size_t>(image.height);
+  const std::size_t rows = image.height;
   const Step first = params.order == FilterOrder::ErosionFirst ? Step::Erosion : Step::Dilation;
   const Step second = params.order == FilterOrder::ErosionFirst ? Step::Dilation : Step::Erosion;
   FlaggedBits state{PaddedBits(image, replicate), RowFlags(rows, 1)};

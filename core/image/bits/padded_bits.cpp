@@ -9,9 +9,9 @@ PaddedBits::PaddedBits(int width, int height)
     : width_(width),
       height_(height),
       wordsPerRow_((width + 63) / 64),
-      stride_(static_cast<std::size_t>(wordsPerRow_) + 2),
+      stride_(wordsPerRow_ + 2),
       lastMask_((width & 63) == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (width & 63)) - 1),
-      words_(stride_ * (static_cast<std::size_t>(height) + 2), 0) {}
+      words_(stride_ * (height + 2), 0) {}
 
 PaddedBits::PaddedBits(const BitImage& image, bool replicate) : PaddedBits(image.width, image.height) {
   for (int y = 0; y < height_; ++y) {

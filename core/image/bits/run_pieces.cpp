@@ -95,7 +95,7 @@ Strips gatherRuns(const BitImage& image, const RunContext& context) {
   const int strips = (image.height + kRowsPerStrip - 1) / kRowsPerStrip;
   std::vector<std::vector<InkRun>> parts(strips);
   Strips all;
-  all.rowStart.assign(static_cast<std::size_t>(image.height) + 1, 0);
+  all.rowStart.assign(image.height + 1, 0);
   parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
     std::vector<InkRun>& part = parts[begin / kRowsPerStrip];
     for (int y = begin; y < end; ++y) {
@@ -104,7 +104,7 @@ Strips gatherRuns(const BitImage& image, const RunContext& context) {
       all.rowStart[y + 1] = static_cast<int>(part.size() - before);
     }
   });
-  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) all.rowStart[y + 1] += all.rowStart[y];
+  for (int y = 0; y < image.height; ++y) all.rowStart[y + 1] += all.rowStart[y];
   all.runs.reserve(all.rowStart.back());
   for (const auto& part : parts) all.runs.insert(all.runs.end(), part.begin(), part.end());
   return all;
@@ -121,7 +121,7 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
   std::vector<int> parent(all.runs.size());
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
   const auto join = [&](int y) {
-    const auto row = static_cast<std::size_t>(y);
+    const std::size_t row = y;
     joinRows(all.runs, {all.rowStart[row - 1], all.rowStart[row]}, {all.rowStart[row], all.rowStart[row + 1]}, slack,
              parent);
   };

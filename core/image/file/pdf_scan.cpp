@@ -48,9 +48,8 @@ Result<FoundPage> pageOf(const std::filesystem::path& path, const RegularFile& f
   if (file.size() > kLargestScanBytes) return unreadable(path, "is too large a PDF. Export the page as PNG.");
   auto bytes = readBytes(path, file, file.size());
   if (!bytes) return fail(bytes.error());
-  int pages = 1;
-  const auto page = lookAtPdfPage(*bytes, choice.number, pages);
-  if (!page) return fail(problemOf(path, page.error(), choice.number, pages));
+  const auto page = lookAtPdfPage(*bytes, choice.number);
+  if (!page) return fail(problemOf(path, page.error().problem, choice.number, page.error().pages));
   const double width = page->widthPoints * choice.pdfDpi / kPointsPerInch;
   const double height = page->heightPoints * choice.pdfDpi / kPointsPerInch;
   if (!(width < kMostSide && height < kMostSide))

@@ -31,7 +31,7 @@ CrcTables crcTables() {
 bool crcFits(const ByteReader& file, std::uint64_t begin, std::uint64_t count) {
   static const CrcTables kTables = crcTables();
   std::uint32_t crc = 0xffffffffu;
-  std::span<const std::byte> left = file.bytes().subspan(begin, static_cast<std::size_t>(count));
+  std::span<const std::byte> left = file.bytes().subspan(begin, count);
   const auto at = [&](std::size_t i) { return std::to_integer<std::uint32_t>(left[i]); };
   // Eight bytes at a time: their tables do not wait for one another.
   for (; left.size() >= 8; left = left.subspan(8)) {

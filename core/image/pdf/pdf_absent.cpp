@@ -7,8 +7,8 @@ namespace batten {
 
 bool hasPdf() { return false; }
 
-tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte>, int, int&) {
-  return tl::unexpected(PdfProblem::NotInstalled);
+tl::expected<PdfPage, PdfRefusal> lookAtPdfPage(std::span<const std::byte>, int) {
+  return tl::unexpected(PdfRefusal{PdfProblem::NotInstalled});
 }
 
 tl::expected<PdfPicture, PdfProblem> drawPdfPage(std::span<const std::byte>, int, const PdfSize&, const RunContext&) {

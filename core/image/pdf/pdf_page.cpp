@@ -64,16 +64,16 @@ PdfPicture pictureOf(const QImage& drawn, const RunContext& context) {
 
 bool hasPdf() { return true; }
 
-tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte> file, int number, int& pages) {
+tl::expected<PdfPage, PdfRefusal> lookAtPdfPage(std::span<const std::byte> file, int number) {
   const std::lock_guard lock(popplerMutex());
   const auto document = openPdf(file);
-  if (!document) return tl::unexpected(document.error());
-  pages = (*document)->numPages();
-  if (number < 1 || number > pages) return tl::unexpected(PdfProblem::NoSuchPage);
+  if (!document) return tl::unexpected(PdfRefusal{document.error()});
+  const int pages = (*document)->numPages();
+  if (number < 1 || number > pages) return tl::unexpected(PdfRefusal{PdfProblem::NoSuchPage, pages});
   const auto page = (*document)->page(number - 1);
-  if (!page) return tl::unexpected(PdfProblem::Damaged);
+  if (!page) return tl::unexpected(PdfRefusal{PdfProblem::Damaged, pages});
   const QSizeF size = page->pageSizeF();
-  if (!(size.width() > 0.0) || !(size.height() > 0.0)) return tl::unexpected(PdfProblem::Damaged);
+  if (!(size.width() > 0.0) || !(size.height() > 0.0)) return tl::unexpected(PdfRefusal{PdfProblem::Damaged, pages});
   return PdfPage{pages, size.width(), size.height()};
 }
 

@@ -22,8 +22,14 @@ struct PdfPage {
   double heightPoints = 0.0;  ///< [1/72 inch]
 };
 
-/// What a file says of one of its pages, counted from 1. Of NoSuchPage the file's own count is in `pages`.
-tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte> file, int number, int& pages);
+/// Why a page cannot be had.
+struct PdfRefusal {
+  PdfProblem problem = PdfProblem::Damaged;
+  int pages = 1;  ///< Of the file, where it could be opened.
+};
+
+/// What a file says of one of its pages, counted from 1.
+tl::expected<PdfPage, PdfRefusal> lookAtPdfPage(std::span<const std::byte> file, int number);
 
 struct PdfPicture {
   GreyImage grey;  ///< The luma of Rec. 601.

@@ -122,6 +122,7 @@ class RoundedSides {
     double sizeMm = 0.0;
     NurbsCurve before, behind;  ///< The sides, cut.
     Rounding rounding;
+    std::string note = {};  ///< Where it is not as large as was wanted.
   };
   std::optional<Sized> sized(double sizeMm) const {
     if (!(sizeMm > 0.0) || check_.isCancelled()) return std::nullopt;
@@ -136,7 +137,7 @@ class RoundedSides {
   }
 
   /// Of the distance, or where the sides bend so that less is rounder, of less.
-  std::optional<Sized> byDistance(double sizeMm, std::string& note) const {
+  std::optional<Sized> byDistance(double sizeMm) const {
     const double wanted = std::min(sizeMm, most_);
     auto best = sized(wanted);
     for (const double share : kSmaller) {
@@ -145,15 +146,15 @@ class RoundedSides {
         best = std::move(smaller);
     }
     if (best && best->sizeMm < wanted) {
-      note = "A corner is rounded from " + millimetresText(best->sizeMm) +
-             " on, because a larger rounding would have a smaller radius here.";
+      best->note = "A corner is rounded from " + millimetresText(best->sizeMm) +
+                   " on, because a larger rounding would have a smaller radius here.";
     } else if (best && wanted < sizeMm) {
-      note = "A corner is rounded from " + millimetresText(wanted) + " on, because its sides are too short.";
+      best->note = "A corner is rounded from " + millimetresText(wanted) + " on, because its sides are too short.";
     }
     return best;
   }
 
-  std::optional<Sized> byRadius(double radiusMm, std::string& note) const {
+  std::optional<Sized> byRadius(double radiusMm) const {
     std::optional<Sized> wide;
     double low = 0.0;
     for (int i = kRadiusSteps; i >= 1; --i) {
@@ -167,8 +168,8 @@ class RoundedSides {
     }
     if (!wide) return std::nullopt;
     if (wide->rounding.radiusMm < radiusMm) {
-      note = "A corner is rounded by " + millimetresText(wide->rounding.radiusMm) +
-             ", because no larger radius fits between its sides.";
+      wide->note = "A corner is rounded by " + millimetresText(wide->rounding.radiusMm) +
+                   ", because no larger radius fits between its sides.";
       return wide;
     }
     for (int i = 0; i < kRadiusHalvings && wide->rounding.radiusMm > kRadiusMet * radiusMm; ++i) {
@@ -210,11 +211,12 @@ class RoundedSides {
   double most_ = 0.0;
 };
 
-bool roundOne(const Neighbours& at, const CornerMark& mark, std::string& note, CancelCheck check) {
+/// What is to be said of the rounding; empty where it is as the mark asks.
+std::string roundOne(const Neighbours& at, const CornerMark& mark, CancelCheck check) {
   const RoundedSides sides(at, mark.joint, check);
   const auto rounded =
-      mark.roundBy == RoundingSize::Radius ? sides.byRadius(mark.roundMm, note) : sides.byDistance(mark.roundMm, note);
-  return rounded && sides.apply(*rounded);
+      mark.roundBy == RoundingSize::Radius ? sides.byRadius(mark.roundMm) : sides.byDistance(mark.roundMm);
+  return rounded && sides.apply(*rounded) ? rounded->note : kStaysSharp;
 }
 
 void addNote(std::string& notes, const std::string& note) {
@@ -241,14 +243,12 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     if (mark >= recipe.cornerMarks.size() || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
     const Neighbours at = neighboursOf(set, pieces, corner);
     if (!at.before || !at.behind) continue;
-    std::string note;
     for (const TracedCurve* curve : {at.before, at.behind}) {
       NurbsCurve& before = unrounded[static_cast<std::size_t>(curve->piece)];
       if (before.isEmpty()) before = curve->faired;
     }
-    const bool done = roundOne(at, recipe.cornerMarks[mark], note, context);
+    const std::string note = roundOne(at, recipe.cornerMarks[mark], context);
     if (context.isCancelled()) return;
-    if (!done) note = kStaysSharp;
     if (note.empty()) continue;
     for (TracedCurve* curve : {at.before, at.behind}) addNote(curve->fairing.note, note);
   }
