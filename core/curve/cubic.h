@@ -11,19 +11,19 @@
 namespace batten {
 
 /// The control points of one cubic Bezier curve, parameter 0..1.
-using Cubic = std::array<Vec2, 4>;
+using CubicBezier = std::array<Vec2, 4>;
 
-inline Vec2 cubicPoint(const Cubic& c, double t) {
+inline Vec2 cubicPoint(const CubicBezier& c, double t) {
   const double s = 1.0 - t;
   return s * s * s * c[0] + 3 * s * s * t * c[1] + 3 * s * t * t * c[2] + t * t * t * c[3];
 }
 /// The first derivative with respect to the parameter.
-inline Vec2 cubicFirst(const Cubic& c, double t) {
+inline Vec2 cubicFirst(const CubicBezier& c, double t) {
   const double s = 1.0 - t;
   return 3 * s * s * (c[1] - c[0]) + 6 * s * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
 }
 /// The second derivative with respect to the parameter.
-inline Vec2 cubicSecond(const Cubic& c, double t) {
+inline Vec2 cubicSecond(const CubicBezier& c, double t) {
   return 6 * (1.0 - t) * (c[2] - 2.0 * c[1] + c[0]) + 6 * t * (c[3] - 2.0 * c[2] + c[1]);
 }
 
@@ -31,7 +31,7 @@ inline Vec2 cubicSecond(const Cubic& c, double t) {
 inline constexpr double kCubicFootSettled = 1e-12;
 
 /// The parameter of the foot of p that at most `rounds` steps (footStep) reach from t, within 0..1.
-inline double cubicFoot(const Cubic& c, const Vec2& p, double t, int rounds) {
+inline double cubicFoot(const CubicBezier& c, const Vec2& p, double t, int rounds) {
   for (int i = 0; i < rounds; ++i) {
     const double next = std::clamp(t + footStep(cubicPoint(c, t) - p, cubicFirst(c, t), cubicSecond(c, t)), 0.0, 1.0);
     const bool isSettled = std::abs(next - t) < kCubicFootSettled;

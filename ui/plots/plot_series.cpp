@@ -191,7 +191,7 @@ void addDeviation(PlotData& data, const EditorSession& session, const TracedCurv
   if (pieces && curve.piece >= 0 && static_cast<std::size_t>(curve.piece) < pieces->pieces.size()) {
     const auto& px = pieces->pieces[curve.piece].points;
     const std::size_t step = std::max<std::size_t>(1, px.size() / kDeviationSamples);
-    for (std::size_t i = 0; i < px.size(); i += step) measure(session.output().frame.pointToModel(px[i]), points);
+    for (std::size_t i = 0; i < px.size(); i += step) measure(session.output().frame.pointToModel(px[i].at), points);
     sorted(points);
   }
   if (points.s.size() > 1) data.series.push_back(std::move(points));

@@ -66,7 +66,7 @@ void addPath(const QByteArray& path, const std::vector<double>& box, DrawnLines&
     std::vector<Vec2>& line = drawn.lines.back();
     if (command == 'C') {
       for (std::size_t i = 0; i + 6 <= n.size(); i += 6) {
-        const Cubic cubic = {pen, Vec2(n[i], n[i + 1]), Vec2(n[i + 2], n[i + 3]), Vec2(n[i + 4], n[i + 5])};
+        const CubicBezier cubic = {pen, Vec2(n[i], n[i + 1]), Vec2(n[i + 2], n[i + 3]), Vec2(n[i + 4], n[i + 5])};
         for (int k = 1; k <= kSamplesPerCubic; ++k) {
           line.push_back(toPage(cubicPoint(cubic, static_cast<double>(k) / kSamplesPerCubic)));
         }

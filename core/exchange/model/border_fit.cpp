@@ -33,7 +33,7 @@ class StretchFit {
       return;
     }
     if (turnOver(first, last) <= kMostTurnRad) {
-      const Cubic cubic = fitted(first, last);
+      const CubicBezier cubic = fitted(first, last);
       if (error_ <= tolerance_) {
         put(cubic);
         return;
@@ -45,7 +45,7 @@ class StretchFit {
   }
 
  private:
-  void put(const Cubic& c) {
+  void put(const CubicBezier& c) {
     if ((c[3] - run_.end()).norm() > kNothing * tolerance_) run_.cubics.push_back({c[1], c[2], c[3]});
   }
 
@@ -59,13 +59,13 @@ class StretchFit {
   }
 
   /// The lengths of both handles by least squares over the places; sets the error.
-  Cubic fitted(std::size_t first, std::size_t last) {
+  CubicBezier fitted(std::size_t first, std::size_t last) {
     const BorderPlace &from = border_[first], &to = border_[last];
     std::vector<double> t{0.0};
     for (std::size_t i = first + 1; i <= last; ++i) t.push_back(t.back() + (border_[i].at - border_[i - 1].at).norm());
     const double length = t.back();
     for (double& one : t) one /= length;
-    Cubic cubic{};
+    CubicBezier cubic{};
     for (int round = 0; round < kFitRounds; ++round) {
       double aa = 0, ab = 0, bb = 0, ra = 0, rb = 0;
       for (std::size_t i = first + 1; i < last; ++i) {

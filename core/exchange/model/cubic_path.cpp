@@ -33,7 +33,7 @@ constexpr double kJump = 1e-11;
 
 /// Curvatures at both ends of a cubic; absent where a handle has no length.
 using EndCurvatures = std::array<std::optional<double>, 2>;
-EndCurvatures endCurvatures(const Cubic& c) {
+EndCurvatures endCurvatures(const CubicBezier& c) {
   const Vec2 first = c[1] - c[0], middle = c[2] - c[1], last = c[3] - c[2];
   const double a = first.norm(), b = last.norm();
   EndCurvatures kappa;
@@ -86,7 +86,7 @@ class Approximation {
   double weight(double kappa) const { return std::max(std::abs(kappa), least_); }
 
   /// How much a cubic's curvatures at its ends are off, relative; 0 where the curve has none.
-  double curvatureError(const Cubic& c, const EndCurvatures& exact) const {
+  double curvatureError(const CubicBezier& c, const EndCurvatures& exact) const {
     const EndCurvatures own = endCurvatures(c);
     double worst = 0.0;
     for (std::size_t i = 0; i < 2; ++i)
@@ -97,7 +97,7 @@ class Approximation {
   /// Changes the lengths of the handles until the curvatures at the ends are those of the curve: two equations of
   /// second degree for two lengths (de Boor, Hollig, Sabin, High accuracy geometric Hermite interpolation, 1987), which
   /// nearly coincide along an arc, so that a damped step is taken. Leaves the cubic alone if that leads nowhere.
-  void matchCurvatures(Cubic& c, const EndCurvatures& exact) const {
+  void matchCurvatures(CubicBezier& c, const EndCurvatures& exact) const {
     if (!exact[0] || !exact[1]) return;
     const double chord = (c[3] - c[0]).norm();
     Eigen::Vector2d length((c[1] - c[0]).norm(), (c[3] - c[2]).norm());
@@ -124,7 +124,7 @@ class Approximation {
   }
 
   /// Whether rounding a handle turns the curvatures by more than may be: no smaller cubic would be better.
-  bool isTooShortForGrid(const Cubic& c, const EndCurvatures& exact) const {
+  bool isTooShortForGrid(const CubicBezier& c, const EndCurvatures& exact) const {
     const double handle = std::min((c[1] - c[0]).norm(), (c[3] - c[2]).norm());
     const double least = std::min(weight(exact[0].value_or(0.0)), weight(exact[1].value_or(0.0)));
     return grid_ > kMaxCurvatureError * least * 1.5 * handle * handle;
@@ -150,7 +150,7 @@ class Approximation {
   }
 
   /// Least squares for the two handle lengths at the present parameters; false where they make no sense.
-  bool fitHandles(Cubic& c, const Vec2& d0, const Vec2& d1) const {
+  bool fitHandles(CubicBezier& c, const Vec2& d0, const Vec2& d1) const {
     double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double t = parameters_[i], s = 1.0 - t;
@@ -169,9 +169,9 @@ class Approximation {
     return true;
   }
 
-  Cubic fitted(double from, double to, const Vec2& start, const Vec2& end) {
+  CubicBezier fitted(double from, double to, const Vec2& start, const Vec2& end) {
     const Vec2 d0 = direction(from, from, to), d1 = direction(to, from, to);
-    Cubic c = {start, start, end, end};
+    CubicBezier c = {start, start, end, end};
     double length = 0.0;
     for (std::size_t i = 1; i < points_.size(); ++i) length += (points_[i] - points_[i - 1]).norm();
     c[1] = start + length / 3.0 * d0;
@@ -185,7 +185,7 @@ class Approximation {
 
   /// Largest distance between cubic and curve over [from, to]: from the curve's samples to the cubic, and back; once it
   /// is more than `enough`, any such distance.
-  double error(const Cubic& c, double from, double to, double enough) {
+  double error(const CubicBezier& c, double from, double to, double enough) {
     double worst = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double t = cubicFoot(c, points_[i], parameters_[i], kFootRounds);
@@ -228,7 +228,7 @@ class Approximation {
     const bool mayHalve = depth < kMaxDepth && middle > from && middle < to;
     if (!(mayHalve && turning() > kMaxTurn)) {
       const EndCurvatures exact = {exactCurvature(from), exactCurvature(to)};
-      Cubic c = fitted(from, to, start, end);
+      CubicBezier c = fitted(from, to, start, end);
       matchCurvatures(c, exact);
       c[1] = rounded(c[1]);
       c[2] = rounded(c[2]);
@@ -243,7 +243,7 @@ class Approximation {
     recurse(middle, to, depth + 1);
   }
 
-  void take(const Cubic& c, const std::optional<double>& exactAtStart, double measured) {
+  void take(const CubicBezier& c, const std::optional<double>& exactAtStart, double measured) {
     path_.runs.back().cubics.push_back({c[1], c[2], c[3]});
     path_.largestError = std::max(path_.largestError, measured);
     const EndCurvatures own = endCurvatures(c);

@@ -19,7 +19,7 @@ constexpr double kSigmas = 2.0;           // of the noise: a gap stands out of t
 constexpr int kNoiseStep = 7;             // [grid] between the pixels that tell the noise
 constexpr double kQuietRank = 0.25;       // of the steps between neighbours: those on paper are among them
 constexpr double kQuarterSigma = 0.319;   // the standard deviations that a quarter of a normal variable lies within
-constexpr double kPaperRank = 0.9;        // of the pixels of a stretch: drawing and line are darker
+constexpr double kPaperRankAround = 0.9;  // of the pixels of a stretch: drawing and line are darker
 constexpr double kLineRank = 0.75;        // of the depths along a stretch: the line's, without strokes that cross
 constexpr double kInkDepth = 0.5;         // of the line's depth: fainter places are gaps
 constexpr double kAbsent = 0.2;           // of a stretch with ink: less, and the line is not there at all
@@ -63,7 +63,7 @@ class StretchInk {
       darkest = sum;
       off = d;
     }
-    const float paper = elementOfRank(around, static_cast<std::ptrdiff_t>(kPaperRank * std::ssize(around)));
+    const float paper = elementOfRank(around, static_cast<std::ptrdiff_t>(kPaperRankAround * std::ssize(around)));
     const int columns = stretch_.end - stretch_.begin;
     const int grain = grainFor(static_cast<double>(paper) - darkest / columns);
     std::vector<float> depths;

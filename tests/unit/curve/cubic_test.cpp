@@ -11,10 +11,10 @@
 namespace batten {
 namespace {
 
-const Cubic kWave = {Vec2(1.0, -2.0), Vec2(4.0, 5.0), Vec2(6.0, -3.0), Vec2(9.0, 1.0)};
+const CubicBezier kWave = {Vec2(1.0, -2.0), Vec2(4.0, 5.0), Vec2(6.0, -3.0), Vec2(9.0, 1.0)};
 
 /// De Casteljau: halving the polygon, no polynomial written out.
-Vec2 byDeCasteljau(Cubic c, double t) {
+Vec2 byDeCasteljau(CubicBezier c, double t) {
   for (int level = 3; level > 0; --level)
     for (int i = 0; i < level; ++i) c[i] = (1.0 - t) * c[i] + t * c[i + 1];
   return c[0];
@@ -46,7 +46,7 @@ TEST(Cubic, TheFootIsTheNearestOfManyPlaces) {
 
 TEST(Cubic, TheFootStaysWithinTheCurve) {
   EXPECT_EQ(cubicFoot(kWave, Vec2(-5.0, -10.0), 0.1, 20), 0.0);
-  const Cubic point = {Vec2(1.0, 1.0), Vec2(1.0, 1.0), Vec2(1.0, 1.0), Vec2(1.0, 1.0)};
+  const CubicBezier point = {Vec2(1.0, 1.0), Vec2(1.0, 1.0), Vec2(1.0, 1.0), Vec2(1.0, 1.0)};
   EXPECT_EQ(cubicFoot(point, Vec2(3.0, 0.0), 0.5, 8), 0.5) << "a curve that stands still";
 }
 
