@@ -57,7 +57,8 @@ class Selection : public test::WindowFixture {
     const TracedCurve* curve = session().selected();
     if (!curve || !session().output().pieces) return 1e9;
     double best = 1e9;
-    for (const Vec2& p : session().output().pieces->pieces[curve->piece].points) best = std::min(best, (p - px).norm());
+    for (const PiecePoint& p : session().output().pieces->pieces[curve->piece].points)
+      best = std::min(best, (p.at - px).norm());
     return best;
   }
   void clickEyeOfSelected() {

@@ -228,7 +228,7 @@ TEST(EditorSession, TheSelectionStaysWithItsPlace) {
   ASSERT_NE(open.session.selected(), nullptr);
   const auto& piece = open.session.output().pieces->pieces[open.session.selected()->piece];
   double nearest = 1e9;
-  for (const Vec2& point : piece.points) nearest = std::min(nearest, (point - middle).norm());
+  for (const PiecePoint& point : piece.points) nearest = std::min(nearest, (point.at - middle).norm());
   EXPECT_LT(nearest, 2.0);
 }
 
@@ -284,7 +284,7 @@ int numberAt(const EditorSession& session, const Vec2& px) {
   int number = 0;
   double nearest = 8.0;
   for (const TracedCurve& curve : curves) {
-    for (const Vec2& p : session.output().pieces->pieces[curve.piece].points) {
+    for (const Vec2& p : positionsOf(session.output().pieces->pieces[curve.piece].points)) {
       if ((p - px).norm() >= nearest) continue;
       nearest = (p - px).norm();
       number = curveNumber(session.output(), curve);

@@ -213,7 +213,7 @@ void ShapeWindow::refreshTable() {
                      "S alone cannot choose, as it mostly rises with the degree.")
       : nearest ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
                      "tolerance, adds extrema, moves nothing or is too dissimilar.")
-                      .arg(degreeName(*nearest))
+                      .arg(degreeName(nearest.value_or(1)))
                 : QString());
 }
 
