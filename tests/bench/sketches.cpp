@@ -107,7 +107,7 @@ std::vector<std::vector<test::CurvePoint>> cornerToCorner(const ContourSet& cont
   const auto pieces = splitAtCorners(contours, marks, {}, {});
   for (std::size_t i = 0; pieces && i < pieces->pieces.size(); ++i) {
     std::vector<test::CurvePoint> line;
-    const auto& p = pieces->pieces[i].points;
+    const std::vector<Vec2> p = positionsOf(pieces->pieces[i].points);
     for (std::size_t k = 0; k + 1 < p.size(); ++k)
       if (p[k] != p[k + 1]) line.push_back({0.5 * (p[k] + p[k + 1]), (p[k + 1] - p[k]).normalized()});
     if (!line.empty()) lines.push_back(std::move(line));

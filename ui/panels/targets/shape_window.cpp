@@ -185,8 +185,9 @@ void ShapeWindow::compare() {
 
 void ShapeWindow::refreshTable() {
   const auto targets = session_.targets();
-  const std::optional<int> nearest = targets ? targets->recommendedDegree : std::nullopt;
-  const bool isAdvised = nearest && isAdvisable(*targets, *nearest, fairingAsked(session_).toleranceMm);
+  const bool isFound = targets && targets->recommendedDegree;
+  const int nearest = isFound ? targets->recommendedDegree.value() : 1;
+  const bool isAdvised = isFound && isAdvisable(*targets, nearest, fairingAsked(session_).toleranceMm);
   std::vector<FigureTable::Row> rows;
   for (int degree = 1; targets && degree <= 6; ++degree) {
     const auto at = static_cast<std::size_t>(degree - 1);
@@ -211,9 +212,9 @@ void ShapeWindow::refreshTable() {
   recommendation_->setText(
       isAdvised ? tr("✓ recommended: the lowest degree that is met within the tolerance without an extremum more. "
                      "S alone cannot choose, as it mostly rises with the degree.")
-      : nearest ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
+      : isFound ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
                      "tolerance, adds extrema, moves nothing or is too dissimilar.")
-                      .arg(degreeName(nearest.value_or(1)))
+                      .arg(degreeName(nearest))
                 : QString());
 }
 
