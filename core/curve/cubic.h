@@ -27,14 +27,12 @@ inline Vec2 cubicSecond(const CubicBezier& c, double t) {
   return 6 * (1.0 - t) * (c[2] - 2.0 * c[1] + c[0]) + 6 * t * (c[3] - 2.0 * c[2] + c[1]);
 }
 
-/// [parameter] A step towards a foot point so small is the last one.
-inline constexpr double kCubicFootSettled = 1e-12;
-
 /// The parameter of the foot of p that at most `rounds` steps (footStep) reach from t, within 0..1.
-inline double cubicFoot(const CubicBezier& c, const Vec2& p, double t, int rounds) {
+/// @param settled [parameter] a step no longer than this is the last one.
+inline double cubicFoot(const CubicBezier& c, const Vec2& p, double t, int rounds, double settled = 0.0) {
   for (int i = 0; i < rounds; ++i) {
     const double next = std::clamp(t + footStep(cubicPoint(c, t) - p, cubicFirst(c, t), cubicSecond(c, t)), 0.0, 1.0);
-    const bool isSettled = std::abs(next - t) < kCubicFootSettled;
+    const bool isSettled = std::abs(next - t) <= settled;
     t = next;
     if (isSettled) break;
   }

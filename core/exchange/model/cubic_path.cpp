@@ -15,11 +15,12 @@
 namespace batten {
 namespace {
 
-constexpr int kSamples = 32;       ///< Places per cubic at which the error is measured and handles are fitted.
-constexpr double kSettled = 1e-6;  ///< [share of the piece] A step to the foot point so small is the last one.
-constexpr int kRounds = 4;         ///< Fits of the handles, each with better parameters.
-constexpr int kFootRounds = 8;     ///< Steps towards a foot point at most.
-constexpr int kMaxDepth = 24;      ///< Halvings; 1/2^24 of a piece is far below any tolerance.
+constexpr int kSamples = 32;            ///< Places per cubic at which the error is measured and handles are fitted.
+constexpr double kSettled = 1e-6;       ///< [share of the piece] A step to the foot point so small is the last one.
+constexpr int kRounds = 4;              ///< Fits of the handles, each with better parameters.
+constexpr int kFootRounds = 8;          ///< Steps towards a foot point at most.
+constexpr double kFootSettled = 1e-12;  ///< [parameter] Steps so short end the search.
+constexpr int kMaxDepth = 24;           ///< Halvings; 1/2^24 of a piece is far below any tolerance.
 constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
 
@@ -178,7 +179,7 @@ class Approximation {
     c[2] = end - length / 3.0 * d1;
     for (int round = 0; round < kRounds && fitHandles(c, d0, d1); ++round) {
       for (std::size_t i = 0; i < points_.size(); ++i)
-        parameters_[i] = cubicFoot(c, points_[i], parameters_[i], kFootRounds);
+        parameters_[i] = cubicFoot(c, points_[i], parameters_[i], kFootRounds, kFootSettled);
     }
     return c;
   }
@@ -188,7 +189,7 @@ class Approximation {
   double error(const CubicBezier& c, double from, double to, double enough) {
     double worst = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double t = cubicFoot(c, points_[i], parameters_[i], kFootRounds);
+      const double t = cubicFoot(c, points_[i], parameters_[i], kFootRounds, kFootSettled);
       worst = std::max(worst, (points_[i] - cubicPoint(c, t)).norm());
       if (worst > enough) return worst;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/solve/banded_cholesky.h"
 
@@ -132,7 +133,7 @@ void FairingModel::assemble() {
   }
 }
 
-Eigen::VectorXd FairingModel::cumulative(const Eigen::VectorXd& values, double& total) const {
+FairingModel::Integral FairingModel::cumulative(const Eigen::VectorXd& values) const {
   const int count = static_cast<int>(values.size());
   Eigen::VectorXd result(count);
   double sum = 0.0;
@@ -142,8 +143,7 @@ Eigen::VectorXd FairingModel::cumulative(const Eigen::VectorXd& values, double& 
     for (std::size_t l = 0; l < 4; ++l) sum += stepLength_ * rule.factor[l] * values[rule.sample[l]];
     if (k + 1 < count) result[k + 1] = sum;
   }
-  total = sum;
-  return result;
+  return {std::move(result), sum};
 }
 
 Eigen::VectorXd FairingModel::cumulativeTransposed(const Eigen::VectorXd& values, double total) const {
@@ -162,30 +162,27 @@ Eigen::VectorXd FairingModel::applyTo(const Eigen::VectorXd& local, const Eigen:
   const int count = setup_->sampleCount();
   Eigen::VectorXd bent(count), result(count);
   for (int i = 0; i < count; ++i) bent[i] = state_->curvature[i].kappa * normal[i];
-  double total = 0.0;
-  const Eigen::VectorXd sums = cumulative(bent, total);
-  const double lengthChange = -total;
+  const Integral sums = cumulative(bent);
+  const double lengthChange = -sums.total;
   for (int i = 0; i < count; ++i) {
-    const double slide = shift + sums[i] + setup_->fraction(i) * lengthChange;
+    const double slide = shift + sums.upTo[i] + setup_->fraction(i) * lengthChange;
     result[i] = weight_[i] * (local[i] + nonlocal_[i] * slide) + lengthTerm_[i] * lengthChange;
   }
   return result;
 }
 
-void FairingModel::transposeTo(const Eigen::VectorXd& y, Eigen::VectorXd& local, Eigen::VectorXd& normal,
-                               double& shift) const {
+FairingModel::Transposed FairingModel::transposed(const Eigen::VectorXd& y) const {
   const int count = setup_->sampleCount();
   Eigen::VectorXd slide(count);
-  double length = 0.0;
-  shift = 0.0;
+  double length = 0.0, shift = 0.0;
   for (int i = 0; i < count; ++i) {
     slide[i] = weight_[i] * y[i] * nonlocal_[i];
     length += slide[i] * setup_->fraction(i) + lengthTerm_[i] * y[i];
     shift += slide[i];
   }
-  local = weight_.cwiseProduct(y);
-  normal = cumulativeTransposed(slide, -length);
+  Eigen::VectorXd normal = cumulativeTransposed(slide, -length);
   for (int i = 0; i < count; ++i) normal[i] *= state_->curvature[i].kappa;
+  return {weight_.cwiseProduct(y), std::move(normal), shift};
 }
 
 Eigen::VectorXd FairingModel::apply(const Eigen::VectorXd& v) const {
@@ -199,14 +196,13 @@ Eigen::VectorXd FairingModel::apply(const Eigen::VectorXd& v) const {
 }
 
 Eigen::VectorXd FairingModel::applyTransposed(const Eigen::VectorXd& y) const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(setup_->unknowns.count()), local, normal;
-  double shift = 0.0;
-  transposeTo(y, local, normal, shift);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(setup_->unknowns.count());
+  const Transposed back = transposed(y);
   for (int i = 0; i < setup_->sampleCount(); ++i) {
-    accumulate(local_, i, local[i], out);
-    accumulate(normal_, i, normal[i], out);
+    accumulate(local_, i, back.local[i], out);
+    accumulate(normal_, i, back.normal[i], out);
   }
-  if (setup_->closed) accumulate(tangent_, 0, shift, out);
+  if (setup_->closed) accumulate(tangent_, 0, back.shift, out);
   return out;
 }
 
@@ -241,16 +237,15 @@ Eigen::VectorXd FairingModel::applyNormalOf(const Eigen::VectorXd& v, double dam
     tangent[i] = Row(&tangent_(0, i), stride).dot(near);
   }
   const Eigen::VectorXd y = applyTo(local, normal, setup_->closed ? tangent[0] : 0.0);
-  Eigen::VectorXd backLocal, backNormal, out = Eigen::VectorXd::Zero(v.size());
-  double shift = 0.0;
-  transposeTo(y, backLocal, backNormal, shift);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(v.size());
+  const Transposed back = transposed(y);
   const double along = damping * kTangentDamping * dampingUnit_ + tangentFloor_, across = damping * dampingUnit_;
   for (int i = 0; i < count; ++i) {
     const auto index = indexOf(i);
-    const double n = backNormal[i] + (corridorCurvature_[i] * across_[i] * across_[i] + across) * normal[i];
-    const double t = along * tangent[i] + (setup_->closed && i == 0 ? shift : 0.0);
+    const double n = back.normal[i] + (corridorCurvature_[i] * across_[i] * across_[i] + across) * normal[i];
+    const double t = along * tangent[i] + (setup_->closed && i == 0 ? back.shift : 0.0);
     near =
-        backLocal[i] * Row(&local_(0, i), stride) + n * Row(&normal_(0, i), stride) + t * Row(&tangent_(0, i), stride);
+        back.local[i] * Row(&local_(0, i), stride) + n * Row(&normal_(0, i), stride) + t * Row(&tangent_(0, i), stride);
     for (std::size_t k = 0; k < index.size(); ++k) out[index[k]] += near[static_cast<Eigen::Index>(k)];
   }
   return out;

@@ -28,13 +28,23 @@ class FairingModel {
   double dot(const Eigen::MatrixXd& rows, int sample, const Eigen::VectorXd& v) const;
   void accumulate(const Eigen::MatrixXd& rows, int sample, double factor, Eigen::VectorXd& out) const;
   void assemble();
-  /// What J v is made of, per sample, and what J' y adds to the rows.
+  /// What J' y adds to the rows: per sample, and of a closed curve to the tangent of the first one.
+  struct Transposed {
+    Eigen::VectorXd local, normal;
+    double shift = 0.0;
+  };
+  /// An integral up to every sample, and over the whole line.
+  struct Integral {
+    Eigen::VectorXd upTo;
+    double total = 0.0;
+  };
+  /// J v from its parts per sample.
   Eigen::VectorXd applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const;
-  void transposeTo(const Eigen::VectorXd& y, Eigen::VectorXd& local, Eigen::VectorXd& normal, double& shift) const;
+  Transposed transposed(const Eigen::VectorXd& y) const;
   Eigen::VectorXd applyNormal(const Eigen::VectorXd& v, double damping) const;
   template <int Stride>
   Eigen::VectorXd applyNormalOf(const Eigen::VectorXd& v, double damping) const;
-  Eigen::VectorXd cumulative(const Eigen::VectorXd& values, double& total) const;
+  Integral cumulative(const Eigen::VectorXd& values) const;
   Eigen::VectorXd cumulativeTransposed(const Eigen::VectorXd& values, double total) const;
 
   const FairingSetup* setup_;

@@ -49,7 +49,9 @@ void paintCut(QPainter& painter, QPointF foot, QPointF tip) {
 /// What the noise of the scan leaves open of the curvature: +-2 standard deviations about the comb's tips.
 void paintNoise(QPainter& painter, const CanvasScene& scene, const std::vector<CombPoint>& points,
                 const CombScale& scale) {
-  if (std::none_of(points.begin(), points.end(), [](const CombPoint& point) { return point.sigma > 0.0; })) return;
+  if (std::none_of(points.begin(), points.end(),
+                   [](const CombPoint& point) { return point.sigma.value_or(0.0) > 0.0; }))
+    return;
   QColor fill = colors::sketched();
   fill.setAlpha(54);
   painter.setPen(Qt::NoPen);
@@ -60,7 +62,7 @@ void paintNoise(QPainter& painter, const CanvasScene& scene, const std::vector<C
     QPolygonF noise;
     noise.reserve(2 * static_cast<qsizetype>(run.last - run.first + 1));
     const auto edge = [&](CombPoint point, double side) {
-      point.kappa += side * 2.0 * point.sigma;
+      point.kappa += side * 2.0 * point.sigma.value_or(0.0);
       noise.append(combTip(point, scale, scene.transform));
     };
     for (std::size_t i = run.first; i <= run.last; ++i) edge(points[i], 1.0);

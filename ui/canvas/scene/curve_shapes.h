@@ -43,10 +43,10 @@ std::shared_ptr<const CurveShapes> buildShapes(const CurveSource&, double bracke
 /// A place along a curve.
 struct CombPoint {
   Vec2 px = Vec2::Zero();
-  Vec2 outPx = Vec2::Zero();  ///< Unit, image frame: the side on which positive curvature is drawn (outwards).
-  double kappa = 0.0;         ///< [1/mm]
-  double s = 0.0;             ///< [mm]
-  double sigma = 0.0;         ///< [1/mm] noise of the curvature; 0 = not known.
+  Vec2 outPx = Vec2::Zero();         ///< Unit, image frame: the side on which positive curvature is drawn (outwards).
+  double kappa = 0.0;                ///< [1/mm]
+  double s = 0.0;                    ///< [mm]
+  std::optional<double> sigma = {};  ///< [1/mm] noise of the curvature, where it is known.
 };
 struct CombMark {
   Vec2 px = Vec2::Zero(), outPx = Vec2::Zero();
