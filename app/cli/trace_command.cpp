@@ -157,7 +157,10 @@ class Trace {
   }
 
   Result<void> writeCurves() {
-    ExportDocument document = exportDocument(out_, plan_.recipe, scan_, plan_.which);
+    const bool anyWidths = std::any_of(plan_.outputs.begin(), plan_.outputs.end(),
+                                       [](const auto& output) { return holdsWidths(output.settings); });
+    ExportDocument document = exportDocument(out_, plan_.recipe, scan_, plan_.which,
+                                             anyWidths ? ExportedWidths::Measured : ExportedWidths::None);
     if (!plan_.curves.empty()) {
       auto chosen = chosenCurves(document, plan_.curves);
       if (!chosen) return fail(chosen.error());

@@ -250,7 +250,9 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
 // net are followed instead. Ink with fewer holes is none.
 Result<ContourSet> bordersOfNets(const BitImage& ink, const ContourParams& params, const RunContext& context) {
   constexpr int kFewestHoles = 9;  // of a net: three lines across three are the least that could be a grid
-  Result<ContourSet> set = bordersOf(ink, true, params, 0.0, nullptr, context);
+  ContourParams meshes = params;
+  meshes.minWidths = 0.0;  // the borders of a mesh are short where the lines are wide
+  Result<ContourSet> set = bordersOf(ink, true, meshes, 0.0, nullptr, context);
   if (!set) return set;
   const auto holes = std::count_if(set->contours.begin(), set->contours.end(), [](const Contour& c) { return c.hole; });
   if (holes < kFewestHoles) {
@@ -259,6 +261,22 @@ Result<ContourSet> bordersOfNets(const BitImage& ink, const ContourParams& param
     addNote(*set, "The lines are too close together to be told apart; the borders of their ink were traced.");
   }
   return set;
+}
+
+// The ink that the lines stand for, by their lengths and widths and by the areas within outlines, of all ink.
+double explainedInk(const ContourSet& set, const BitImage& ink) {
+  double area = 0.0;
+  for (const Contour& c : set.contours) {
+    if (c.kind == ContourKind::Outline) {
+      area += (c.hole ? -1.0 : 1.0) * std::fabs(c.areaPx);
+      continue;
+    }
+    double width = 0.0;
+    for (const float w : strokeWidthsOf(c.points))
+      width += static_cast<double>(w) / static_cast<double>(std::ssize(c.points));
+    area += c.lengthPx * width;
+  }
+  return area / std::max(1.0, static_cast<double>(ink.count()));
 }
 
 std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
@@ -276,7 +294,8 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   Result<FoundLines> found = findLines(ink, grey, edges, params, context);
   if (!found) return fail(found.error());
   ContourSet* set = &found->set;
-  if (set->contours.empty() && edges.mode == EdgeMode::Automatic) {
+  constexpr double kLeastExplained = 0.5;  // of the ink: where less came, lines went in the net
+  if (explainedInk(*set, ink) < kLeastExplained && edges.mode == EdgeMode::Automatic) {
     Result<ContourSet> net = bordersOfNets(ink, params, context);
     if (!net) return fail(net.error());
     if (!net->contours.empty()) *set = std::move(*net);

@@ -22,8 +22,9 @@ constexpr double kUnknownNoisePx = 0.1;  ///< Where there are too few widths to 
 constexpr double kBlobShare = 0.25;      ///< Of the width: what stands out by more, and is short, is another line's.
 constexpr int kBlobReach = 3;            ///< [bins] to either side; a blob is shorter than that.
 constexpr std::ptrdiff_t kWindow = 10;   ///< [knots] Farther a knot changes others by less than 0.27^10.
-constexpr double kGapBins = 2.0;         ///< Widths that end farther from an end say nothing of it: held from there.
-constexpr double kNothingPx = 0.5;       ///< An end thinner than this is a tip: thinner lines leave no ink to see.
+constexpr std::ptrdiff_t kSeen = kWindow + 1;  ///< [knots] The equations of the last one in the window know the next.
+constexpr double kGapBins = 2.0;    ///< Widths that end farther from an end say nothing of it: held from there.
+constexpr double kNothingPx = 0.5;  ///< An end thinner than this is a tip: thinner lines leave no ink to see.
 
 /// The widths of a short stretch, averaged.
 struct WidthBin {
@@ -83,6 +84,7 @@ struct WidthKnot {
   double s = 0.0, width = 0.0;
   bool isFixed = false;                              ///< Stays whatever it costs.
   double diagonal = 0.0, beside = 0.0, right = 0.0;  ///< Of the normal equations; `beside`: with the next knot.
+  std::optional<double> spread = std::nullopt;       ///< Of its bend; absent where knots near it have gone since.
 };
 
 /// Knots and the widths there that are nearest to the bins.
@@ -99,11 +101,7 @@ class KnotFit {
       std::vector<std::optional<double>> costs(knots_.size());
       for (std::ptrdiff_t k = 1; k + 1 < std::ssize(knots_); ++k)
         if (!knots_[k].isFixed) costs[k] = removalCost(k);
-      std::vector<WidthKnot> kept;
-      for (std::ptrdiff_t k = 0; k < std::ssize(knots_); ++k)
-        if (!isCheapest(costs, k, most)) kept.push_back(knots_[k]);
-      if (kept.size() == knots_.size()) return;
-      knots_ = std::move(kept);
+      if (!removeCheapest(costs, most)) return;
       solve();
     }
   }
@@ -117,6 +115,25 @@ class KnotFit {
       return *costs[k] < *costs[other] || (orEqual && *costs[k] == *costs[other]);
     };
     return isBelow(k - 1, false) && isBelow(k + 1, true);
+  }
+
+  /// Whether there were any. The spread of those that see a knot which goes is to be found anew.
+  bool removeCheapest(const std::vector<std::optional<double>>& costs, double most) {
+    std::vector<WidthKnot> kept;
+    std::ptrdiff_t sinceGone = kSeen + 1;
+    for (std::ptrdiff_t k = 0; k < std::ssize(knots_); ++k) {
+      if (!isCheapest(costs, k, most)) {
+        kept.push_back(knots_[k]);
+        if (++sinceGone <= kSeen) kept.back().spread.reset();
+        continue;
+      }
+      for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, std::ssize(kept) - kSeen); i < std::ssize(kept); ++i)
+        kept[i].spread.reset();
+      sinceGone = 0;
+    }
+    const bool hasGone = kept.size() < knots_.size();
+    knots_ = std::move(kept);
+    return hasGone;
   }
 
   void solve() {
@@ -160,21 +177,31 @@ class KnotFit {
 
   /// Rise of the squared misfit when knot k lies on the line between its neighbours and all others find their best
   /// place again: (c w)^2 / (c A^-1 c) of least squares with the constraint c w = 0.
-  double removalCost(std::ptrdiff_t k) const {
+  double removalCost(std::ptrdiff_t k) {
+    const std::array<double, 3> c = bendAt(k);
+    double off = 0.0;
+    for (std::ptrdiff_t i = 0; i < std::ssize(c); ++i) off += c[i] * knots_[k - 1 + i].width;
+    if (!knots_[k].spread) knots_[k].spread = spreadAt(k);
+    return *knots_[k].spread > 0.0 ? off * off / *knots_[k].spread : 0.0;
+  }
+
+  /// How far a knot lies off the line between its neighbours, as weights of the three widths.
+  std::array<double, 3> bendAt(std::ptrdiff_t k) const {
     const WidthKnot &a = knots_[k - 1], &b = knots_[k + 1];
     const double t = (knots_[k].s - a.s) / (b.s - a.s);
-    const std::array<double, 3> c = {t - 1.0, 1.0, -t};
+    return {t - 1.0, 1.0, -t};
+  }
+
+  double spreadAt(std::ptrdiff_t k) const {
+    const std::array<double, 3> c = bendAt(k);
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, k - kWindow),
                          end = std::min(std::ssize(knots_), k + kWindow + 1);
     std::vector<double> right(end - first, 0.0);
     for (std::ptrdiff_t i = 0; i < std::ssize(c); ++i) right[k - 1 + i - first] = c[i];
     const std::vector<double> x = solved(first, end, right);
-    double off = 0.0, spread = 0.0;
-    for (std::ptrdiff_t i = 0; i < std::ssize(c); ++i) {
-      off += c[i] * knots_[k - 1 + i].width;
-      spread += c[i] * x[k - 1 + i - first];
-    }
-    return spread > 0.0 ? off * off / spread : 0.0;
+    double spread = 0.0;
+    for (std::ptrdiff_t i = 0; i < std::ssize(c); ++i) spread += c[i] * x[k - 1 + i - first];
+    return spread;
   }
 
   const std::vector<WidthBin>& bins_;

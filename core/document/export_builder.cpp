@@ -95,7 +95,7 @@ void joinWidths(std::vector<ExportPiece>& pieces, bool closed) {
 
 /// Adds the lines of a run in one of their two kinds.
 void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& recipe, bool sketched, bool isBoth,
-               ExportDocument& document) {
+               ExportedWidths widthsWanted, ExportDocument& document) {
   const DirectionOwners owners = assignDirections(*output.pieces, recipe);
   StrokeWidths widths(output, scan);
   std::map<int, ContourPieces> byContour;
@@ -120,7 +120,7 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
         ExportPiece& own = curve.pieces.emplace_back(
             ExportPiece{shapeOf(*piece, sketched), nameOfCurve(output, recipe, *piece), number});
         own.figures = figuresOf(*piece, sketched);
-        own.width = widths.along(*piece, shapeOf(*piece, sketched));
+        if (widthsWanted == ExportedWidths::Measured) own.width = widths.along(*piece, shapeOf(*piece, sketched));
         if (const auto& wanted = owners.ofPiece[piece->piece])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isReversed};
       }
@@ -140,7 +140,7 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
 }  // namespace
 
 ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe, const Scan& scan,
-                              ExportedCurves which) {
+                              ExportedCurves which, ExportedWidths widths) {
   ExportDocument document;
   document.frame = output.frame;
   document.dpi = recipe.dpi ? recipe.dpi : scan.dpi;
@@ -151,8 +151,8 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
     if (!parameter.isForDisplay) document.settings.emplace_back(parameter.name, parameter.get(recipe));
   if (!output.faired || !output.pieces || !output.contours) return document;
   const bool isBoth = which == ExportedCurves::Both;
-  if (which != ExportedCurves::Faired) addCurves(output, scan, recipe, true, isBoth, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, scan, recipe, false, isBoth, document);
+  if (which != ExportedCurves::Faired) addCurves(output, scan, recipe, true, isBoth, widths, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, scan, recipe, false, isBoth, widths, document);
   return document;
 }
 

@@ -8,6 +8,8 @@ namespace batten {
 
 /// Curves as they were found on the scan, or as they were faired.
 enum class ExportedCurves { Faired, Sketched, Both };
+/// Widths of the strokes along the curves: measuring them takes long, and few formats hold them (holdsWidths()).
+enum class ExportedWidths { Measured, None };
 
 /// What an export of the present result holds: the faired curves the user has not excluded, grouped by contour into
 /// paths. Pieces that follow each other form one path, "curve-3" if Curve 3 has the lowest number among them; where a
@@ -16,6 +18,6 @@ enum class ExportedCurves { Faired, Sketched, Both };
 /// "-sketched"; a piece that was not faired is one of both kinds. Pieces are named and numbered as in the window and
 /// the report.
 ExportDocument exportDocument(const PipelineOutput&, const Recipe&, const Scan&,
-                              ExportedCurves which = ExportedCurves::Faired);
+                              ExportedCurves which = ExportedCurves::Faired, ExportedWidths = ExportedWidths::Measured);
 
 }  // namespace batten

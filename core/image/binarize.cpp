@@ -36,7 +36,7 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (context.isCancelled()) return cancelled();
     if (params.reach < 1.0) ink = addFaintLines({ink, masks.certain, masks.faint}, context);
     if (context.isCancelled()) return cancelled();
-    fillHoles(ink, params.holeArea, context);
+    if (!thresholds.holesArePaper) fillHoles(ink, params.holeArea, context);
     if (context.isCancelled()) return cancelled();
     return ink;
   } catch (const std::bad_alloc&) {

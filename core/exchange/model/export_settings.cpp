@@ -84,6 +84,10 @@ double defaultTolerance(const ExportSettings& settings) {
   return kCubicTolerance;
 }
 
+bool holdsWidths(const ExportSettings& settings) {
+  return settings.format == ExportFormat::Svg || settings.format == ExportFormat::Json;
+}
+
 bool isJoined(const ExportSettings& settings) {
   const bool isCad = settings.format == ExportFormat::Dxf || settings.format == ExportFormat::Iges ||
                      settings.format == ExportFormat::Step || settings.format == ExportFormat::Rhino;

@@ -48,6 +48,9 @@ double defaultTolerance(const ExportSettings&);
 /// Whether the file holds something else than the curves themselves, so that the tolerance matters.
 bool isApproximate(const ExportSettings&);
 
+/// Whether the file holds the widths of strokes along their curves.
+bool holdsWidths(const ExportSettings&);
+
 /// Whether pieces stay together: as the settings say, else in all but DXF, IGES, STEP and 3DM.
 bool isJoined(const ExportSettings&);
 

@@ -59,21 +59,25 @@ template <class CountsOf>
 OtsuRegions splitRegions(const CountsOf& countsOf, double minSeparation, double strength, RegionThresholds& out,
                          const RunContext& context) {
   std::vector<float> value(kRegions, 0.0f), weight(kRegions, 0.0f), darkShare(kRegions, 0.0f);
+  std::vector<double> separation(kRegions, 0.0);
   parallelFor(context, kRegions, 1, [&](int region, int) {
     const Split split = otsu(countsOf(region));
     if (split.gap <= kMinClassGap || split.separation <= minSeparation) return;
     value[region] = static_cast<float>(split.bright - strength * (split.bright - split.level));
     weight[region] = 1.0f;
     darkShare[region] = static_cast<float>(split.darkShare);
+    separation[region] = split.separation;
   });
   const std::vector<float> filled = pushPull(value, weight, kRegionsPerSide, kRegionsPerSide);
   OtsuRegions regions;
   for (std::size_t r = 0; r < kRegions; ++r) {
     out.measured[r] = weight[r] > 0.0f;
     if (out.measured[r]) ++regions.split;
+    regions.separation += separation[r];
     if (darkShare[r] > 0.5f) ++regions.mostlyDark;
     out.automatic[r] = std::clamp(static_cast<double>(filled[r]), 0.0, 255.0);
   }
+  if (regions.split > 0) regions.separation /= regions.split;
   out.foundLine = regions.split > 0;
   return regions;
 }

@@ -8,9 +8,11 @@
 
 namespace batten {
 
-/// How many of the 64 regions were parted into two greys, and in how many of those most pixels are dark.
+/// How many of the 64 regions were parted into two greys, in how many of those most pixels are dark, and how clearly
+/// they were parted: the mean share of the variance that lies between the two greys.
 struct OtsuRegions {
   int split = 0, mostlyDark = 0;
+  double separation = 0.0;
 };
 
 /// [px] Standard deviation of the least Gaussian before thresholding: it spares lines 3 px from middle to middle.

@@ -14,6 +14,7 @@
 #include "core/image/plane.h"
 #include "core/image/push_pull.h"
 #include "core/image/threshold/find_folds.h"
+#include "core/image/threshold/grey_parts.h"
 #include "core/image/threshold/otsu_thresholds.h"
 #include "core/image/threshold/page_edges.h"
 #include "core/image/threshold/paper_cells.h"
@@ -36,6 +37,7 @@ constexpr double kCertainShare = 1.25;
 constexpr double kTorn = 0.1;
 constexpr double kSmoothingPerWidth = 0.45;  // [widths of torn ink, half that of its strokes] more rounds them off
 constexpr double kTornShare = 0.75;          // of the half level: grains are darker than the stroke that they make up
+constexpr double kMorePieces = 1.25;         // of those with more smoothing: it closed gaps
 constexpr double kNever = -1000.0;           // [grey] darker than anything
 constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";
 constexpr std::size_t kNoiseSamples = 20000;
@@ -199,21 +201,31 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
 /// Where lines stand so close all over the page that hardly any paper shows between them, neither the paper nor its
 /// noise can be measured: then the two greys of every region tell ink from paper, as without flattening, if most
 /// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions. Bright lines on
-/// dark paper are told by the greys, too: most of such a page is dark.
+/// dark paper are told by the greys, too: most of such a page is dark, and the bright part is no net's meshes. Of two
+/// smoothings the lesser counts if it parts the greys more clearly, so that it is not noise, and shows more pieces.
 void thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, double strength, RegionThresholds& out,
                             const RunContext& context) {
-  const auto isHatched = [&](const OtsuRegions& regions) {
-    return 2 * regions.split >= kRegions && (out.note != kBrighterLines || 2 * regions.mostlyDark < regions.split);
+  RegionThresholds coarse, fine;
+  coarse.smoothingPx = kSmoothings.front();
+  const OtsuRegions coarsely = otsuThresholds(smoothed, strength, coarse, context);
+  const OtsuRegions finely = fineOtsuThresholds(image, strength, fine, context);
+  const auto isSplit = [](const OtsuRegions& regions) { return 2 * regions.split >= kRegions; };
+  if (context.isCancelled() || (!isSplit(coarsely) && !isSplit(finely))) return;
+  const GreyParts coarseParts = greyPartsOf(image, coarse, context), fineParts = greyPartsOf(image, fine, context);
+  if (context.isCancelled()) return;
+  const auto isHatched = [&](const OtsuRegions& regions, const GreyParts& parts) {
+    return isSplit(regions) &&
+           (out.note != kBrighterLines || 2 * regions.mostlyDark < regions.split || parts.hasMeshes);
   };
-  RegionThresholds split;
-  split.smoothingPx = kSmoothings.front();
-  if (!isHatched(otsuThresholds(smoothed, strength, split, context)) &&
-      !isHatched(fineOtsuThresholds(image, strength, split, context)))
-    return;
-  split.note =
+  const bool isCoarse = isHatched(coarsely, coarseParts), isFine = isHatched(finely, fineParts);
+  if (!isCoarse && !isFine) return;
+  const bool isFiner = finely.separation > coarsely.separation &&
+                       static_cast<double>(fineParts.pieces) > kMorePieces * static_cast<double>(coarseParts.pieces);
+  out = isFine && (!isCoarse || isFiner) ? std::move(fine) : std::move(coarse);
+  out.holesArePaper = true;
+  out.note =
       "The lines are too close together to measure the paper between them; each region was "
       "thresholded between its two grey levels.";
-  out = std::move(split);
 }
 
 Plane statisticsPlane(const Plane& grey, int shrink, const RunContext& context) {

@@ -71,8 +71,9 @@ struct RegionThresholds {
   double faintLimit = -1.5;                ///< [grey] contrast that faint parts joined to ink must have at least.
   /// Of the half level at the edges, 0..1: less where the grain of a pencil tears the ink.
   double halfLevelShare = 1.0;
-  bool foundLine = true;  ///< False: no edge stands out of the paper anywhere.
-  std::string note;       ///< One line for the user when something is unusual; else empty.
+  bool holesArePaper = false;  ///< The lines are so close that small holes are the paper between them.
+  bool foundLine = true;       ///< False: no edge stands out of the paper anywhere.
+  std::string note;            ///< One line for the user when something is unusual; else empty.
 };
 
 /// Chooses the 64 thresholds. Automatic regions follow the half level at their own edges, or three quarters of it where

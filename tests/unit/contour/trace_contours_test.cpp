@@ -70,12 +70,15 @@ TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
 // Crossing lines of 3.5 px with 5 px of paper between them, over the whole page: no middle can be told, but there is
 // something to show.
 TEST(TraceContours, ANetThatIsMoreInkThanPaperGivesItsBorders) {
-  const OutlinePage net =
-      render([](double x, double y) { return std::fmod(x + y, 12.0) < 5.0 || std::fmod(x - y + 900.0, 12.0) < 5.0; });
-  const auto set = traceContours(net.ink, net.grey, withMode(EdgeMode::Automatic), {}, {});
-  ASSERT_TRUE(set.has_value()) << set.error().message;
-  EXPECT_GT(set->contours.size(), 100u);
-  EXPECT_NE(set->report.note.find("too close together to be told apart"), std::string::npos) << set->report.note;
+  for (const auto& [period, ink] : {std::pair(12.0, 5.0), std::pair(10.0, 5.0), std::pair(14.0, 8.0)}) {
+    const OutlinePage net = render([period = period, ink = ink](double x, double y) {
+      return std::fmod(x + y, period) < ink || std::fmod(x - y + 900.0, period) < ink;
+    });
+    const auto set = traceContours(net.ink, net.grey, withMode(EdgeMode::Automatic), {}, {});
+    ASSERT_TRUE(set.has_value()) << period << " " << ink << " " << set.error().message;
+    EXPECT_GT(set->contours.size(), 100u) << period << " " << ink;
+    EXPECT_NE(set->report.note.find("too close together to be told apart"), std::string::npos) << set->report.note;
+  }
   // Dots are no net.
   const OutlinePage specks = render([](double x, double y) { return inDisc(x, y, 100, 100, 1.5); });
   EXPECT_FALSE(traceContours(specks.ink, specks.grey, withMode(EdgeMode::Centreline), {}, {}).has_value());

@@ -9,6 +9,7 @@
 
 #include "core/curve/arc_length.h"
 #include "core/document/export_builder.h"
+#include "core/exchange/export_file.h"
 #include "core/exchange/model/arrangement.h"
 #include "core/exchange/model/cad_drawing.h"
 #include "tests/support/render_page.h"
@@ -174,6 +175,24 @@ TEST(StrokeWidths, LinesWithoutWidthsHaveNone) {
   EXPECT_FALSE(document.curves.empty());
   for (const ExportCurve& line : document.curves)
     for (const ExportPiece& piece : line.pieces) EXPECT_FALSE(piece.width);
+}
+
+TEST(StrokeWidths, FilesThatHoldNoneAreTheSameWithoutMeasuringThem) {
+  const TracedPage page = traced(test::widthStrokes(), test::scannedPage(3));
+  const ExportDocument with = exportDocument(page.output, page.recipe, page.scan);
+  const ExportDocument without =
+      exportDocument(page.output, page.recipe, page.scan, ExportedCurves::Faired, ExportedWidths::None);
+  for (const ExportCurve& line : without.curves)
+    for (const ExportPiece& piece : line.pieces) EXPECT_FALSE(piece.width);
+  for (const ExportFormat format : {ExportFormat::Svg, ExportFormat::Json, ExportFormat::Dxf, ExportFormat::Csv,
+                                    ExportFormat::Polynomials, ExportFormat::Rhino}) {
+    ExportSettings settings;
+    settings.format = format;
+    settings.widthOutlines = format == ExportFormat::Svg;
+    const auto a = exportedFile(with, settings), b = exportedFile(without, settings);
+    ASSERT_TRUE(a && b) << static_cast<int>(format);
+    EXPECT_EQ(a->bytes == b->bytes, !holdsWidths(settings)) << static_cast<int>(format);
+  }
 }
 
 }  // namespace

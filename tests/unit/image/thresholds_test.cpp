@@ -167,6 +167,61 @@ TEST(Thresholds, FindRulingsGridsAndHatchingAFewPixelsApart) {
   }
 }
 
+/// Lines both ways at 45 degrees, ink as wide as `ink` and every `spacing` px.
+GreyImage netPage(double spacing, double ink, double noise) {
+  GreyImage page(600, 400);
+  std::mt19937 random(5);
+  std::normal_distribution<double> grain(0.0, 1.0);
+  for (int y = 0; y < page.height; ++y) {
+    for (int x = 0; x < page.width; ++x) {
+      const double a = std::fabs(std::remainder((x - y) / std::sqrt(2.0), spacing));
+      const double b = std::fabs(std::remainder((x + y) / std::sqrt(2.0), spacing));
+      const double cover = std::clamp(0.5 * ink - std::min(a, b) + 0.5, 0.0, 1.0);
+      const double level = 235.0 - 215.0 * cover + noise * grain(random);
+      page.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * 257.0));
+    }
+  }
+  return page;
+}
+
+TEST(Thresholds, FindNetsWhoseLinesAreWiderThanThePaperBetweenThem) {
+  for (const auto& [spacing, ink] : {std::pair(8.5, 4.5), {11.3, 7.6}, {14.0, 9.0}}) {
+    for (const double noise : {0.0, 4.0})
+      expectLines(netPage(spacing, ink, noise), 10, std::to_string(spacing) + " px, ink " + std::to_string(ink));
+  }
+}
+
+constexpr int kLetterPx = 7, kRowPx = 12;
+
+/// Bowls of 1.6 px with stems beside them, in rows over the whole page: the middle of bowl (i, j) lies in the middle of
+/// its cell of kLetterPx by kRowPx.
+GreyImage letterPage() {
+  GreyImage page(600, 400);
+  for (int y = 0; y < page.height; ++y) {
+    for (int x = 0; x < page.width; ++x) {
+      const int at = x % kLetterPx - kLetterPx / 2, row = y % kRowPx - kRowPx / 2;
+      const double bowl = std::fabs(std::hypot(at, row) - 2.4),
+                   stem = std::max(std::abs(at + 2.4), std::abs(row) - 4.0);
+      const double cover = std::clamp(0.8 - std::min(bowl, (x / kLetterPx) % 2 == 0 ? stem : bowl) + 0.5, 0.0, 1.0);
+      page.row(y)[x] = static_cast<std::uint16_t>(std::lround((235.0 - 215.0 * cover) * 257.0));
+    }
+  }
+  return page;
+}
+
+TEST(Thresholds, LettersInDenseRowsKeepTheirCounters) {
+  const BitImage found = mask(letterPage(), {}, {});
+  int letters = 0, open = 0, inked = 0;
+  for (int y = kRowPx / 2; y + kRowPx < 400; y += kRowPx) {
+    for (int x = kLetterPx / 2; x + kLetterPx < 600; x += kLetterPx, ++letters) {
+      open += found.at(x, y) ? 0 : 1;
+      inked += found.at(x, y - 2) && found.at(x, y + 2) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(open, 0.95 * letters);
+  EXPECT_GT(inked, 0.95 * letters);
+}
+
 TEST(Thresholds, TinyPicturesDoNotFail) {
   for (const int width : {1, 2, 3, 7, 9}) {
     for (const int height : {1, 2, 5, 8}) {

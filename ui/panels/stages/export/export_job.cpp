@@ -6,14 +6,15 @@
 
 namespace batten {
 
-ExportDocument documentOf(const ExportRequest& request) {
-  const ExportDocument whole = exportDocument(request.output, request.recipe, *request.scan, request.which);
+ExportDocument documentOf(const ExportRequest& request, const ExportSettings& settings) {
+  const ExportDocument whole = exportDocument(request.output, request.recipe, *request.scan, request.which,
+                                              holdsWidths(settings) ? ExportedWidths::Measured : ExportedWidths::None);
   return request.numbers ? onlyCurves(whole, *request.numbers) : whole;
 }
 
 Result<ExportReport> runExport(const ExportRequest& request, const RunContext& context) {
   try {
-    const ExportDocument document = documentOf(request);
+    const ExportDocument document = documentOf(request, request.settings);
     if (document.curves.empty())
       return fail(ErrorCode::NoCurve, "There is no curve to export. Include at least one curve (the eye in the list).");
     return exportToFile(document, request.settings, request.path, context);

@@ -31,16 +31,16 @@ std::unique_ptr<QMimeData> pictureOf(const QByteArray& svg) {
 
 Result<ExportedFile> svgOf(const ExportRequest& request, std::optional<int> number, const RunContext& context) {
   try {
-    ExportDocument document = documentOf(request);
+    ExportSettings settings;
+    settings.scale = request.settings.scale;
+    settings.joined = request.settings.joined;
+    settings.svgUnitsPerMm = kPixelsPerMm;
+    ExportDocument document = documentOf(request, settings);
     if (number) {
       auto one = chosenCurves(document, std::to_string(*number));
       if (!one) return fail(one.error());
       document = std::move(*one);
     }
-    ExportSettings settings;
-    settings.scale = request.settings.scale;
-    settings.joined = request.settings.joined;
-    settings.svgUnitsPerMm = kPixelsPerMm;
     return exportedFile(document, settings, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the SVG. Exclude some curves.");

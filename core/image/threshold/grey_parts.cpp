@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/threshold/grey_parts.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/run_pieces.h"
+#include "core/image/plane.h"
+#include "core/image/threshold/region_surface.h"
+
+namespace batten {
+namespace {
+
+/// Border squared by 16 areas: 1 for a square, n / 4 for a stroke n times as long as wide.
+constexpr double kLongestMesh = 2.0;
+constexpr int kNoisePx = 4;  // [px] area: smaller pieces may be noise
+
+std::int64_t piecesOf(const BitImage& image, Connectivity connectivity, const RunContext& context) {
+  const RunPieces found = findPieces(image, connectivity, context);
+  std::vector<int> area(found.runs.size(), 0);
+  for (std::size_t i = 0; i < found.runs.size(); ++i) area[found.piece[i]] += found.runs[i].x1 - found.runs[i].x0;
+  return std::count_if(area.begin(), area.end(), [](int a) { return a >= kNoisePx; });
+}
+
+}  // namespace
+
+GreyParts greyPartsOf(const GreyImage& image, const RegionThresholds& thresholds, const RunContext& context) {
+  GreyParts parts;
+  const Plane smoothed =
+      smooth(shrinkGrey(image, 1, context), gaussianKernel(thresholds.smoothingPx * thresholds.smoothingPx), context);
+  if (context.isCancelled()) return parts;
+  BitImage bright(image.width, image.height), dark(image.width, image.height);
+  const RegionSurface levels(thresholds.automatic, image.width, image.height, true);
+  parallelFor(context, image.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<float> level(image.width);
+    for (int y = begin; y < end; ++y) {
+      levels.fillRow(y, level.data());
+      for (int x = 0; x < image.width; ++x) (smoothed.row(y)[x] < level[x] ? dark : bright).set(x, y, true);
+    }
+  });
+  const std::int64_t meshes = piecesOf(bright, Connectivity::Four, context);
+  if (context.isCancelled()) return parts;
+  parts.pieces = meshes + piecesOf(dark, Connectivity::Eight, context);
+  const auto area = static_cast<double>(bright.count());
+  const double border = area - static_cast<double>(shrunken(bright, 1, context).count());
+  parts.hasMeshes = meshes > 0 && border * border <= kLongestMesh * 16.0 * area * static_cast<double>(meshes);
+  return parts;
+}
+
+}  // namespace batten
