@@ -2,7 +2,6 @@
 #include "core/contour/centreline/centreline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <new>
 #include <opencv2/core.hpp>
@@ -151,31 +150,24 @@ RefinedStrokes placeStrokePaths(const std::vector<StrokePath>& paths, const Grai
   return all;
 }
 
-// [grey] by which a stroke is darker than the paper beside it. The brightest of several ways along its sides lies on
-// paper: others may run over the next stroke, or across the inside of a letter to its other side.
+// [grey] by which a stroke is darker than the paper on both its sides.
 double depthOf(const StrokePath& s, const GreyImage& grey) {
-  constexpr double kBesidePx[] = {1.5, 2.75, 4.0};  // from the border
+  constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;
   const auto level = [&](const Vec2& at) {
     return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
                                           std::clamp(static_cast<int>(at.y()), 0, grey.height - 1)));
   };
-  std::array<double, 2 * std::size(kBesidePx)> beside{};
-  double ink = 0.0;
+  double sum = 0.0;
   int count = 0;
   for (int i = 1; i + 1 < std::ssize(s.points); ++i) {
     const Vec2 along = s.points[i + 1].at - s.points[i - 1].at;
     if (!(along.norm() > 0.0)) continue;
-    const Vec2 normal = leftNormal(along.normalized()), &at = s.points[i].at;
-    ink += level(at);
+    const double beside = kBesideWidths * 2.0 * static_cast<double>(s.points[i].radius) + kTakenBesidePx;
+    const Vec2 away = beside * leftNormal(along.normalized()), &at = s.points[i].at;
+    sum += 0.5 * (level(at + away) + level(at - away)) - level(at);
     ++count;
-    int way = 0;
-    for (const double beyond : kBesidePx) {
-      const double off = static_cast<double>(s.points[i].radius) + beyond;
-      beside[way++] += level(at + off * normal);
-      beside[way++] += level(at - off * normal);
-    }
   }
-  return count > 0 ? (*std::max_element(beside.begin(), beside.end()) - ink) / count : 0.0;
+  return count > 0 ? sum / count : 0.0;
 }
 
 // Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones

@@ -30,6 +30,8 @@ double explainingReach(const RedrawnPoint&);
 
 /// The page that the curves explain: strokes as wide as they are, and the reach around them; borders, the reach around
 /// them, and what they enclose where at least 4/5 of it is `ink`.
-BitImage redrawPage(const std::vector<RedrawnCurve>&, const PipelineOutput&, const BitImage& ink, const RunContext&);
+/// @param spreadPx by which the ink of the page is seen wider than it was drawn, at either side. [px]
+BitImage redrawPage(const std::vector<RedrawnCurve>&, const PipelineOutput&, const BitImage& ink, double spreadPx,
+                    const RunContext&);
 
 }  // namespace batten
