@@ -233,10 +233,13 @@ TEST_F(Layout, TheListOfCurvesUsesTheRoomThereIs) {
     for (int i = 0; i < 24; ++i) painter.drawLine(20 + 25 * i, 60, 24 + 25 * i, 340);
   }));
   ASSERT_EQ(session().curves().size(), 24u);
+  session().selectCurve(3);
   for (const PanelStage stage : {PanelStage::Fairing, PanelStage::Curves}) {
     window_->setStage(stage);
     auto* list = find<QWidget>(("panel." + key(stage).toStdString()).c_str())->findChild<CurveList*>();
     ASSERT_NE(list, nullptr);
+    QTest::qWait(50);
+    EXPECT_EQ(list->verticalScrollBar()->value(), 0) << "the row selected is among the first ten";
     const int row = list->sizeHintForRow(0);
     window_->resize(1366, 700);
     ASSERT_TRUE(waitUntil([&] { return window_->height() == 700; }, 5000));

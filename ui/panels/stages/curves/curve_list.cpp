@@ -9,6 +9,7 @@
 #include <QStyledItemDelegate>
 #include <QTimer>
 #include <algorithm>
+#include <utility>
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/background_worker.h"
@@ -145,9 +146,11 @@ CurveList::~CurveList() = default;
 void CurveList::showEvent(QShowEvent* event) {
   QListWidget::showEvent(event);
   judge();
-  if (wasSeen_) return;
-  wasSeen_ = true;
-  // The row selected was scrolled to when the list had no height yet, which left the first ones above it.
+  if (!std::exchange(wasSeen_, true)) showFromTop();
+}
+
+/// The row selected is scrolled to while the list has not got its height yet, which leaves rows above it out of sight.
+void CurveList::showFromTop() {
   QTimer::singleShot(0, this, [this] {
     scrollToTop();
     scrollTo(currentIndex());
@@ -159,6 +162,7 @@ QSize CurveList::sizeHint() const { return {240, heightOfRows(std::min(count(), 
 void CurveList::refresh() {
   filling_ = true;
   const auto curves = session_.curves();
+  if (count() != std::ssize(curves)) showFromTop();
   while (count() > static_cast<int>(curves.size())) delete takeItem(count() - 1);
   while (count() < static_cast<int>(curves.size())) addItem(QString());
   for (int i = 0; i < count(); ++i) {

@@ -57,6 +57,7 @@ class CurveList : public QListWidget {
   using Judgements = std::vector<Judgement>;
 
   void refresh();
+  void showFromTop();
   void measure();
   static QString shortNameOf(const QString& name);  ///< "Curve 2"
   int nameRoom() const;
