@@ -211,10 +211,10 @@ void ShapeWindow::refreshTable() {
   recommendation_->setText(
       isAdvised ? tr("✓ recommended: the lowest degree that is met within the tolerance without an extremum more. "
                      "S alone cannot choose, as it mostly rises with the degree.")
-      : nearest > 0 ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
-                         "tolerance, adds extrema, moves nothing or is too dissimilar.")
-                          .arg(degreeName(nearest))
-                    : QString());
+      : nearest ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
+                     "tolerance, adds extrema, moves nothing or is too dissimilar.")
+                      .arg(degreeName(*nearest))
+                : QString());
 }
 
 void ShapeView::show(const ShapeComparison& comparison, bool radius) {
