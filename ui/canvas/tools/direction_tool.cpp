@@ -107,11 +107,11 @@ class DirectionTool final : public CanvasTool {
       const NurbsCurve& shape = curves[i].faired.isEmpty() ? curves[i].sketched : curves[i].faired;
       if (shape.isEmpty()) continue;
       const CurveSample middle = sampleByArcLength(shape, 3)[1];
-      const double sign = courses[i].isTurned ? -1.0 : 1.0;
+      const double sign = courses[i].isReversed ? -1.0 : 1.0;
       shown.middle = frame.pointToImage(middle.point);
       shown.way = sign * frame.vectorToImage(middle.tangent).normalized();
       shown.isClosed = courses[i].isOfClosedLine;
-      const Vec2 begin = frame.pointToImage(shape.point(courses[i].isTurned ? shape.end() : shape.start()));
+      const Vec2 begin = frame.pointToImage(shape.point(courses[i].isReversed ? shape.end() : shape.start()));
       shown.start = begin;
       shown.isFirst = !shown.isClosed || isFirstOfLine(i);
       if (shown.isClosed && courses[i].startPx)

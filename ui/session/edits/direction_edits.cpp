@@ -32,7 +32,7 @@ std::vector<CurveCourse> curveCourses(const EditorSession& session) {
     const auto piece = pieceNumber(session, i);
     if (!piece) continue;
     const auto& wanted = owners.ofPiece[*piece];
-    course.isTurned = wanted && wanted->isReversed;
+    course.isReversed = wanted && wanted->isReversed;
     const int contour = output.pieces->pieces[*piece].contour;
     if (contour < 0 || contour >= std::ssize(output.contours->contours)) continue;
     course.isOfClosedLine = output.contours->contours[contour].closed;

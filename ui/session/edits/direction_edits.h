@@ -9,7 +9,7 @@ namespace batten {
 
 /// How a curve of the session is exported.
 struct CurveCourse {
-  bool isTurned = false;        ///< Reversed relative to the traced direction.
+  bool isReversed = false;      ///< Reversed relative to the traced direction.
   bool isOfClosedLine = false;  ///< It has a start that can be moved.
   std::optional<Vec2> startPx;  ///< Where its closed line was asked to begin.
 };
