@@ -22,10 +22,7 @@ namespace batten {
 namespace {
 
 constexpr double kReferenceStrength = 0.6;  // of the contrast that is asked of ink by default
-// [standard deviations of the smoothing] beyond an edge of ink, where its smoothed grey falls to the level of the
-// reference, which is this strength of half the depth: the normal variable that 1 - 0.5 * 0.6 of all do not exceed.
-constexpr double kEdgeSpread = 0.5244;
-constexpr double kPixelPx = 0.5;  // ink begins half a pixel before the centre of its first pixel
+constexpr double kPixelPx = 0.5;            // ink begins half a pixel before the centre of its first pixel
 constexpr double kLeastExplained = 0.92, kMostInvented = 0.005;
 
 // What curves are held against.
@@ -163,8 +160,7 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   const BitImage drawn = withoutMargins(reference->ink, context);
   const std::vector<RedrawnCurve> curves = redrawCurves(out, context);
   result.referencePx = drawn.count();
-  result.missedInk =
-      without(drawn, redrawPage(curves, out, drawn, kEdgeSpread * reference->thresholds.smoothingPx, context));
+  result.missedInk = without(drawn, redrawPage(curves, out, drawn, context));
   if (result.referencePx > 0) {
     result.missed = static_cast<double>(result.missedInk.count()) / static_cast<double>(result.referencePx);
     result.explained = 1.0 - result.missed;

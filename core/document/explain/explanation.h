@@ -22,8 +22,8 @@ struct InventedStretch {
 
 /// How well the curves of a run explain the ink of the page.
 struct Explanation {
-  /// Ink that the page holds at a low contrast which no setting of the drawing changes, or at the one asked by default,
-  /// in the regions traced, but for margins along the border of the page. [px]
+  /// Ink that the page holds at a low contrast which no setting of the drawing changes, in the regions traced, but for
+  /// margins along the border of the page. [px]
   std::int64_t referencePx = 0;
   double explained = 1.0;  ///< Share of the reference ink within reach of the curves drawn anew. 0..1
   double missed = 0.0;     ///< The rest of it.
@@ -38,9 +38,8 @@ struct Explanation {
 inline constexpr std::size_t kMostInventions = 20;
 
 /// Redraws the page from its curves and compares: centre lines with their widths, borders filled where what they
-/// enclose is ink, all by as much wider as the smoothing of the page before its thresholds shows edges at the low
-/// contrast of the reference. Reach: the larger of 2 px and half the width of the line. Lines drawn with the pen
-/// explain ink but cannot be invented. Made after the curves and changes nothing of the run.
+/// enclose is ink. Reach: the larger of 2 px and half the width of the line. Lines drawn with the pen explain ink but
+/// cannot be invented. Made after the curves and changes nothing of the run.
 /// @return Cancelled; OutOfMemory; what findThresholds says.
 Result<Explanation> explainPage(const Scan&, const Recipe&, const PipelineOutput&, const RunContext&);
 

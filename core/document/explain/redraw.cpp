@@ -145,11 +145,11 @@ std::vector<RedrawnCurve> redrawCurves(const PipelineOutput& out, const RunConte
 }
 
 BitImage redrawPage(const std::vector<RedrawnCurve>& curves, const PipelineOutput& out, const BitImage& ink,
-                    double spreadPx, const RunContext& context) {
+                    const RunContext& context) {
   BitImage page = onlyInked(filled(closedBorders(curves, out), ink.width, ink.height, context), ink, context);
   for (const RedrawnCurve& c : curves) {
     if (context.isCancelled()) return page;
-    for (const RedrawnPoint& p : c.points) setDisc(page, p.at, p.halfWidthPx + spreadPx + explainingReach(p));
+    for (const RedrawnPoint& p : c.points) setDisc(page, p.at, p.halfWidthPx + explainingReach(p));
   }
   return page;
 }

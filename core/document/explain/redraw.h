@@ -30,8 +30,6 @@ double explainingReach(const RedrawnPoint&);
 
 /// The page that the curves explain: strokes as wide as they are, and the reach around them; borders, the reach around
 /// them, and what they enclose where at least 4/5 of it is `ink`.
-/// @param spreadPx by which the ink of the page is seen wider than it was drawn, at either side. [px]
-BitImage redrawPage(const std::vector<RedrawnCurve>&, const PipelineOutput&, const BitImage& ink, double spreadPx,
-                    const RunContext&);
+BitImage redrawPage(const std::vector<RedrawnCurve>&, const PipelineOutput&, const BitImage& ink, const RunContext&);
 
 }  // namespace batten

@@ -164,17 +164,6 @@ TEST(Explanation, ACurveBesideItsInkIsInvented) {
   EXPECT_FALSE(e.note.empty());
 }
 
-// The scan is smoothed before its ink is told at a low contrast, which shows every edge farther out than it was drawn;
-// what a curve reaches of the drawn line, it reaches of that.
-TEST(Explanation, SmoothingMakesNoInkToMiss) {
-  constexpr double kWidthPx = 5.0;
-  Drawing drawing;
-  drawing.shiftTopLine(0.5 * kWidthPx - 0.25);  // the far side of the line is half a width away, but for the pixel
-  EXPECT_LT(drawing.explain().missedInk.count(), 0.1 * 420.0);
-  drawing.shiftTopLine(1.5);
-  EXPECT_GT(drawing.explain().missedInk.count(), 420.0) << "a strip of more than a pixel";
-}
-
 TEST(Explanation, ADeclaredBridgeIsNotInvented) {
   Drawing drawing;
   drawing.shiftTopLine(14.0);
