@@ -246,12 +246,18 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   return found;
 }
 
+// Whether the user says how short a line may be.
+bool hasOwnLengths(const ContourParams& params) {
+  return params.minLengthPx > 0.0 || params.minWidths != ContourParams{}.minWidths;
+}
+
 // Where lines cross that are wider than the paper between them no stroke has a middle of its own: the borders of the
 // net are followed instead. Ink with fewer holes is none.
 Result<ContourSet> bordersOfNets(const BitImage& ink, const ContourParams& params, const RunContext& context) {
   constexpr int kFewestHoles = 9;  // of a net: three lines across three are the least that could be a grid
   ContourParams meshes = params;
-  meshes.minWidths = 0.0;  // the borders of a mesh are short where the lines are wide
+  // The borders of a mesh are short where the lines are wide.
+  if (!hasOwnLengths(params)) meshes.minWidths = 0.0;
   Result<ContourSet> set = bordersOf(ink, true, meshes, 0.0, nullptr, context);
   if (!set) return set;
   const auto holes = std::count_if(set->contours.begin(), set->contours.end(), [](const Contour& c) { return c.hole; });
@@ -279,6 +285,22 @@ double explainedInk(const ContourSet& set, const BitImage& ink) {
   return area / std::max(1.0, static_cast<double>(ink.count()));
 }
 
+// Whether lines may have gone lost in a net: none came, or they stand for too little of the ink. Of merged and meant
+// lines one stands for several strokes, and what the user wants of the ink holds.
+bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
+  constexpr double kLeastExplained = 0.5;  // of the ink
+  if (set.contours.empty()) return true;
+  if (edges.mergeWidths > 0.0 || edges.intent || !edges.choices.empty() || hasOwnLengths(params)) return false;
+  return explainedInk(set, ink) < kLeastExplained;
+}
+
+// Whether the borders of a net show what the lines do not: a net has many more meshes than lines, torn strokes and
+// strokes that were dropped as short have not.
+bool isMoreOfIt(const ContourSet& net, const ContourSet& lines) {
+  constexpr std::ptrdiff_t kMeshesPerLine = 10;  // n lines across n have n / 2 to each; few of them came
+  return std::ssize(net.contours) > kMeshesPerLine * std::ssize(lines.contours);
+}
+
 std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
@@ -294,11 +316,10 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   Result<FoundLines> found = findLines(ink, grey, edges, params, context);
   if (!found) return fail(found.error());
   ContourSet* set = &found->set;
-  constexpr double kLeastExplained = 0.5;  // of the ink: where less came, lines went in the net
-  if (explainedInk(*set, ink) < kLeastExplained && edges.mode == EdgeMode::Automatic) {
+  if (edges.mode == EdgeMode::Automatic && mayHaveLostANet(*set, ink, edges, params)) {
     Result<ContourSet> net = bordersOfNets(ink, params, context);
     if (!net) return fail(net.error());
-    if (!net->contours.empty()) *set = std::move(*net);
+    if (isMoreOfIt(*net, *set)) *set = std::move(*net);
   }
   noteChoices(*set, found->regions, edges.choices, found->blots, context);
   if (context.isCancelled()) return cancelled();

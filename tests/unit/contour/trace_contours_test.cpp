@@ -84,6 +84,20 @@ TEST(TraceContours, ANetThatIsMoreInkThanPaperGivesItsBorders) {
   EXPECT_FALSE(traceContours(specks.ink, specks.grey, withMode(EdgeMode::Centreline), {}, {}).has_value());
 }
 
+// Rings that the user leaves out as too short are no net, however many holes they have.
+TEST(TraceContours, WhatIsLeftOutAsShortIsNoNet) {
+  const OutlinePage rings = render([](double x, double y) {
+    const double away = std::hypot(std::fmod(x, 30.0) - 15.0, std::fmod(y, 30.0) - 15.0);
+    return std::fabs(y - 60.0) < 1.5 || (y > 75.0 && std::fabs(away - 8.0) < 1.5);
+  });
+  ContourParams longOnes;
+  longOnes.minWidths = 30.0;
+  const auto set = traceContours(rings.ink, rings.grey, withMode(EdgeMode::Automatic), longOnes, {});
+  ASSERT_TRUE(set.has_value()) << set.error().message;
+  EXPECT_EQ(set->contours.size(), 1u);
+  EXPECT_EQ(set->report.note.find("too close together"), std::string::npos) << set->report.note;
+}
+
 TEST(TraceContours, ModesOverrideTheChoice) {
   const OutlinePage page = mixedPage();
   const auto outlines = traceContours(page.ink, page.grey, withMode(EdgeMode::Outline), {}, {});

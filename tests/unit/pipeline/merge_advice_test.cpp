@@ -53,7 +53,8 @@ TEST(MergeAdvice, SaysHowManyStrokesBecomeHowManyLines) {
 }
 
 TEST(MergeAdvice, SaysWhenMergingWouldNotHelp) {
-  EXPECT_EQ(describe({0.0, 5, 5, 0.3}), "Some strokes overlap, but merging them would not reduce the number of lines.");
+  EXPECT_EQ(describe({std::nullopt, 5, 5, 0.3}),
+            "Some strokes overlap, but merging them would not reduce the number of lines.");
 }
 
 TEST(MergeAdvice, TheKeyIsOfWhatItDependsOn) {
@@ -80,7 +81,7 @@ TEST(MergeAdvice, NoneForSingleStrokesAndOutlines) {
   recipe.edges.mode = EdgeMode::Outline;
   const auto outlines = adviseMerge(bundlePage(), recipe, cache, {});
   ASSERT_TRUE(outlines);
-  EXPECT_EQ(outlines->widths, 0.0);
+  EXPECT_FALSE(outlines->widths);
   EXPECT_EQ(outlines->strokes, 0);
   EXPECT_EQ(describe(*outlines), "No centre lines are traced, so there are no strokes to merge.");
 }
