@@ -202,7 +202,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
                              const ContourParams& params, const RunContext& context) {
   FoundLines found;
   if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
-    Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, 0.0, nullptr, context);
+    Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, std::nullopt, nullptr, context);
     if (!borders) return fail(borders.error());
     found.set = std::move(*borders);
     return found;
@@ -258,7 +258,7 @@ Result<ContourSet> bordersOfNets(const BitImage& ink, const ContourParams& param
   ContourParams meshes = params;
   // The borders of a mesh are short where the lines are wide.
   if (!hasOwnLengths(params)) meshes.minWidths = 0.0;
-  Result<ContourSet> set = bordersOf(ink, true, meshes, 0.0, nullptr, context);
+  Result<ContourSet> set = bordersOf(ink, true, meshes, std::nullopt, nullptr, context);
   if (!set) return set;
   const auto holes = std::count_if(set->contours.begin(), set->contours.end(), [](const Contour& c) { return c.hole; });
   if (holes < kFewestHoles) {

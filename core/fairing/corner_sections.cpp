@@ -253,6 +253,10 @@ SplitJob splitJob(const TargetsJob& job, std::vector<TargetsJob>& all) {
 
 }  // namespace
 
+FairingParams paramsOfSection(const FairingParams& whole, const CornerSection& section, bool closed) {
+  return paramsOf(whole, section.span, closed);
+}
+
 std::vector<CornerSection> cornerSections(const NurbsCurve& curve, bool closed) {
   std::vector<CornerSection> sections;
   if (curve.isEmpty() || curve.isRational() || (closed && !beginsAtCorner(curve))) return sections;

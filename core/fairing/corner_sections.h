@@ -18,6 +18,8 @@ struct CornerSection {
 };
 /// In order. Empty for curves without a corner inside, and for closed ones that do not begin at a corner.
 std::vector<CornerSection> cornerSections(const NurbsCurve&, bool closed);
+/// What the parameters of a whole curve, closed or not, ask of one of its parts.
+FairingParams paramsOfSection(const FairingParams& whole, const CornerSection&, bool closed);
 
 /// As fair(), but every part between corners is made fair for itself, so that corners stay sharp and where they are:
 /// what the parameters ask of a curve holds for each part. The deviation and what is needed are the largest of the

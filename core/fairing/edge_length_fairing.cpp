@@ -50,7 +50,8 @@ Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const Fair
   if (params.mode == FairingMode::LowPass) return lowPassedProfile(path, closed, params, check);
   if (params.target == FairingTarget::Drawn) return drawnProfile(params.profile, closed);
   if (params.target == FairingTarget::LogAesthetic)
-    return logAestheticTarget(path, closed, targetSplits(path, closed, params), params.alpha, params.targets.samples)
+    return logAestheticTarget(path, closed, targetSplits(path, closed, params, check), params.alpha,
+                              params.targets.samples)
         .profile;
   const TargetSet targets = fitTargets(path, params.targets, closed);
   return targets.profiles[degreeOf(params.target).value_or(targets.recommendedDegree.value_or(1)) - 1];

@@ -45,7 +45,7 @@ TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
     if (job.curve.isEmpty()) return refused(fail(ErrorCode::BadParameter, "There is no curve to fair."));
     TargetOutcomes outcomes;
     if (job.spanAt) {
-      outcomes.splits = targetSplits(job.curve, job.closed, job.params);
+      outcomes.splits = targetSplits(job.curve, job.closed, job.params, context);
       outcomes.span = spanBetween(outcomes.splits, *job.spanAt, job.closed);
       run.levels = oneLevel({}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span));
     } else {
@@ -167,8 +167,9 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     return modifyShape(curve, closed, drawn, params, context);
   }
   if (params.target == FairingTarget::LogAesthetic) {
-    const auto target = logAestheticTarget(targetStart(curve, closed, params, context), closed,
-                                           targetSplits(curve, closed, params), params.alpha, params.targets.samples);
+    const auto target =
+        logAestheticTarget(targetStart(curve, closed, params, context), closed,
+                           targetSplits(curve, closed, params, context), params.alpha, params.targets.samples);
     if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem, context);
     auto faired = withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
       return modifyShape(setup, target.profile, within.toleranceMm, context);

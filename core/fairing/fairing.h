@@ -38,7 +38,7 @@ Result<TargetOutcomes> fairAllTargets(const NurbsCurve&, bool closed, const Fair
 
 /// Where the targets of a curve are split: as the parameters say, or at its natural spans, and at sharp corners inside
 /// it (a closed curve that begins at one: also at 0).
-std::vector<double> targetSplits(const NurbsCurve&, bool closed, const FairingParams&);
+std::vector<double> targetSplits(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
 
 /// The same for several curves at once: all targets of all curves share the threads, the longest first.
 struct TargetsJob {

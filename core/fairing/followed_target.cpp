@@ -51,19 +51,20 @@ std::optional<TargetProfile> ofSpans(const NurbsCurve& start, bool closed, const
 }
 
 /// The polynomials of the parts between corners, one after the other. @pre report.targetDegree
-std::optional<TargetProfile> ofSections(const std::vector<CornerSection>& sections, const FairingParams& params,
-                                        const FairingReport& report) {
+std::optional<TargetProfile> ofSections(const std::vector<CornerSection>& sections, bool closed,
+                                        const FairingParams& params, const FairingReport& report) {
   TargetProfile all;
   all.degree = *report.targetDegree;
   all.similarity = 1.0;
   for (const CornerSection& section : sections) {
     const double from = section.span.from, width = section.span.to - from;
     const double trifle = 1e-9 * width;
+    const NurbsCurve begun = targetStart(section.curve, false, paramsOfSection(params, section, closed));
     TargetParams own = params.targets;
     own.splits.clear();
     for (const double f : report.targetSplits)
       if (f > from + trifle && f < section.span.to - trifle) own.splits.push_back((f - from) / width);
-    const auto profile = ofDegree(fitTargets(targetStart(section.curve, false, params), own), *report.targetDegree);
+    const auto profile = ofDegree(fitTargets(begun, own), *report.targetDegree);
     if (!profile) return std::nullopt;
     if (!section.isStraight) all.similarity = std::min(all.similarity, profile->similarity);
     for (int i = 0; i <= kNodesBetweenCorners; ++i) {
@@ -93,7 +94,7 @@ std::optional<TargetProfile> followedTarget(const NurbsCurve& start, bool closed
   }
   const std::vector<CornerSection> sections = cornerSections(start, closed);
   if (!params.spanTargets.empty()) return sections.empty() ? ofSpans(start, closed, params) : std::nullopt;
-  if (report.targetDegree && !sections.empty()) return ofSections(sections, params, report);
+  if (report.targetDegree && !sections.empty()) return ofSections(sections, closed, params, report);
   TargetParams own = params.targets;
   if (report.targetDegree) own.splits = report.targetSplits;
   const TargetSet targets = fitTargets(targetStart(start, closed, params), own, closed);

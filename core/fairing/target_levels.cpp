@@ -151,18 +151,18 @@ class LevelFairing {
 
 }  // namespace
 
-std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
   const bool isNatural = hasNaturalSpans(params.targets);
-  const auto naturalOf = [&params](const NurbsCurve& one, bool isClosed) {
-    return naturalSplits(targetStart(one, isClosed, params), isClosed, params.toleranceMm);
+  const auto naturalOf = [&check](const NurbsCurve& one, bool isClosed, const FairingParams& own) {
+    return naturalSplits(targetStart(one, isClosed, own, check), isClosed, own.toleranceMm);
   };
   const auto sections = cornerSections(curve, closed);
-  if (sections.empty()) return isNatural ? naturalOf(curve, closed) : params.targets.splits;
+  if (sections.empty()) return isNatural ? naturalOf(curve, closed, params) : params.targets.splits;
   std::vector<double> splits = isNatural ? std::vector<double>{} : params.targets.splits;
   for (const CornerSection& section : sections) {
     if (section.span.from > 0.0 || closed) splits.push_back(section.span.from);
     if (!isNatural || section.isStraight) continue;
-    for (const double f : naturalOf(section.curve, false))
+    for (const double f : naturalOf(section.curve, false, paramsOfSection(params, section, closed)))
       splits.push_back(section.span.from + f * (section.span.to - section.span.from));
   }
   std::sort(splits.begin(), splits.end());
@@ -207,7 +207,7 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
 Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                  const RunContext& context) {
   if (!params.spanTargets.empty())
-    return fairSpans(curve, closed, targetSplits(curve, closed, params), params, context);
+    return fairSpans(curve, closed, targetSplits(curve, closed, params, context), params, context);
   const TargetLevels levels = targetLevels(curve, closed, params, context);
   const TargetSet& first = levels.ofTolerance().targets;
   if (!first.recommendedDegree)

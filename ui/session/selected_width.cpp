@@ -39,7 +39,7 @@ void SelectedWidth::follow() {
   asked_ = asked;
   figures_.reset();
   isKnown_ = !asked->isStroke();
-  if (isKnown_) return;
+  if (isKnown_) return worker_.cancelAll();
   worker_.start([asked, to = QPointer<SelectedWidth>(this)](const CancelToken& token) {
     const auto found = guarded<std::optional<WidthFigures>>([&]() -> Result<std::optional<WidthFigures>> {
       const auto widths = strokeWidthsAlong(asked->output, *asked->scan, asked->curve, asked->curve.sketched);

@@ -3,7 +3,8 @@
 
 #include <QHelpEvent>
 #include <QPainter>
-#include <QToolTip>
+
+#include "ui/theme/tool_tips.h"
 
 namespace batten {
 
@@ -12,7 +13,7 @@ ElidedLabel::ElidedLabel(QWidget* parent) : QLabel(parent) { setTextFormat(Qt::P
 bool ElidedLabel::event(QEvent* event) {
   const bool isCut = fontMetrics().horizontalAdvance(text()) > contentsRect().width();
   if (event->type() != QEvent::ToolTip || !isCut) return QLabel::event(event);
-  QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), text(), this);
+  showToolTip(static_cast<QHelpEvent*>(event)->globalPos(), text(), this);
   return true;
 }
 

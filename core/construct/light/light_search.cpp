@@ -17,8 +17,8 @@ namespace {
 constexpr double kRankedProminence = 2e-3;  // times 1 / diagonal: extrema that have a removal deviation
 constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
 constexpr int kMostSpanDegree = 7;
-// Times the prominence of an extremum: a piece whose curvature rises by less has none that rises or falls. It may be a
-// side of a shape ten times its size, by which the shape's extrema are counted.
+// Times the prominence of an extremum: where the curvature of a piece rises by less in all, no direction is asked of
+// it. The piece may be a side of a shape ten times its size, and extrema are counted by the size of the shape.
 constexpr double kLeastRise = 0.1;
 constexpr double kOrder = 9.0;           // a fit of c points errs by about c to the power of minus this
 constexpr double kMostGrowth = 1.6;      // of the number of points from one try to the next

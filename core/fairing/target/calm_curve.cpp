@@ -37,6 +37,7 @@ std::optional<NurbsCurve> withoutTremor(const NurbsCurve& curve, bool closed, co
                                         CancelCheck check) {
   if (curve.isEmpty() || params.targets.spans == TargetSpans::Whole) return std::nullopt;
   if (params.targets.quantity != TargetQuantity::Curvature) return std::nullopt;
+  if (params.means == FairingMeans::EdgeLengths) return std::nullopt;
   const int extrema = countedExtrema(curve, closed, check);
   if (extrema <= kMostSplits) return std::nullopt;
   const auto sketch = makeSetup(curve, closed, params, check);
@@ -45,6 +46,7 @@ std::optional<NurbsCurve> withoutTremor(const NurbsCurve& curve, bool closed, co
   double least = std::numeric_limits<double>::infinity();
   const double data = 2.0 * curve.controlPointCount();  // two coordinates each
   for (const auto& setup : coarseSetups(*sketch)) {
+    if (check.isCancelled()) return std::nullopt;
     if (setup->basis.pointCount() > kMostPoints * curve.controlPointCount()) break;
     const double criterion =
         data * std::log(meanSquareDistance(*setup)) + 2.0 * setup->basis.pointCount() * std::log(data);

@@ -108,7 +108,7 @@ void rotateRows(const Image& in, int orientation, int begin, int end, Image& upr
 }
 
 template <class Image>
-Image turnedUpright(Image image, int orientation, const RunContext& context) {
+Image rotatedUpright(Image image, int orientation, const RunContext& context) {
   if (orientation <= 1 || orientation > 8 || image.pixels.empty()) return image;
   const bool swapped = orientation >= 5;
   Image upright(swapped ? image.height : image.width, swapped ? image.width : image.height);
@@ -160,11 +160,11 @@ std::optional<DecodedPicture> decodePicture(std::span<std::byte> file, const Sam
 }
 
 GreyImage rotateUpright(GreyImage image, int orientation, const RunContext& context) {
-  return turnedUpright(std::move(image), orientation, context);
+  return rotatedUpright(std::move(image), orientation, context);
 }
 
 ColourImage rotateUpright(ColourImage image, int orientation, const RunContext& context) {
-  return turnedUpright(std::move(image), orientation, context);
+  return rotatedUpright(std::move(image), orientation, context);
 }
 
 void dropGreyColours(ColourImage& colour, const RunContext& context) {

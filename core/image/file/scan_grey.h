@@ -30,7 +30,7 @@ struct DecodedPicture {
 /// also JPEG's own grey; alpha laid over white. The orientation is left as stored. Empty if the file cannot be decoded.
 std::optional<DecodedPicture> decodePicture(std::span<std::byte> file, const SampleMeaning&, const RunContext& context);
 
-/// The picture turned upright. @param orientation EXIF 1..8.
+/// The picture rotated upright. @param orientation EXIF 1..8.
 GreyImage rotateUpright(GreyImage image, int orientation, const RunContext& context);
 ColourImage rotateUpright(ColourImage image, int orientation, const RunContext& context);
 

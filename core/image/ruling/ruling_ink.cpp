@@ -28,7 +28,7 @@ constexpr double kAbsent = 0.2;           // of a stretch with ink: less, and th
 double paperNoise(const Plane& grey) {
   std::vector<float> steps;
   for (int y = 0; y < grey.height; y += kNoiseStep) {
-    for (int x = y % kNoiseStep; x + 1 < grey.width; x += kNoiseStep)
+    for (int x = (y / kNoiseStep) % kNoiseStep; x + 1 < grey.width; x += kNoiseStep)
       steps.push_back(std::fabs(grey.row(y)[x + 1] - grey.row(y)[x]));
   }
   return steps.empty() ? 0.0 : lowerQuantile(steps, kQuietRank) / (kQuarterSigma * std::sqrt(2.0));
@@ -55,7 +55,7 @@ class StretchInk {
     for (int d = -half; d <= half; ++d) {
       double sum = 0.0;
       for (int x = stretch_.begin; x < stretch_.end; ++x) {
-        const float level = grey_.row(rowAt(x) + d)[x];
+        const float level = grey_.row(std::clamp(rowAt(x) + d, 0, grey_.height - 1))[x];
         around.push_back(level);
         sum += static_cast<double>(level);
       }

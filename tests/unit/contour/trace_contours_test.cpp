@@ -107,6 +107,11 @@ TEST(TraceContours, ModesOverrideTheChoice) {
   for (const Contour& c : outlines->contours) EXPECT_EQ(c.kind, ContourKind::Outline);
   for (const Contour& c : lines->contours) EXPECT_EQ(c.kind, ContourKind::Centreline);
   EXPECT_EQ(outlines->report.droppedHoles, 1);
+  ContourParams longOnes;
+  longOnes.minWidths = 20.0;
+  const auto fewer = traceContours(page.ink, page.grey, withMode(EdgeMode::Outline), longOnes, {});
+  ASSERT_TRUE(fewer.has_value());
+  EXPECT_LT(fewer->contours.size(), outlines->contours.size()) << "short ones are left out here, too";
   EdgeParams inner = withMode(EdgeMode::Outline);
   inner.internal = InnerBorders::On;
   const auto both = traceContours(page.ink, page.grey, inner, {}, {});

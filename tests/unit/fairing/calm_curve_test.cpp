@@ -50,13 +50,15 @@ TEST(CalmCurve, IsNoneWhereTheBendsAreMeant) {
   EXPECT_FALSE(withoutTremor(test::wave(200.0, 10.0, 30), false, toTargetOf(0, 1.0))) << "it has a few bends only";
 }
 
-TEST(CalmCurve, IsNotForOnePolynomialAndRadiiAsInThePapers) {
+TEST(CalmCurve, IsNotForWhatIsDoneAsInThePapers) {
   const NurbsCurve line = tremblingArch(7);
-  FairingParams whole = toTargetOf(0, 1.0), radii = whole;
+  FairingParams whole = toTargetOf(0, 1.0), radii = whole, edgeLengths = whole;
+  edgeLengths.means = FairingMeans::EdgeLengths;
   whole.targets.spans = TargetSpans::Whole;
   radii.targets.quantity = TargetQuantity::Radius;
   EXPECT_FALSE(withoutTremor(line, false, whole));
   EXPECT_FALSE(withoutTremor(line, false, radii));
+  EXPECT_FALSE(withoutTremor(line, false, edgeLengths));
   EXPECT_EQ(targetStart(line, false, whole), line);
 }
 

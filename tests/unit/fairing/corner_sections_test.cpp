@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "core/curve/closest_point.h"
 #include "core/curve/corners_inside.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
+#include "core/fairing/followed_target.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
@@ -44,6 +47,36 @@ TEST(CornerSections, CutACurveAtItsCorners) {
   EXPECT_EQ(sections[1].span.to, 1.0);
   EXPECT_NEAR(sections[0].span.to, 72.0 / (72.0 + 81.0), 0.01);
   EXPECT_TRUE(cornerSections(test::arc(60.0, 1.0, 12), false).empty());
+}
+
+/// Trembling arches with a corner between them and a split in the first: the second is faired with one polynomial, to
+/// its own curvature.
+TEST(CornerSections, TheTargetShownIsTheOneThatEachPartFollows) {
+  const auto arch = [](double t) { return Vec2(230.0 * t, 100.0 * std::sin(std::numbers::pi * t)); };
+  const NurbsCurve first = test::noisy(test::fitted(arch, 90), 0.1, 7);
+  const NurbsCurve second = moved(test::noisy(test::fitted(arch, 90), 0.1, 8), 2.4, first.point(first.end()));
+  const NurbsCurve curve = joinAtCorners(std::array{first, second}, 1e-9).value();
+  FairingParams params = asked(FairingMode::Target, 1.0);
+  params.target = *targetOfNumber(3);
+  params.targets.splits = {0.2};
+  const auto faired = fairBetweenCorners(curve, false, params, {});
+  ASSERT_TRUE(faired && faired->report.targetDegree);
+  const auto shown = followedTarget(curve, false, params, faired->report);
+  const auto sections = cornerSections(curve, false);
+  ASSERT_TRUE(shown && sections.size() == 2);
+  const FairingParams own = paramsOfSection(params, sections[1], false);
+  const auto alone = fair(sections[1].curve, false, own, {});
+  ASSERT_TRUE(alone && alone->report.targetDegree);
+  const auto followed = followedTarget(sections[1].curve, false, own, alone->report);
+  ASSERT_TRUE(followed);
+  double peak = 0.0, apart = 0.0;
+  for (int i = 1; i < 20; ++i) {
+    const double x = i / 20.0, wanted = followed->curvatureAt(x);
+    peak = std::max(peak, std::abs(wanted));
+    apart = std::max(apart,
+                     std::abs(shown->curvatureAt(sections[1].span.from + x * (1.0 - sections[1].span.from)) - wanted));
+  }
+  EXPECT_LT(apart, 0.02 * peak);
 }
 
 TEST(CornerSections, EveryWayOfFairingKeepsTheCornerSharpAndInItsPlace) {
