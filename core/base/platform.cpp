@@ -321,8 +321,12 @@ tl::expected<SharedLines, std::error_code> SharedLines::open(const std::filesyst
   struct stat info {};
   const bool isOther = ::stat(path.c_str(), &info) == 0 && kindOf(info.st_mode) != FileKind::Ordinary;
   constexpr int kAdding = O_APPEND | O_CLOEXEC | O_NOCTTY;
-  OpenFile file = owned(::open(path.c_str(), isOther ? O_WRONLY | kAdding : O_RDWR | O_CREAT | kAdding, 0666));
+  // A pipe that nobody reads is refused, not waited for.
+  constexpr int kAddingElsewhere = O_WRONLY | O_NONBLOCK | kAdding;
+  OpenFile file = owned(::open(path.c_str(), isOther ? kAddingElsewhere : O_RDWR | O_CREAT | kAdding, 0666));
   if (!file || ::fstat(file->descriptor, &info) != 0) return tl::unexpected(systemError());
+  if (isOther && ::fcntl(file->descriptor, F_SETFL, kAddingElsewhere & ~O_NONBLOCK) != 0)
+    return tl::unexpected(systemError());
   return SharedLines(std::move(file), kindOf(info.st_mode));
 }
 

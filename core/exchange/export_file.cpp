@@ -346,14 +346,14 @@ ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& n
   const auto known = pieceNumbers(document);
   for (std::size_t i = 0; i < document.curves.size(); ++i) {
     const ExportCurve& line = document.curves[i];
+    const ExportCurve bare = withoutPieces(line);
     int runs = 0, lowest = 0;
     bool continues = false;
     for (std::size_t k = 0; k < line.pieces.size(); ++k) {
       const bool isTaken = numbers.contains(known[i][k]);
       if (isTaken && !continues) {
-        ExportCurve& part = result.curves.emplace_back(line);
+        ExportCurve& part = result.curves.emplace_back(bare);
         ++runs;
-        part.pieces.clear();
         part.closed = false;
       }
       if (isTaken) {

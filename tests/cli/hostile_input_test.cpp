@@ -46,6 +46,11 @@ TEST_F(HostileInput, ManyNamesTakeNoTime) {
   expectRefused("trace " + scene() + " -o " + file("o.svg") + " --recipe " + file("keys.json"), 2, "1000 names");
 }
 
+TEST_F(HostileInput, APipeThatNobodyReadsTakesNoResults) {
+  ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
+  expectRefused("batch " + scene() + " --to " + file("out") + " --results " + file("pipe"), 5, "a pipe needs a reader");
+}
+
 TEST_F(HostileInput, OnlyOrdinaryFilesAreRead) {
   namespace fs = std::filesystem;
   const std::string start = "trace " + scene() + " -o " + file("o.svg");

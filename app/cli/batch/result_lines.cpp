@@ -41,9 +41,10 @@ Result<ResultLines> ResultLines::open(const std::string& file) {
   lines.name_ = file;
   auto opened = SharedLines::open(file);
   if (!opened) {
-    return fail(ErrorCode::CannotWrite,
-                "Cannot write " + shownText(file) + ". Check that its folder exists and may be written.",
-                opened.error().message());
+    return fail(
+        ErrorCode::CannotWrite,
+        "Cannot write " + shownText(file) + ". Check that its folder exists and may be written; a pipe needs a reader.",
+        opened.error().message());
   }
   lines.file_ = std::move(*opened);
   return lines;

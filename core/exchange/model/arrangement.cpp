@@ -129,8 +129,9 @@ void reverseIfMarked(ExportCurve& line) {
 
 /// Every piece as a line of its own.
 void takeApart(const ExportCurve& line, std::vector<ExportCurve>& lines) {
+  const ExportCurve bare = withoutPieces(line);
   for (std::size_t k = 0; k < line.pieces.size(); ++k) {
-    ExportCurve& own = lines.emplace_back(line);
+    ExportCurve& own = lines.emplace_back(bare);
     own.pieces = {line.pieces[k]};
     if (line.pieces.size() > 1) {
       own.id.append(".").append(std::to_string(k + 1));
@@ -145,14 +146,14 @@ void takeApart(const ExportCurve& line, std::vector<ExportCurve>& lines) {
 /// The line without its doubles: in as many parts as are left between them.
 std::vector<ExportCurve> without(const ExportCurve& line, const std::set<std::pair<std::size_t, std::size_t>>& onTop,
                                  std::size_t number) {
+  const ExportCurve bare = withoutPieces(line);
   std::vector<ExportCurve> parts;
   bool continues = false;
   for (std::size_t k = 0; k < line.pieces.size(); ++k) {
     const bool stays = !onTop.contains({number, k});
     if (stays && !continues) {
-      ExportCurve& part = parts.emplace_back(line);
+      ExportCurve& part = parts.emplace_back(bare);
       if (parts.size() > 1) part.id.append("-").append(std::to_string(parts.size()));
-      part.pieces.clear();
     }
     if (stays) parts.back().pieces.push_back(line.pieces[k]);
     continues = stays;

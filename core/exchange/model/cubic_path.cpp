@@ -276,7 +276,8 @@ Result<std::vector<SmoothPart>> smoothParts(const NurbsCurve& curve) {
   const std::vector<double> breaks = curve.breaks();
   const auto knots = curve.knots();
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
-    const auto times = std::count(knots.begin(), knots.end(), breaks[i]);
+    const auto [first, last] = std::equal_range(knots.begin(), knots.end(), breaks[i]);
+    const auto times = last - first;
     if (times < curve.degree() - 2) continue;
     auto cut = split(rest.curve, breaks[i]);
     if (!cut) return fail(cut.error());

@@ -49,6 +49,11 @@ struct ExportCurve {
   bool isSketched = false;                   ///< As it was found on the scan, not as it was made fair.
   bool isImported = false;                   ///< The order and direction of its file say nothing about what follows it.
 };
+/// All that a line has but its pieces, for parts of it: pieces are large, and a line may have thousands.
+inline ExportCurve withoutPieces(ExportCurve line) {
+  line.pieces = std::vector<ExportPiece>();
+  return line;
+}
 struct ExportDocument {
   PageFrame frame;
   std::optional<double> dpi;  ///< Absent: the scale is assumed.

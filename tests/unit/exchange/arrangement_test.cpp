@@ -37,7 +37,10 @@ TEST(Arrangement, JoinedKeepsTheLinesAndApartMakesEveryPieceOne) {
   EXPECT_EQ(joined->document.curves.size(), 6u);
   ASSERT_EQ(apart->document.curves.size(), 8u) << "the loop with three corners is three curves";
   std::set<std::string> ids;
-  for (const ExportCurve& curve : apart->document.curves) ids.insert(curve.id);
+  for (const ExportCurve& curve : apart->document.curves) {
+    ids.insert(curve.id);
+    EXPECT_EQ(curve.pieces.capacity(), 1u) << "a line of thousands is not held once for each of its pieces";
+  }
   EXPECT_EQ(ids.size(), 8u);
   EXPECT_EQ(apart->document.curves[6].id, "curve-6.2");
   EXPECT_EQ(apart->document.curves[6].pieces[0].name, "curve-6.2");
