@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/curve/blossom.h"
@@ -194,6 +195,20 @@ Result<SplitCurve> split(const NurbsCurve& curve, double u) {
   auto rightCurve = assemble(std::move(right));
   if (!rightCurve) return fail(rightCurve.error());
   return SplitCurve{std::move(*leftCurve), std::move(*rightCurve)};
+}
+
+Result<std::vector<NurbsCurve>> splitAtAll(const NurbsCurve& curve, std::span<const double> places) {
+  if (places.empty()) return std::vector<NurbsCurve>{curve};
+  // By halves: to cut off one part after the other copies the rest each time.
+  const std::size_t middle = places.size() / 2;
+  const auto halves = split(curve, places[middle]);
+  if (!halves) return fail(halves.error());
+  auto parts = splitAtAll(halves->left, places.first(middle));
+  if (!parts) return parts;
+  auto behind = splitAtAll(halves->right, places.subspan(middle + 1));
+  if (!behind) return behind;
+  std::move(behind->begin(), behind->end(), std::back_inserter(*parts));
+  return parts;
 }
 
 Result<NurbsCurve> joinAtCorners(std::span<const NurbsCurve> pieces, double tolerance) {

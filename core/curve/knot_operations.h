@@ -21,6 +21,8 @@ struct SplitCurve {
   NurbsCurve left, right;
 };
 Result<SplitCurve> split(const NurbsCurve&, double u);
+/// Cuts at all places at once, in ascending order: one curve more than there are places. About linear time.
+Result<std::vector<NurbsCurve>> splitAtAll(const NurbsCurve&, std::span<const double> places);
 /// Joins clamped curves of one degree end to start into one B-spline; at every joint a knot of multiplicity = degree
 /// (C0, exact), the joint's control point once. Ends may differ by at most `tolerance` (the mean is taken).
 Result<NurbsCurve> joinAtCorners(std::span<const NurbsCurve> pieces, double tolerance);

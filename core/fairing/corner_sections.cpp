@@ -264,17 +264,14 @@ std::vector<CornerSection> cornerSections(const NurbsCurve& curve, bool closed) 
   if (corners.empty()) return sections;
   const ArcLength arc(curve);
   if (!(arc.total() > 0.0)) return sections;
-  NurbsCurve rest = curve;
+  auto parts = splitAtAll(curve, corners);
+  if (!parts) return sections;
   double from = 0.0;
-  for (const double u : corners) {
-    auto halves = split(rest, u);
-    if (!halves) return {};
-    const double to = arc.at(u) / arc.total();
-    sections.push_back({std::move(halves->left), {from, to}});
-    rest = std::move(halves->right);
+  for (std::size_t i = 0; i < parts->size(); ++i) {
+    const double to = i < corners.size() ? arc.at(corners[i]) / arc.total() : 1.0;
+    sections.push_back({std::move((*parts)[i]), {from, to}});
     from = to;
   }
-  sections.push_back({std::move(rest), {from, 1.0}});
   for (CornerSection& section : sections) section.isStraight = isStraightLine(section.curve);
   return sections;
 }

@@ -27,20 +27,16 @@ struct Chain {
 
 /// The parts of a curve between the knots inside it that are repeated more than `most` times.
 Result<std::vector<NurbsCurve>> cutAtKnots(const NurbsCurve& curve, int most) {
-  std::vector<NurbsCurve> parts;
-  auto rest = clamped(curve);
-  if (!rest) return fail(rest.error());
+  const auto whole = clamped(curve);
+  if (!whole) return fail(whole.error());
   const std::vector<double> breaks = curve.breaks();
   const auto knots = curve.knots();
+  std::vector<double> places;
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
-    if (std::count(knots.begin(), knots.end(), breaks[i]) <= most) continue;
-    auto cut = split(*rest, breaks[i]);
-    if (!cut) return fail(cut.error());
-    parts.push_back(std::move(cut->left));
-    rest = std::move(cut->right);
+    const auto [first, last] = std::equal_range(knots.begin(), knots.end(), breaks[i]);
+    if (last - first > most) places.push_back(breaks[i]);
   }
-  parts.push_back(std::move(*rest));
-  return parts;
+  return splitAtAll(*whole, places);
 }
 
 /// One curve of all, of the highest degree among them.

@@ -271,20 +271,21 @@ struct SmoothPart {
 /// Cut where the slope of the curvature may jump: halving towards such a place never ends well, because a cubic that
 /// reaches across it has one slope only.
 Result<std::vector<SmoothPart>> smoothParts(const NurbsCurve& curve) {
-  std::vector<SmoothPart> parts;
-  SmoothPart rest{curve};
+  std::vector<double> places;
+  std::vector<bool> isContinuous{false};  // from the part before
   const std::vector<double> breaks = curve.breaks();
   const auto knots = curve.knots();
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
     const auto [first, last] = std::equal_range(knots.begin(), knots.end(), breaks[i]);
     const auto times = last - first;
     if (times < curve.degree() - 2) continue;
-    auto cut = split(rest.curve, breaks[i]);
-    if (!cut) return fail(cut.error());
-    parts.push_back({std::move(cut->left), rest.isCurvatureContinuous});
-    rest = {std::move(cut->right), times == curve.degree() - 2};
+    places.push_back(breaks[i]);
+    isContinuous.push_back(times == curve.degree() - 2);
   }
-  parts.push_back(std::move(rest));
+  auto cut = splitAtAll(curve, places);
+  if (!cut) return fail(cut.error());
+  std::vector<SmoothPart> parts;
+  for (std::size_t i = 0; i < cut->size(); ++i) parts.push_back({std::move((*cut)[i]), isContinuous[i]});
   return parts;
 }
 

@@ -79,6 +79,33 @@ TEST_P(KnotOperations, ClampedLeavesTheShape) {
   }
 }
 
+TEST_P(KnotOperations, AllCutsAtOnceGiveThePartsBetweenThem) {
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto curve = next();
+    std::vector<double> places = {inside(curve), inside(curve), inside(curve), curve.breaks()[1]};
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    const auto parts = splitAtAll(curve, places);
+    ASSERT_TRUE(parts) << parts.error().message;
+    ASSERT_EQ(parts->size(), places.size() + 1);
+    for (std::size_t i = 0; i < parts->size(); ++i) {
+      const NurbsCurve& part = (*parts)[i];
+      if (i > 0) {
+        EXPECT_EQ(part.start(), places[i - 1]);
+      }
+      if (i < places.size()) {
+        EXPECT_EQ(part.end(), places[i]);
+      }
+      for (const double f : {0.0, 0.3, 0.9}) {
+        const double u = part.start() + f * (part.end() - part.start());
+        ASSERT_LT((part.point(u) - curve.point(u)).norm(), 1e-11 * extent(curve));
+      }
+    }
+    EXPECT_EQ(splitAtAll(curve, {})->size(), 1u);
+    EXPECT_FALSE(splitAtAll(curve, std::vector{curve.start()}));
+  }
+}
+
 TEST_P(KnotOperations, SplitAndJoinLeaveTheShape) {
   for (int trial = 0; trial < 40; ++trial) {
     const auto curve = next();
