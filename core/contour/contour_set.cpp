@@ -37,6 +37,10 @@ std::vector<float> strokeWidthsOf(std::span<const ContourPoint> points) {
   return widthsPx;
 }
 
+bool hasStrokeWidths(std::span<const ContourPoint> points) {
+  return std::ranges::any_of(points, [](const ContourPoint& p) { return p.widthPx.has_value(); });
+}
+
 void measureContour(Contour& c) {
   const std::vector<Vec2> at = positionsOf(c.points);
   c.lengthPx = polylineLength(at, c.closed);

@@ -68,6 +68,8 @@ std::vector<Vec2> positionsOf(std::span<const ContourPoint>);
 std::vector<Vec2> unrefinedPositionsOf(std::span<const ContourPoint>);
 /// [px] The stroke widths that are known; none on outlines.
 std::vector<float> strokeWidthsOf(std::span<const ContourPoint>);
+/// Whether any is known.
+bool hasStrokeWidths(std::span<const ContourPoint>);
 /// Sets length and area from the positions of the points.
 void measureContour(Contour&);
 

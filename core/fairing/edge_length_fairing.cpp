@@ -12,9 +12,9 @@
 #include "core/fairing/edge_lengths.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/target/log_aesthetic.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/shape_modification.h"
+#include "core/fairing/target_levels.h"
 
 namespace batten {
 namespace {
@@ -49,10 +49,7 @@ std::vector<Quintic> quinticsOf(const NurbsCurve& curve) {
 Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const FairingParams& params, CancelCheck check) {
   if (params.mode == FairingMode::LowPass) return lowPassedProfile(path, closed, params, check);
   if (params.target == FairingTarget::Drawn) return drawnProfile(params.profile, closed);
-  if (params.target == FairingTarget::LogAesthetic)
-    return logAestheticTarget(path, closed, targetSplits(path, closed, params, check), params.alpha,
-                              params.targets.samples)
-        .profile;
+  if (params.target == FairingTarget::LogAesthetic) return logAestheticOf(path, closed, params, check).profile;
   const TargetSet targets = fitTargets(path, params.targets, closed);
   return targets.profiles[degreeOf(params.target).value_or(targets.recommendedDegree.value_or(1)) - 1];
 }

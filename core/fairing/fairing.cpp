@@ -12,8 +12,6 @@
 #include "core/fairing/structure/fair_as_needed.h"
 #include "core/fairing/structure/monotone_fairing.h"
 #include "core/fairing/structure/tolerance_fairing.h"
-#include "core/fairing/target/calm_curve.h"
-#include "core/fairing/target/log_aesthetic.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
@@ -167,9 +165,7 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     return modifyShape(curve, closed, drawn, params, context);
   }
   if (params.target == FairingTarget::LogAesthetic) {
-    const auto target =
-        logAestheticTarget(targetStart(curve, closed, params, context), closed,
-                           targetSplits(curve, closed, params, context), params.alpha, params.targets.samples);
+    const auto target = logAestheticOf(curve, closed, params, context);
     if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem, context);
     auto faired = withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
       return modifyShape(setup, target.profile, within.toleranceMm, context);

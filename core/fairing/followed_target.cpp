@@ -9,9 +9,9 @@
 #include "core/fairing/fairing.h"
 #include "core/fairing/profile/drawn_profile.h"
 #include "core/fairing/target/calm_curve.h"
-#include "core/fairing/target/log_aesthetic.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/span_fairing.h"
+#include "core/fairing/target_levels.h"
 
 namespace batten {
 namespace {
@@ -88,8 +88,7 @@ std::optional<TargetProfile> followedTarget(const NurbsCurve& start, bool closed
     return drawn.valid ? std::optional(std::move(drawn)) : std::nullopt;
   }
   if (params.target == FairingTarget::LogAesthetic) {
-    auto wanted = logAestheticTarget(targetStart(start, closed, params), closed, targetSplits(start, closed, params),
-                                     params.alpha, params.targets.samples);
+    auto wanted = logAestheticOf(start, closed, params);
     return wanted.profile.valid ? std::optional(std::move(wanted.profile)) : std::nullopt;
   }
   const std::vector<CornerSection> sections = cornerSections(start, closed);

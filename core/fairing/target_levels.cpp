@@ -169,6 +169,12 @@ std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const Fai
   return splits;
 }
 
+LogAestheticTarget logAestheticOf(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                                  CancelCheck check) {
+  return logAestheticTarget(targetStart(curve, closed, params, check), closed,
+                            targetSplits(curve, closed, params, check), params.alpha, params.targets.samples);
+}
+
 TargetLevels oneLevel(std::vector<double> splits, TargetSet targets) {
   TargetLevels levels;
   levels.all.push_back({0.0, std::move(splits), std::move(targets)});

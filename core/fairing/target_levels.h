@@ -12,6 +12,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/profile/radius_target.h"
+#include "core/fairing/target/log_aesthetic.h"
 
 namespace batten {
 
@@ -32,6 +33,9 @@ struct TargetLevels {
 TargetLevels targetLevels(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
 /// One list of splits, whatever the tolerance.
 TargetLevels oneLevel(std::vector<double> splits, TargetSet targets);
+
+/// The log-aesthetic profile that a curve is asked to follow, between its splits.
+LogAestheticTarget logAestheticOf(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
 
 /// What one degree comes to.
 struct LevelOutcome {

@@ -11,6 +11,7 @@
 
 #include "core/curve/arc_length.h"
 #include "core/pipeline/run/pipeline.h"
+#include "tests/bench/traced_lines.h"
 #include "tests/support/angles.h"
 #include "tests/support/stress_page.h"
 
@@ -21,26 +22,6 @@ namespace {
 
 constexpr int kWidth = 1200, kHeight = 800;
 constexpr StressInk kInks[] = {{20.0, 4.0, 0.8}, {10.0, 2.0, 0.8}, {30.0, 4.0, 3.0}, {30.0, 6.0, 1.0}};
-
-std::vector<std::vector<Vec2>> linesOf(const PipelineOutput& out) {
-  std::vector<std::vector<Vec2>> lines;
-  if (!out.contours) return lines;
-  for (const Contour& c : out.contours->contours) {
-    lines.push_back(positionsOf(c.points));
-    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front().at);
-  }
-  return lines;
-}
-
-std::vector<std::vector<Vec2>> tracedLines(const Scan& scan) {
-  StageCache cache;
-  PipelineRequest request;
-  request.upTo = StageId::Contours;
-  request.needEdges = false;
-  Recipe recipe;
-  recipe.edges.internal = InnerBorders::On;
-  return linesOf(runPipeline(scan, recipe, cache, request, {}));
-}
 
 /// A tone laid up to a bent edge and fading out behind it: `fade` px to the other side, 0 = the whole side is toned.
 struct Tone {
@@ -164,6 +145,8 @@ int main(int argc, char** argv) {
   std::printf("Pages of %d x %d px; passes: 95 %% of the true lines within 2 px, at most 20 px of false ones.\n",
               kWidth, kHeight);
   std::printf("%-14s %8s %10s %10s %8s\n", "paper", "passes", "least cov.", "false px", "rms px");
+  Recipe recipe;
+  recipe.edges.internal = InnerBorders::On;
   int passes = 0, pages = 0;
   for (const StressPaper& paper : stressPapers(kWidth, kHeight)) {
     if (!only.empty() && paper.name.find(only) == std::string::npos) continue;
@@ -173,7 +156,7 @@ int main(int argc, char** argv) {
     for (const StressScene& scene : scenes) {
       for (const StressInk& ink : kInks) {
         const Scan scan = renderStress(scene.coverage, kWidth, kHeight, paper.grey, ink, 7);
-        const LineScore score = scoreLines(scene.lines, tracedLines(scan), kWidth, kHeight);
+        const LineScore score = scoreLines(scene.lines, tracedLines(scan, recipe), kWidth, kHeight);
         good += score.passes() ? 1 : 0;
         ++all;
         least = std::min(least, score.covered);

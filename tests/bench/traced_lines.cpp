@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/traced_lines.h"
 
-#include "core/pipeline/run/pipeline.h"
-
 namespace batten::test {
 
-std::vector<std::vector<Vec2>> tracedLines(const Scan& scan, const Recipe& recipe) {
-  StageCache cache;
-  PipelineRequest request;
-  request.upTo = StageId::Contours;
-  request.needEdges = false;
-  const PipelineOutput out = runPipeline(scan, recipe, cache, request, {});
+std::vector<std::vector<Vec2>> linesOf(const PipelineOutput& out) {
   std::vector<std::vector<Vec2>> lines;
   if (!out.contours) return lines;
   for (const Contour& c : out.contours->contours) {
@@ -18,6 +11,14 @@ std::vector<std::vector<Vec2>> tracedLines(const Scan& scan, const Recipe& recip
     if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front().at);
   }
   return lines;
+}
+
+std::vector<std::vector<Vec2>> tracedLines(const Scan& scan, const Recipe& recipe) {
+  StageCache cache;
+  PipelineRequest request;
+  request.upTo = StageId::Contours;
+  request.needEdges = false;
+  return linesOf(runPipeline(scan, recipe, cache, request, {}));
 }
 
 }  // namespace batten::test

@@ -15,6 +15,7 @@
 #include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
 #include "ui/session/gesture_id.h"
+#include "ui/session/known_splits.h"
 
 namespace batten {
 
@@ -138,6 +139,7 @@ class EditorSession : public QObject {
 
   /// The six targets of the selected curve, null while they are computed.
   std::shared_ptr<const TargetOutcomes> targets() const { return targets_; }
+  KnownSplits& knownSplits() const { return knownSplits_; }
   /// The span of the selected curve to which the six targets belong, by a place in it as a share of the arc length;
   /// none: the whole curve, every span by itself.
   std::optional<double> pointedSpan() const { return pointedSpan_; }
@@ -189,6 +191,7 @@ class EditorSession : public QObject {
   PipelineOutput output_;
   std::shared_ptr<const CoarseResult> coarse_;
   mutable KnownOwners known_;
+  mutable KnownSplits knownSplits_;
   QUndoStack undo_;
   int lastGesture_ = 0;
   std::optional<int> selectedCurve_, selectedCorner_;

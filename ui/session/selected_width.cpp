@@ -24,8 +24,7 @@ bool SelectedWidth::Asked::isStroke() const {
     return false;
   const int contour = output.pieces->pieces[curve.piece].contour;
   if (contour < 0 || contour >= std::ssize(output.contours->contours)) return false;
-  const auto& points = output.contours->contours[contour].points;
-  return std::any_of(points.begin(), points.end(), [](const ContourPoint& point) { return point.widthPx.has_value(); });
+  return hasStrokeWidths(output.contours->contours[contour].points);
 }
 
 void SelectedWidth::follow() {

@@ -45,23 +45,16 @@ std::optional<NurbsCurve> lightBetweenCorners(const NurbsCurve& dense, bool clos
     if (!light || light->report.kind == LightKind::Dense) return std::nullopt;
     return std::move(light->curve);
   }
-  std::vector<NurbsCurve> parts;
-  NurbsCurve rest = dense;
+  auto parts = splitAtAll(dense, corners);
+  if (!parts) return std::nullopt;
   for (std::size_t i = 0; i <= corners.size(); ++i) {
     LightOptions own = options;
     if (i > 0 || closed) own.start = LightHold::Position;
     if (i < corners.size() || closed) own.end = LightHold::Position;
-    if (i == corners.size()) {
-      parts.push_back(lightPart(rest, own, context));
-      break;
-    }
-    auto halves = split(rest, corners[i]);
-    if (!halves) return std::nullopt;
-    parts.push_back(lightPart(halves->left, own, context));
-    rest = std::move(halves->right);
+    (*parts)[i] = lightPart((*parts)[i], own, context);
   }
   if (context.isCancelled()) return std::nullopt;
-  auto joined = joinedAtCorners(parts, kPartsMeet * extent(dense));
+  auto joined = joinedAtCorners(*parts, kPartsMeet * extent(dense));
   if (!joined || joined->controlPointCount() >= dense.controlPointCount()) return std::nullopt;
   return joined;
 }

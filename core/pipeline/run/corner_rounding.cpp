@@ -229,7 +229,7 @@ void measureAgain(TracedCurve& curve, const NurbsCurve& unrounded, const Piece& 
                   const RunContext& context) {
   curve.fairing.roundedMm =
       std::max(deviation(curve.faired, unrounded, context).max, deviation(unrounded, curve.faired, context).max);
-  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(positionsOf(piece.points), frame), context);
+  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame), context);
 }
 
 }  // namespace

@@ -231,8 +231,7 @@ class ContourBuilder {
     curve.sketched = made.curve;
     curve.dense = made.dense;
     curve.construct = std::move(made.report);
-    curve.sketchedFigures =
-        figuresOf(made.curve, piece.closed, pointsToModel(positionsOf(piece.points), frame_), context_);
+    curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_), context_);
   }
 
   const ContourSet& contours_;
@@ -251,10 +250,10 @@ class ContourBuilder {
 
 }  // namespace
 
-std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
+std::vector<Vec2> pointsToModel(std::span<const PiecePoint> points, const PageFrame& frame) {
   std::vector<Vec2> result;
   result.reserve(points.size());
-  for (const Vec2& p : points) result.push_back(frame.pointToModel(p));
+  for (const PiecePoint& p : points) result.push_back(frame.pointToModel(p.at));
   return result;
 }
 

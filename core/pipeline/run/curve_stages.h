@@ -7,8 +7,8 @@
 
 namespace batten {
 
-/// Places of the page in the model frame.
-std::vector<Vec2> pointsToModel(const std::vector<Vec2>&, const PageFrame&);
+/// Places of the points of a piece in the model frame.
+std::vector<Vec2> pointsToModel(std::span<const PiecePoint>, const PageFrame&);
 
 /// Figures of one curve; `points` are the edge points in model mm, in order.
 CurveFigures figuresOf(const NurbsCurve&, bool closed, const std::vector<Vec2>& points, const RunContext&);

@@ -76,10 +76,10 @@ FairingLine lineOf(const Piece& piece, ContourKind kind, const PageFrame& frame)
   if (isDrawn(kind)) return line;
   // Blur rounds the edge near a corner, and the width of a stroke its middle: as in the fair fit.
   const double reach = kind == ContourKind::Centreline ? 8.0 : 4.0;
-  for (const Vec2& p : positionsOf(piece.points)) {
-    const bool nearStart = piece.startIsCorner && (p - piece.points.front().at).norm() < reach;
-    const bool nearEnd = piece.endIsCorner && (p - piece.points.back().at).norm() < reach;
-    if (!nearStart && !nearEnd) line.points.push_back(frame.pointToModel(p));
+  for (const PiecePoint& p : piece.points) {
+    const bool nearStart = piece.startIsCorner && (p.at - piece.points.front().at).norm() < reach;
+    const bool nearEnd = piece.endIsCorner && (p.at - piece.points.back().at).norm() < reach;
+    if (!nearStart && !nearEnd) line.points.push_back(frame.pointToModel(p.at));
   }
   return line;
 }
@@ -221,7 +221,7 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Rec
   }
   curve.faired = result->curve;
   curve.fairing = std::move(result->report);
-  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(positionsOf(piece.points), frame), context);
+  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame), context);
 }
 
 }  // namespace

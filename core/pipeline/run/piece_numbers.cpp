@@ -62,10 +62,10 @@ class PlaceOwners {
   }
 
   void look(const Piece& piece, std::size_t index) {
-    for (const Vec2& point : positionsOf(piece.points)) {
-      grid_.around(point, [&](std::size_t at) {
+    for (const PiecePoint& point : piece.points) {
+      grid_.around(point.at, [&](std::size_t at) {
         NotedPlace& place = places_[at];
-        const double distance = (place.at - point).norm();
+        const double distance = (place.at - point.at).norm();
         if (distance > kNumberReachPx || distance >= place.distance) return;
         place.distance = distance;
         place.piece = index;

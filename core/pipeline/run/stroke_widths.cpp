@@ -118,16 +118,14 @@ class ThinPlaces {
 
 }  // namespace
 
-/// The widths of the points of a line, where they are this stroke's alone.
+/// The widths of the points of a line, where they are this stroke's alone. @pre hasStrokeWidths
 class StrokeWidths::OfLine {
  public:
   OfLine(const Contour& line, const GreyImage& grey) : line_(line), thin_(line, grey) {
     std::vector<float> widths = strokeWidthsOf(line.points);
-    isStroke_ = !widths.empty();
-    if (isStroke_) usualPx_ = upperMedian(widths);
+    usualPx_ = upperMedian(widths);
     anyRefined_ = std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return p.refined; });
   }
-  bool isStroke() const { return isStroke_; }
   std::optional<double> usual() const { return usualPx_ > 0.0 ? std::optional(usualPx_) : std::nullopt; }
   /// @param index of a point of the line, as its piece counts on from its first one.
   std::optional<double> widthAt(const Piece& piece, int index, double toStartPx, double toEndPx) const {
@@ -148,16 +146,17 @@ class StrokeWidths::OfLine {
   const Contour& line_;
   ThinPlaces thin_;
   double usualPx_ = 0.0;
-  bool isStroke_ = false, anyRefined_ = false;
+  bool anyRefined_ = false;
 };
 
 StrokeWidths::StrokeWidths(const PipelineOutput& output, const Scan& scan) : output_(output), scan_(scan) {}
 StrokeWidths::~StrokeWidths() = default;
 
-const StrokeWidths::OfLine& StrokeWidths::ofLine(int contour) {
-  std::unique_ptr<OfLine>& known = lines_[contour];
-  if (!known) known = std::make_unique<OfLine>(output_.contours->contours[contour], tracedGrey(scan_, output_));
-  return *known;
+const StrokeWidths::OfLine* StrokeWidths::ofLine(int contour) {
+  const auto [known, isNew] = lines_.try_emplace(contour);
+  const Contour& line = output_.contours->contours[contour];
+  if (isNew && hasStrokeWidths(line.points)) known->second = std::make_unique<OfLine>(line, tracedGrey(scan_, output_));
+  return known->second.get();
 }
 
 std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const NurbsCurve& shape) {
@@ -166,8 +165,8 @@ std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const 
   if (curve.piece < 0 || curve.piece >= std::ssize(output_.pieces->pieces)) return std::nullopt;
   const Piece& piece = output_.pieces->pieces[curve.piece];
   if (piece.points.size() < 2) return std::nullopt;
-  const OfLine& widths = ofLine(piece.contour);
-  if (!widths.isStroke()) return std::nullopt;
+  const OfLine* widths = ofLine(piece.contour);
+  if (widths == nullptr) return std::nullopt;
   const double pixel = output_.frame.mmPerPx;
   const CurveWalk walk(shape, curve.closed, pixel);
   if (!(walk.length() > 0.0)) return std::nullopt;
@@ -181,11 +180,11 @@ std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const 
   for (int i = 0; i < std::ssize(piece.points); ++i) {
     const double gone = i > 0 ? along[i] - along[i - 1] : 0.0;
     at = walk.near(at + std::lround(gone * samplesPerPx), output_.frame.pointToModel(piece.points[i].at));
-    if (const auto px = widths.widthAt(piece, piece.firstPoint + i, along[i], whole - along[i]))
+    if (const auto px = widths->widthAt(piece, piece.firstPoint + i, along[i], whole - along[i]))
       measured.push_back({walk.arcLength(at), output_.frame.lengthToModel(*px)});
   }
   // A piece all of which is near corners or crossings: as wide as its line.
-  if (measured.empty()) measured.push_back({0.0, output_.frame.lengthToModel(widths.usual().value_or(0.0))});
+  if (measured.empty()) measured.push_back({0.0, output_.frame.lengthToModel(widths->usual().value_or(0.0))});
   return fittedWidths(measured, walk.length(), curve.closed, pixel);
 }
 

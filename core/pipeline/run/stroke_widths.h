@@ -24,7 +24,8 @@ class StrokeWidths {
 
  private:
   class OfLine;
-  const OfLine& ofLine(int contour);
+  /// Null for a line that has no widths.
+  const OfLine* ofLine(int contour);
 
   const PipelineOutput& output_;
   const Scan& scan_;

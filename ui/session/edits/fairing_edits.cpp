@@ -73,7 +73,7 @@ std::vector<double> splitsOf(const EditorSession& session) {
   const TracedCurve& curve = *session.selected();
   FairingParams asked = fairingAsked(session);
   asked.targets.splits.clear();
-  return targetSplits(curve.fairingStart(), curve.closed, asked);
+  return session.knownSplits().of(curve.fairingStart(), curve.closed, asked);
 }
 
 std::vector<double> keptOf(const EditorSession& session) { return fractionsOf(session, &PieceChoice::keepPx); }
