@@ -119,6 +119,44 @@ std::vector<Drawn> pairsOf(const Kind& kind, Random& random) {
   return drawn;
 }
 
+enum class Verdict { Right, Wrong, Unclear };
+
+double distanceTo(const Line& line, const Vec2& p) {
+  double least = 1e9;
+  for (const Vec2& q : line) least = std::min(least, (p - q).norm());
+  return least;
+}
+
+// Whether the branches of a junction are paired as the lines were drawn.
+Verdict judge(const StrokeJunction& j, const std::vector<Line>& truth) {
+  constexpr double kApartPx = 1.5;
+  std::vector<int> lineOf;
+  for (const Vec2& p : j.branchesPx) {
+    double best = 1e9, second = 1e9;
+    int line = -1;
+    for (std::size_t t = 0; t < truth.size(); ++t) {
+      const double d = distanceTo(truth[t], p);
+      if (d < best) {
+        second = best;
+        best = d;
+        line = static_cast<int>(t);
+      } else {
+        second = std::min(second, d);
+      }
+    }
+    if (second - best < kApartPx) return Verdict::Unclear;
+    lineOf.push_back(line);
+  }
+  EndPairs drawn;
+  for (int a = 0; a < std::ssize(lineOf); ++a) {
+    for (int b = a + 1; b < std::ssize(lineOf); ++b) {
+      if (lineOf[a] == lineOf[b] && (j.branchesPx[a] - j.positionPx).dot(j.branchesPx[b] - j.positionPx) < 0.0)
+        drawn.emplace_back(a, b);
+    }
+  }
+  return drawn == j.pairs ? Verdict::Right : Verdict::Wrong;
+}
+
 DenseScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed) {
   std::vector<float> cover(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
   std::vector<Line> truth;
@@ -129,7 +167,19 @@ DenseScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed) {
     truth.push_back(d.points);
     widest = std::max(widest, d.widthPx);
   }
-  return scoreDense(truth, tracedLines(scanOfLines(std::move(cover), kWidth, kHeight, seed), {}), widest, 3.0 * widest);
+  const PipelineOutput out = tracedPage(scanOfLines(std::move(cover), kWidth, kHeight, seed), {});
+  if (out.contours && std::getenv("F_DEBUG")) {
+    for (const StrokeJunction& j : out.contours->junctions) {
+      const Verdict v = judge(j, truth);
+      std::printf("J %s %zu %d %.1f %.1f %.1f %.1f %d\n",
+                  v == Verdict::Right   ? "right"
+                  : v == Verdict::Wrong ? "wrong"
+                                        : "unclear",
+                  j.branchesPx.size(), (int)j.pairs.size(), j.cost, j.nextCost - j.cost, j.positionPx.x(),
+                  j.positionPx.y(), (int)seed);
+    }
+  }
+  return scoreDense(truth, linesOf(out), widest, 3.0 * widest);
 }
 
 }  // namespace
