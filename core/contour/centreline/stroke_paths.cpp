@@ -28,9 +28,16 @@ class StrokePathMaker {
   StrokeNet make() {
     StrokeNet net;
     const std::vector<std::optional<int>> choiceOf = choicesOfNodes(graph_, params_.junctions);
+    std::vector<std::optional<int>> junctionOf(graph_.nodes().size());
     for (int i = 0; i < std::ssize(graph_.nodes()); ++i) {
       std::optional<StrokeJunction> junction = pair(graph_.nodes()[i], choiceOf[i]);
-      if (junction) net.junctions.push_back(std::move(*junction));
+      if (!junction) continue;
+      junctionOf[i] = static_cast<int>(net.junctions.size());
+      net.junctions.push_back(std::move(*junction));
+    }
+    for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
+      if (!isShared(edge)) continue;
+      for (const std::optional<int> node : edge_(edge).node) net.junctions[*junctionOf[*node]].isDoubtful = true;
     }
     std::vector<StrokePath>& paths = net.paths;
     std::vector<bool> used(graph_.edges().size(), false);
@@ -78,6 +85,20 @@ class StrokePathMaker {
     junction.nextCost = found.nextCost;
     junction.isDoubtful = found.isDoubtful;
     return junction;
+  }
+
+  // Whether strokes part at both ends of an edge of which only one is led through: two may lie on one another there.
+  bool isShared(int edge) const {
+    if (!edge_(edge).alive || edge_(edge).ring) return false;
+    return isParting(2 * edge) && isParting(2 * edge + 1);
+  }
+  // Whether the edge goes on beyond this end, and a branch that was left open might go on there instead.
+  bool isParting(int end) const {
+    const SkeletonNode* node = junctionAt(end);
+    if (node == nullptr || !partner_[end]) return false;
+    return std::ranges::any_of(node->ends, [&](int other) {
+      return !partner_[other] && turnDeg(-ends_[end].out, ends_[other].out) <= params_.maxBendDeg;
+    });
   }
 
   // A width beyond the first point with a middle of its own, or where the edge ends.
