@@ -58,9 +58,7 @@ nlohmann::ordered_json junctionsToJson(const std::vector<StrokeJunction>& juncti
     list.push_back({{"at", placeToJson(junction.positionPx)},
                     {"branches", std::move(branches)},
                     {"pairs", pairsToJson(junction.pairs)},
-                    {"next_best", pairsToJson(junction.ways[1])},
-                    {"cost_deg", withDecimals(std::sqrt(junction.cost), 1)},
-                    {"next_best_cost_deg", withDecimals(std::sqrt(junction.nextCost), 1)}});
+                    {"next_best", pairsToJson(junction.ways[1])}});
   }
   return list;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace batten {
@@ -83,8 +84,10 @@ JunctionWays findWays(std::span<const MeetingEnd> ends, const EndPairs& own, dou
     std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.cost < b.cost; });
     std::erase_if(ways, [&](const Way& way) { return way.pairs == own; });
     found.cost = all.costOf(own);
-    found.nextCost = ways.front().cost;
-    found.isDoubtful = std::sqrt(found.nextCost) - std::sqrt(found.cost) < kDoubtfulDeg;
+    // Whether a stroke goes on at all says the limit of the bend; doubt is about its partner.
+    const auto next = std::ranges::find(ways, own.size(), [](const Way& way) { return way.pairs.size(); });
+    found.nextCost = next == ways.end() ? std::numeric_limits<double>::infinity() : next->cost;
+    found.isDoubtful = !own.empty() && std::sqrt(found.nextCost) - std::sqrt(found.cost) < kDoubtfulDeg;
     for (Way& way : ways) {
       if (found.ways.size() <= kMostWays && !way.pairs.empty() && way.pairs.size() >= own.size())
         found.ways.push_back(std::move(way.pairs));

@@ -54,16 +54,16 @@ TEST(JunctionWays, AForkOfEqualTinesIsDoubtful) {
   EXPECT_FALSE(waysOf({meetingTowards(180, 5.0), meetingTowards(11, 5.0), meetingTowards(-12, 1.5)}).isDoubtful);
 }
 
-struct Page {
+struct CrossedPage {
   BitImage ink;
   GreyImage grey;
 };
 
 // Two lines of 4 px that cross at the middle of the page; darker than `level` is ink.
-Page crossing(double angleDeg, double level = 132.0) {
+CrossedPage crossing(double angleDeg, double level = 132.0) {
   std::vector<std::vector<Vec2>> lines = test::hatchLines({240, 180}, 10.0, 1, 1.0, 300.0, 0.0);
   lines.push_back(test::hatchLines({240, 180}, 10.0 + angleDeg, 1, 1.0, 300.0, 0.0).front());
-  Page page{BitImage(kPageWidth, kPageHeight),
+  CrossedPage page{BitImage(kPageWidth, kPageHeight),
             test::scanOfLines(test::coverageOf(lines, 4.0, kPageWidth, kPageHeight), kPageWidth, kPageHeight, 3).grey};
   for (int y = 0; y < kPageHeight; ++y)
     for (int x = 0; x < kPageWidth; ++x) page.ink.set(x, y, page.grey.level(x, y) < level);
@@ -76,7 +76,7 @@ Vec2 placeOn(int line, double angleDeg, double away) {
   return Vec2(240, 180) + away * Vec2(std::cos(angle), std::sin(angle));
 }
 
-ContourSet tracedBy(const Page& page, const EdgeParams& params) {
+ContourSet tracedBy(const CrossedPage& page, const EdgeParams& params) {
   const auto set = traceContours(page.ink, page.grey, params, {}, {});
   EXPECT_TRUE(set);
   return set ? *set : ContourSet{};
@@ -103,7 +103,7 @@ JunctionChoice turningOff(double angleDeg) {
 
 TEST(JunctionChoices, StrokesGoOnAsTheUserPairsThem) {
   const double angle = 50.0;
-  const Page page = crossing(angle);
+  const CrossedPage page = crossing(angle);
   const ContourSet plain = tracedBy(page, {});
   ASSERT_EQ(plain.junctions.size(), 1u);
   EXPECT_LT((plain.junctions[0].positionPx - Vec2(240, 180)).norm(), 2.0);
@@ -142,7 +142,7 @@ TEST(JunctionChoices, AChoiceLivesOnWhenTheThresholdMoves) {
 }
 
 TEST(JunctionChoices, AChoiceWithoutAJunctionChangesNothingAndIsTold) {
-  const Page page = crossing(50.0);
+  const CrossedPage page = crossing(50.0);
   const ContourSet plain = tracedBy(page, {});
   EdgeParams params;
   params.junctions = {{{100, 300}, {{{90, 300}, {110, 300}}}}};
