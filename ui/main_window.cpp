@@ -258,7 +258,7 @@ void MainWindow::enterStage(PanelStage stage) {
       turn(false, {Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners});
       break;
     case PanelStage::Edges:
-      turn(true, {Layer::Edges, Layer::Curve, Layer::Fallback});
+      turn(true, {Layer::Edges, Layer::Curve, Layer::Fallback, Layer::Junctions});
       turn(false, {Layer::Faired, Layer::Comb});
       showStrokes(true);
       break;

@@ -77,6 +77,9 @@ void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
   addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(app, "--outline", a.outlines, "X,Y",
               "Trace the outline of the ink near this point, px from the upper left; may be repeated");
+  addRepeated(app, "--pair", a.pairings, "X,Y[,X,Y,X,Y…]",
+              "At the junction near the first point, px from the upper left, lead through only the strokes given by "
+              "pairs of points on their two branches; may be repeated");
   addRepeated(app, "--centreline", a.centrelines, "X,Y",
               "Trace the centre line of the ink near this point, px from the upper left; may be repeated");
   addRepeated(app, "--roi", a.regions, "X,Y,WIDTH,HEIGHT",
@@ -176,14 +179,16 @@ void addTrace(CLI::App& app, TraceArguments& a) {
 }
 
 CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
-  CLI::App* suggest =
-      app.add_subcommand("suggest", "Suggest a merge distance for overdrawn strokes and list possible corners");
+  CLI::App* suggest = app.add_subcommand(
+      "suggest", "Suggest a merge distance for overdrawn strokes, list possible corners and doubtful junctions");
   suggest->footer(
       "Prints one line of JSON: a value for edges.merge (0: nothing to merge), how many strokes become how many "
       "lines, whether edges.intent finds lines drawn over more than once and how many curves it makes of them, and "
       "the reason; and every place that may be a corner with its angle in degrees and its certainty from 0 "
       "to "
-      "1. Those of 0.95 and more count without a mark (corners.auto). Changes nothing.");
+      "1. Those of 0.95 and more count without a mark (corners.auto). And every junction of strokes that might as well "
+      "be paired otherwise: a point on each branch, which of them are one stroke now and which in the next best way, "
+      "for --pair. Changes nothing.");
   addDrawing(*suggest, a,
              {std::string("The scan: ") + kScanKinds, "Use this recipe; --set and the points given override it",
               "Which page of a TIFF or PDF, from 1", "N"});

@@ -177,6 +177,22 @@ Result<void> applyTraceMode(const std::string& region, EdgeMode mode, Recipe& re
   return {};
 }
 
+/// The place of a junction, then two places for every pair of branches that are one stroke.
+Result<void> applyPairing(const std::string& pairing, Recipe& recipe) {
+  const auto values = numbersOf(pairing);
+  if (!values || values->size() % 4 != 2) {
+    return wrong(
+        "--pair takes X,Y of a junction and behind it, for every two branches that are one stroke, X,Y,X,Y: a point on "
+        "each, all in px from the upper left corner; without them every stroke ends there. Not \"" +
+        pairing + "\".");
+  }
+  const auto place = [&](std::size_t i) { return Vec2((*values)[i], (*values)[i + 1]); };
+  JunctionChoice choice{place(0), {}};
+  for (std::size_t i = 2; i < values->size(); i += 4) choice.pairs.push_back({place(i), place(i + 2)});
+  recipe.edges.junctions.push_back(std::move(choice));
+  return {};
+}
+
 Result<void> applyRegion(const std::string& region, Recipe& recipe) {
   const auto numbers = numbersOf(region);
   if (!numbers || numbers->size() != 4 || !((*numbers)[2] > 0.0) || !((*numbers)[3] > 0.0)) {
@@ -212,6 +228,9 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   }
   for (const std::string& place : arguments.centrelines) {
     if (auto set = applyTraceMode(place, EdgeMode::Centreline, *recipe); !set) return fail(set.error());
+  }
+  for (const std::string& pairing : arguments.pairings) {
+    if (auto set = applyPairing(pairing, *recipe); !set) return fail(set.error());
   }
   for (const std::string& region : arguments.regions) {
     if (auto set = applyRegion(region, *recipe); !set) return fail(set.error());

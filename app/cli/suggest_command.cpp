@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ namespace {
 struct Advice {
   MergeAdvice merge;
   std::vector<CornerSuggestion> corners;
+  std::vector<StrokeJunction> junctions;
 };
 
 nlohmann::ordered_json cornersToJson(const std::vector<CornerSuggestion>& corners) {
@@ -39,15 +41,37 @@ nlohmann::ordered_json cornersToJson(const std::vector<CornerSuggestion>& corner
   return list;
 }
 
-/// The places that turn, on the lines as the recipe traces them.
-Result<std::vector<CornerSuggestion>> cornersOf(const Scan& scan, const Recipe& recipe, StageCache& cache,
-                                                const RunContext& context) {
+nlohmann::ordered_json pairsToJson(const EndPairs& pairs) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& [a, b] : pairs) list.push_back({a, b});
+  return list;
+}
+
+nlohmann::ordered_json placeToJson(const Vec2& px) { return {withDecimals(px.x(), 2), withDecimals(px.y(), 2)}; }
+
+nlohmann::ordered_json junctionsToJson(const std::vector<StrokeJunction>& junctions) {
+  auto list = nlohmann::ordered_json::array();
+  for (const StrokeJunction& junction : junctions) {
+    if (!junction.isDoubtful || junction.choice || junction.ways.size() < 2) continue;
+    auto branches = nlohmann::ordered_json::array();
+    for (const Vec2& place : junction.branchesPx) branches.push_back(placeToJson(place));
+    list.push_back({{"at", placeToJson(junction.positionPx)},
+                    {"branches", std::move(branches)},
+                    {"pairs", pairsToJson(junction.pairs)},
+                    {"next_best", pairsToJson(junction.ways[1])}});
+  }
+  return list;
+}
+
+/// The lines as the recipe traces them.
+Result<std::shared_ptr<const ContourSet>> linesOf(const Scan& scan, const Recipe& recipe, StageCache& cache,
+                                                  const RunContext& context) {
   PipelineRequest request;
   request.upTo = StageId::Contours;
   request.needEdges = false;
   const PipelineOutput out = runPipeline(scan, recipe, cache, request, context);
   if (!out.contours) return out.error ? fail(*out.error) : fail(ErrorCode::NoCurve, "No line was found.");
-  return possibleCorners(*out.contours, context);
+  return out.contours;
 }
 
 Result<Advice> adviceFor(const TraceArguments& arguments) {
@@ -66,9 +90,9 @@ Result<Advice> adviceFor(const TraceArguments& arguments) {
   StageCache cache;
   auto merge = adviseMerge(*scan, *recipe, cache, context);
   if (!merge) return fail(merge.error());
-  auto corners = cornersOf(*scan, *recipe, cache, context);
-  if (!corners) return fail(corners.error());
-  return Advice{std::move(*merge), std::move(*corners)};
+  const auto lines = linesOf(*scan, *recipe, cache, context);
+  if (!lines) return fail(lines.error());
+  return Advice{std::move(*merge), possibleCorners(**lines, context), (*lines)->junctions};
 }
 
 }  // namespace
@@ -85,7 +109,8 @@ int runSuggest(const TraceArguments& arguments) {
       {"curves_meant", advice->merge.meant ? nlohmann::ordered_json(*advice->merge.meant) : nlohmann::ordered_json()},
       {"overdrawn_share", withDecimals(advice->merge.share, 4)},
       {"reason", describe(advice->merge)},
-      {"corners", cornersToJson(advice->corners)}};
+      {"corners", cornersToJson(advice->corners)},
+      {"doubtful_junctions", junctionsToJson(advice->junctions)}};
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }

@@ -98,6 +98,7 @@ class Trace {
     json["curves"] = curves_;
     json["pieces"] = pieces_;
     json["corners_without_mark"] = unmarkedCornerCount(*out_.pieces);
+    json["doubtful_junctions"] = doubtfulCount(*out_.contours);
     json["milliseconds"] = withDecimals(millisecondsSince(begin_), kDecimalsOfMs);
     json["processor_milliseconds"] = withDecimals(1000.0 * processorSeconds(), kDecimalsOfMs);
     json["peak_memory_bytes"] = peakMemoryBytes();

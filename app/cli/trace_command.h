@@ -31,6 +31,7 @@ struct TraceArguments {
   std::vector<std::string> segmentPoints;  ///< --segment-point X,Y
   std::vector<std::string> outlines;       ///< --outline X,Y
   std::vector<std::string> centrelines;    ///< --centreline X,Y
+  std::vector<std::string> pairings;       ///< --pair X,Y[,X,Y,X,Y…]
   std::vector<std::string> regions;        ///< --roi X,Y,WIDTH,HEIGHT
   std::optional<std::string> dpi;          ///< --dpi
   std::vector<std::string> imports;        ///< --import FILE; a scan that is a file of curves counts as one

@@ -38,6 +38,14 @@ std::optional<Error> validate(const EdgeChoice& choice) {
   return Error{ErrorCode::BadParameter, "The position of a trace mode choice is not a number.", {}};
 }
 
+std::optional<Error> validate(const JunctionChoice& choice) {
+  bool isFinite = choice.positionPx.allFinite();
+  for (const BranchPair& pair : choice.pairs)
+    isFinite = isFinite && pair.firstPx.allFinite() && pair.secondPx.allFinite();
+  if (isFinite) return std::nullopt;
+  return Error{ErrorCode::BadParameter, "A place of a junction's pairing is not a number.", {}};
+}
+
 ChosenInk::ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices) : pieces_(pieces) {
   for (int i = 0; i < std::ssize(choices); ++i) {
     if (const auto piece = nearestPiece(pieces, choices[i].positionPx)) {

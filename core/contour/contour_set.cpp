@@ -83,4 +83,9 @@ int bridgeCount(const ContourSet& set) {
   return static_cast<int>(count);
 }
 
+int doubtfulCount(const ContourSet& set) {
+  return static_cast<int>(
+      std::ranges::count_if(set.junctions, [](const StrokeJunction& j) { return j.isDoubtful && !j.choice; }));
+}
+
 }  // namespace batten

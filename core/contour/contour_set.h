@@ -79,6 +79,21 @@ std::vector<Vec2> inkBeside(const Contour&, int point);
 /// A place on the ink of a line, near the middle of the line and not on a bridge. [px] @pre the line has a point.
 Vec2 placeOnInk(const Contour&);
 
+/// Pairs of indices, the lower one first, in ascending order; no index twice.
+using EndPairs = std::vector<std::pair<int, int>>;
+
+/// A place where three or more branches of strokes meet.
+struct StrokeJunction {
+  Vec2 positionPx = Vec2::Zero();
+  double radiusPx = 0.0;              ///< Of the ink of all its strokes.
+  std::vector<Vec2> branchesPx;       ///< A place on every branch, where it has a middle of its own.
+  EndPairs pairs;                     ///< Branches that are one stroke; a branch in no pair ends here.
+  std::vector<EndPairs> ways;         ///< To pair them, the rule's own first, then the next best; the last pairs none.
+  double cost = 0.0, nextCost = 0.0;  ///< [deg^2] Of the rule's own way, and of the next best; no more than 7 branches.
+  bool isDoubtful = false;            ///< By these the rule's own is hardly better than the next best.
+  std::optional<int> choice;          ///< Index of the user's choice that it follows.
+};
+
 struct ContourReport {
   int found = 0;            ///< Before any was dropped.
   int droppedShort = 0;     ///< Shorter than the smallest length.
@@ -93,10 +108,13 @@ struct ContourReport {
 /// All lines of the page, longest first (ties: topmost, then leftmost start), so "curve 1" is the longest.
 struct ContourSet {
   std::vector<Contour> contours;
+  std::vector<StrokeJunction> junctions;  ///< Of the strokes; none where lines were made of several.
   ContourReport report;
 };
 
 /// Number of gaps in the ink that the lines bridge.
 int bridgeCount(const ContourSet&);
+/// Number of junctions whose strokes the rule pairs with doubt and the user has not paired.
+int doubtfulCount(const ContourSet&);
 
 }  // namespace batten

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/vec2.h"
@@ -25,5 +26,21 @@ struct EdgeChoice {
 std::optional<Error> validate(const EdgeChoice&);
 
 inline constexpr double kInkReachPx = 24.0;
+
+/// Two branches of a junction that are one stroke, each by a place on it. [px]
+struct BranchPair {
+  Vec2 firstPx = Vec2::Zero(), secondPx = Vec2::Zero();
+  bool operator==(const BranchPair& o) const { return firstPx == o.firstPx && secondPx == o.secondPx; }
+};
+
+/// How the user wants the strokes of one junction led through it. It is tied to places so that it survives changes of
+/// the mask: it applies to the nearest junction within kInkReachPx, and a place to the branch nearest to it within the
+/// same reach. If several choices apply to one junction, the last one counts.
+struct JunctionChoice {
+  Vec2 positionPx = Vec2::Zero();
+  std::vector<BranchPair> pairs{};  ///< All that are led through; every other stroke ends there.
+  bool operator==(const JunctionChoice& o) const { return positionPx == o.positionPx && pairs == o.pairs; }
+};
+std::optional<Error> validate(const JunctionChoice&);
 
 }  // namespace batten

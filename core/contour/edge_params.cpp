@@ -13,6 +13,9 @@ std::optional<Error> validate(const EdgeParams& p) {
   for (const EdgeChoice& choice : p.choices) {
     if (auto error = validate(choice)) return error;
   }
+  for (const JunctionChoice& choice : p.junctions) {
+    if (auto error = validate(choice)) return error;
+  }
   return std::nullopt;
 }
 

@@ -118,13 +118,13 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   split.strokes = std::move(labels->strokes);
   split.shapes = std::move(labels->shapes);
   split.penPx = labels->penPx;
-  std::vector<StrokePath> paths = findStrokePaths(labels->skeleton, ink, params, context);
+  auto [paths, junctions] = findStrokeNet(labels->skeleton, ink, params, context);
   if (context.isCancelled()) return cancelled();
   GraininessMap grain(paths, grey, context);
   const PencilPieces pencil(ink, paths, grain, context);
   if (context.isCancelled()) return cancelled();
   split.known = std::make_unique<StrokesOfInk>(
-      StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(grain)});
+      StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
   if (!pencil.any()) return {};
   EdgeParams whole = params;
   whole.choices.clear();

@@ -126,6 +126,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.widthPx = std::max(to.report.widthPx, from.report.widthPx);
   if (to.report.note.empty()) to.report.note = std::move(from.report.note);
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
+  std::move(from.junctions.begin(), from.junctions.end(), std::back_inserter(to.junctions));
 }
 
 // [px] What a line has to be long, by the width of the pen.
@@ -311,6 +312,17 @@ std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
          " or longer was found: lower the smallest length or raise the thresholds.";
 }
 
+// A choice near no junction waits for one. Where lines were made of several strokes, junctions are not known.
+void noteJunctionChoices(ContourSet& set, const EdgeParams& edges) {
+  if (edges.mergeWidths > 0.0 || edges.intent) return;
+  for (int i = 0; i < std::ssize(edges.junctions); ++i) {
+    const Vec2& px = edges.junctions[i].positionPx;
+    if (std::ranges::any_of(set.junctions, [i](const StrokeJunction& j) { return j.choice == i; })) continue;
+    addNote(set, "Strokes were paired at a junction, but none is found near (" + std::to_string(std::lround(px.x())) +
+                     ", " + std::to_string(std::lround(px.y())) + "); the choice is kept.");
+  }
+}
+
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                             const ContourParams& params, const RunContext& context) {
   Result<FoundLines> found = findLines(ink, grey, edges, params, context);
@@ -322,6 +334,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     if (isMoreOfIt(*net, *set)) *set = std::move(*net);
   }
   noteChoices(*set, found->regions, edges.choices, found->blots, context);
+  noteJunctionChoices(*set, edges);
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
     return fail(

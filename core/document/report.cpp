@@ -379,6 +379,8 @@ Json countsOf(StageId stage, const PipelineOutput& out) {
               {"dropped_short", out.contours->report.droppedShort},
               {"dropped_holes", out.contours->report.droppedHoles},
               {"dropped_margins", out.contours->report.droppedMargins},
+              {"junctions", out.contours->junctions.size()},
+              {"doubtful_junctions", doubtfulCount(*out.contours)},
               {"refined_share", number(out.contours->report.refinedShare)},
               {"note", out.contours->report.note}};
     case StageId::Pieces:

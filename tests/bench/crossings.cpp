@@ -2,12 +2,13 @@
 // Lines that cross, meet at shallow angles and branch off: how many are found whole, and how often a found line passes
 // from one drawn line to another.
 //
-//   bench_crossings [--seeds N]
+//   bench_crossings [--seeds N] [--open]    open: junctions that are doubtful end all their strokes
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -119,7 +120,55 @@ std::vector<Drawn> pairsOf(const Kind& kind, Random& random) {
   return drawn;
 }
 
-DenseScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed) {
+// Of the places where two lines meet: how many are right, both lines whole and none passing to the other, and where a
+// junction is shown as doubtful.
+struct Places {
+  int right = 0, rightShown = 0, wrong = 0, wrongShown = 0;
+  void add(const Places& o) {
+    right += o.right;
+    rightShown += o.rightShown;
+    wrong += o.wrong;
+    wrongShown += o.wrongShown;
+  }
+};
+
+struct CrossingScore {
+  DenseScore lines;
+  Places places;
+};
+
+double distanceTo(const Line& line, const Vec2& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2& q : line) least = std::min(least, (p - q).norm());
+  return least;
+}
+
+Places placesOf(const std::vector<Line>& truth, const PipelineOutput& out, double widest) {
+  Places places;
+  const std::vector<Line> found = linesOf(out);
+  for (std::size_t k = 0; k + 1 < truth.size(); k += 2) {
+    const std::vector<Line> two = {truth[k], truth[k + 1]};
+    const DenseScore score = scoreDense(two, found, widest, 3.0 * widest);
+    const bool isShown =
+        out.contours && std::ranges::any_of(out.contours->junctions, [&](const StrokeJunction& j) {
+          return j.isDoubtful && std::min(distanceTo(two[0], j.positionPx), distanceTo(two[1], j.positionPx)) < widest;
+        });
+    const bool isRight = score.whole == 2 && score.bridges == 0;
+    ++(isRight ? places.right : places.wrong);
+    (isRight ? places.rightShown : places.wrongShown) += isShown ? 1 : 0;
+  }
+  return places;
+}
+
+// Every doubtful junction left open.
+Recipe withDoubtOpen(const PipelineOutput& out) {
+  Recipe recipe;
+  for (const StrokeJunction& j : out.contours->junctions)
+    if (j.isDoubtful) recipe.edges.junctions.push_back({j.positionPx, {}});
+  return recipe;
+}
+
+CrossingScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed, bool isDoubtOpen) {
   std::vector<float> cover(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
   std::vector<Line> truth;
   double widest = 0.0;
@@ -129,15 +178,21 @@ DenseScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed) {
     truth.push_back(d.points);
     widest = std::max(widest, d.widthPx);
   }
-  return scoreDense(truth, tracedLines(scanOfLines(std::move(cover), kWidth, kHeight, seed), {}), widest, 3.0 * widest);
+  const Scan scan = scanOfLines(std::move(cover), kWidth, kHeight, seed);
+  PipelineOutput out = tracedPage(scan, {});
+  const Places places = placesOf(truth, out, widest);
+  if (isDoubtOpen && out.contours) out = tracedPage(scan, withDoubtOpen(out));
+  return {scoreDense(truth, linesOf(out), widest, 3.0 * widest), places};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   int seeds = 6;
-  for (int i = 1; i + 1 < argc; ++i) {
-    if (std::string(argv[i]) == "--seeds") seeds = std::max(1, std::atoi(argv[i + 1]));
+  bool isDoubtOpen = false;
+  for (int i = 1; i < argc; ++i) {
+    if (std::string(argv[i]) == "--seeds" && i + 1 < argc) seeds = std::max(1, std::atoi(argv[i + 1]));
+    isDoubtOpen = isDoubtOpen || std::string(argv[i]) == "--open";
   }
   std::vector<Kind> kinds;
   for (const auto& [widths, name] : {std::pair<std::vector<double>, std::string>{{4.0}, "4 and 4 px"},
@@ -150,11 +205,14 @@ int main(int argc, char** argv) {
   }
   std::printf("%-24s %10s %14s %8s %8s %8s\n", "", "angle", "whole", "pieces", "lost", "switches");
   DenseScore all;
+  Places places;
   for (const Kind& kind : kinds) {
     DenseScore sum;
     for (int seed = 1; seed <= seeds; ++seed) {
       Random random(static_cast<std::uint32_t>(seed));
-      const DenseScore s = scoreOf(pairsOf(kind, random), static_cast<std::uint32_t>(seed));
+      const CrossingScore score = scoreOf(pairsOf(kind, random), static_cast<std::uint32_t>(seed), isDoubtOpen);
+      const DenseScore& s = score.lines;
+      places.add(score.places);
       for (DenseScore* to : {&sum, &all}) {
         to->drawn += s.drawn;
         to->whole += s.whole;
@@ -168,5 +226,7 @@ int main(int argc, char** argv) {
   }
   std::printf("%-24s %10s %6d of %4d %8d %8d %8d\n", "all", "", all.whole, all.drawn, all.inPieces,
               all.drawn - all.whole - all.inPieces, all.bridges);
+  std::printf("shown as doubtful: %d of %d places that are wrong, %d of %d that are right\n", places.wrongShown,
+              places.wrong, places.rightShown, places.right);
   return 0;
 }

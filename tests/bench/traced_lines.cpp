@@ -13,12 +13,16 @@ std::vector<std::vector<Vec2>> linesOf(const PipelineOutput& out) {
   return lines;
 }
 
-std::vector<std::vector<Vec2>> tracedLines(const Scan& scan, const Recipe& recipe) {
+PipelineOutput tracedPage(const Scan& scan, const Recipe& recipe) {
   StageCache cache;
   PipelineRequest request;
   request.upTo = StageId::Contours;
   request.needEdges = false;
-  return linesOf(runPipeline(scan, recipe, cache, request, {}));
+  return runPipeline(scan, recipe, cache, request, {});
+}
+
+std::vector<std::vector<Vec2>> tracedLines(const Scan& scan, const Recipe& recipe) {
+  return linesOf(tracedPage(scan, recipe));
 }
 
 }  // namespace batten::test

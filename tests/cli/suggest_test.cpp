@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
@@ -92,6 +94,67 @@ TEST_F(Suggest, SaysWhatIsWrong) {
   expectError("suggest " + file("none.png"), 3, "none.png");
   expectError("suggest " + page(1) + " --set edges.merge=99", 2, "edges.merge");
   expectError("suggest " + page(0), 4, "line");
+}
+
+// A stem of 5 px that forks evenly at (200, 100): black on white.
+std::string fork() {
+  constexpr int kForkWidth = 400, kForkHeight = 200;
+  std::string pixels(static_cast<std::size_t>(kForkWidth) * kForkHeight, '\xff');
+  for (int y = 0; y < kForkHeight; ++y) {
+    for (int x = 20; x < 380; ++x) {
+      const double aside = x < 200 ? 0.0 : 0.2 * (x - 200);
+      if (std::min(std::abs(y - 100 - aside), std::abs(y - 100 + aside)) <= 2.5)
+        pixels[static_cast<std::size_t>(y) * kForkWidth + static_cast<std::size_t>(x)] = '\x10';
+    }
+  }
+  return "P5\n400 200\n255\n" + pixels;
+}
+
+TEST_F(Suggest, DoubtfulJunctionsAndTheirNextBestWay) {
+  write("fork.pgm", fork());
+  const auto done = run("suggest " + file("fork.pgm"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  const json junctions = json::parse(done.out)["doubtful_junctions"];
+  ASSERT_EQ(junctions.size(), 1u);
+  const json& one = junctions[0];
+  EXPECT_NEAR(one["at"][0].get<double>(), 207.0, 12.0);
+  ASSERT_EQ(one["branches"].size(), 3u);
+  ASSERT_EQ(one["pairs"].size(), 1u);
+  ASSERT_EQ(one["next_best"].size(), 1u);
+  EXPECT_NE(one["pairs"], one["next_best"]);
+
+  // The tine at which the stroke from the stem arrives.
+  const auto arrivesBelow = [&](const std::string& words) {
+    const auto traced = run("trace " + file("fork.pgm") + " --dpi 254 " + words + " -o " + file("o.json") +
+                            " --save-recipe " + file("recipe.json"));
+    EXPECT_EQ(traced.code, 0) << traced.err;
+    EXPECT_EQ(json::parse(traced.out)["doubtful_junctions"], words.empty() ? 1 : 0);
+    const json curves = json::parse(test::readFile(file("o.json")))["curves"];
+    EXPECT_EQ(curves.size(), 2u);
+    for (const json& curve : curves) {
+      double left = 400.0, right = 0.0, y = 0.0;
+      for (const json& piece : curve["pieces"]) {
+        for (const json& p : piece["control_points_px"]) {
+          left = std::min(left, p[0].get<double>());
+          if (p[0].get<double>() > right) right = p[0].get<double>(), y = p[1].get<double>();
+        }
+      }
+      if (left < 40.0) return y > 100.0;
+    }
+    ADD_FAILURE() << "no curve follows the stem";
+    return false;
+  };
+  const bool plain = arrivesBelow("");
+  const auto place = [&](const json& at) { return at[0].dump() + "," + at[1].dump(); };
+  const json& next = one["next_best"][0];
+  const std::string pair = "--pair " + place(one["at"]) + "," + place(one["branches"][next[0].get<std::size_t>()]) +
+                           "," + place(one["branches"][next[1].get<std::size_t>()]);
+  EXPECT_NE(arrivesBelow(pair), plain);
+  EXPECT_NE(arrivesBelow("--recipe " + file("recipe.json")), plain) << "the recipe holds it";
+  const auto open = run("trace " + file("fork.pgm") + " --pair " + place(one["at"]) + " -o " + file("o.json"));
+  EXPECT_EQ(json::parse(open.out)["curves"], 3) << "all strokes end there";
+  expectError("trace " + file("fork.pgm") + " --pair 1,2,3,4 -o " + file("o.json"), 2, "--pair takes X,Y");
+  expectError("trace " + file("fork.pgm") + " --pair here -o " + file("o.json"), 2, "--pair takes X,Y");
 }
 
 }  // namespace

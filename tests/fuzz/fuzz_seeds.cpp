@@ -28,6 +28,7 @@ Recipe fullRecipe() {
   recipe.cornerMarks = {{Vec2(10.5, 20.25), 0.0}, {Vec2(30, 40), 1.5}};
   recipe.segmentPoints = {{Vec2(5, 6)}};
   recipe.edges.choices = {{Vec2(7, 8), EdgeMode::Outline}};
+  recipe.edges.junctions = {{Vec2(20, 30), {{Vec2(10, 30), Vec2(30, 31)}}}, {Vec2(50, 60), {}}};
   recipe.extremumChoices = {{Vec2(1, 2), true}};
   recipe.regions = {rectangleRegion(Vec2(0, 0), Vec2(90, 70))};
   recipe.penStrokes = {{{Vec2(1, 1), Vec2(50, 60), Vec2(70, 20)}, true}};

@@ -11,6 +11,7 @@
 #include "ui/canvas/layers/extremum_layer.h"
 #include "ui/canvas/layers/ghost_layer.h"
 #include "ui/canvas/layers/growing_layer.h"
+#include "ui/canvas/layers/junction_layer.h"
 #include "ui/canvas/layers/region_grid_layer.h"
 #include "ui/canvas/layers/region_of_interest_layer.h"
 #include "ui/canvas/layers/ruling_layer.h"
@@ -35,7 +36,8 @@ CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
                                               makeCornerTool(*this),        makePenTool(*this),
                                               makeSegmentTool(*this),       makeLinesTool(*this),
                                               makeRegionTool(*this, false), makeRegionTool(*this, true),
-                                              makeScaleTool(*this),         makeDirectionTool(*this)} {
+                                              makeScaleTool(*this),         makeDirectionTool(*this),
+                                              makeJunctionTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;
@@ -283,6 +285,7 @@ void CurveCanvas::State::paint(QPainter& painter) {
     }
     if (areExtremaShown()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners) || view.tool() == Tool::Corners) paintCorners(painter, *this);
+    if (view.isVisible(Layer::Junctions) || view.tool() == Tool::Junctions) paintJunctions(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
     paintSegmentPoints(painter, *this);
     if (!ghost.isEmpty()) paintGhost(painter, *this, ghost);

@@ -102,6 +102,8 @@ std::vector<ActionInfo> viewActions() {
        tr("Show stroke widths, merged strokes and bridged gaps."), true},
       {ShowFallback, "show-fallback", menu, tr("Points not located"), keys({"Alt+U"}),
        tr("Show points that could not be located on the grey values of the scan."), true},
+      {ShowJunctions, "show-junctions", menu, tr("Doubtful junctions"), keys({"Alt+J"}),
+       tr("Show junctions whose strokes might also be paired otherwise, and those paired by hand."), true},
   };
 }
 
@@ -121,6 +123,9 @@ std::vector<ActionInfo> toolActions() {
        tr("Click a line where two typical curves should meet; click the selected point to remove it."), true},
       {ToolLines, "tool-lines", menu, tr("Choose lines"), keys({"L"}),
        tr("Click a line to exclude it from fairing and export; click it again to include it."), true},
+      {ToolJunctions, "tool-junctions", menu, tr("Pair strokes"), keys({"J"}),
+       tr("Click a junction to lead its strokes through it in the next way, or two of its branches to join them."),
+       true},
       {ToolRectangle, "tool-rectangle", menu, tr("Rectangle"), keys({"R"}),
        tr("Drag a rectangle: only the area inside is traced. Further regions are added."), true},
       {ToolLasso, "tool-lasso", menu, tr("Lasso"), keys({"Shift+R"}),
@@ -216,7 +221,7 @@ QAction* makeAction(ActionId id, QObject* parent) {
 }
 
 std::optional<Layer> layerOf(ActionId id) {
-  const auto index = offset(id, ActionId::ShowScan, ActionId::ShowFallback);
+  const auto index = offset(id, ActionId::ShowScan, ActionId::ShowJunctions);
   if (!index) return std::nullopt;
   return kLayers[*index];
 }
@@ -243,6 +248,8 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Scale;
     case ActionId::ToolDirection:
       return Tool::Direction;
+    case ActionId::ToolJunctions:
+      return Tool::Junctions;
     default:
       return std::nullopt;
   }
@@ -281,6 +288,8 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolScale;
     case Tool::Direction:
       return ActionId::ToolDirection;
+    case Tool::Junctions:
+      return ActionId::ToolJunctions;
   }
   return ActionId::ToolSelect;
 }

@@ -49,6 +49,7 @@ enum class ActionId {
   ShowNoise,
   ShowStrokes,
   ShowFallback,
+  ShowJunctions,
   ToolSelect,
   ToolThresholds,
   ToolCorners,
@@ -74,6 +75,7 @@ enum class ActionId {
   PasteScan,
   CopySvg,
   ReverseCurve,
+  ToolJunctions,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

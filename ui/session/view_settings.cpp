@@ -43,6 +43,8 @@ QString label(Layer layer) {
       return QObject::tr("Strokes");
     case Layer::Fallback:
       return QObject::tr("Points not located");
+    case Layer::Junctions:
+      return QObject::tr("Junctions");
   }
   return {};
 }

@@ -28,12 +28,13 @@ enum class Layer {
   Extrema,
   Band,
   Strokes,
-  Fallback
+  Fallback,
+  Junctions
 };
-inline constexpr std::array kLayers = {Layer::Scan,    Layer::LogImage, Layer::Paper,   Layer::Mask,
-                                       Layer::Edges,   Layer::Segments, Layer::Curve,   Layer::Faired,
-                                       Layer::Comb,    Layer::Corners,  Layer::Regions, Layer::Deviation,
-                                       Layer::Extrema, Layer::Band,     Layer::Strokes, Layer::Fallback};
+inline constexpr std::array kLayers = {Layer::Scan,     Layer::LogImage,  Layer::Paper,   Layer::Mask, Layer::Edges,
+                                       Layer::Segments, Layer::Curve,     Layer::Faired,  Layer::Comb, Layer::Corners,
+                                       Layer::Regions,  Layer::Deviation, Layer::Extrema, Layer::Band, Layer::Strokes,
+                                       Layer::Fallback, Layer::Junctions};
 /// Its place in arrays with one entry a layer.
 constexpr std::size_t indexOf(Layer layer) { return static_cast<std::size_t>(layer); }
 QString label(Layer);  ///< "Scan", "Log picture", …
@@ -50,9 +51,11 @@ enum class Tool {
   Lasso,       ///< The same drawn freely.
   Scale,       ///< Drag measures a known length; the Scan panel asks how long it is.
   Direction,   ///< Click turns the direction in which a curve is exported; drag of its ring moves the start.
+  Junctions,   ///< Click on a junction pairs its strokes in the next way; click on two branches pairs these.
 };
-inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners, Tool::Pen,   Tool::Segments,
-                                      Tool::Lines,  Tool::Rectangle,  Tool::Lasso,   Tool::Scale, Tool::Direction};
+inline constexpr std::array kTools = {Tool::Select,   Tool::Thresholds, Tool::Corners,   Tool::Pen,
+                                      Tool::Segments, Tool::Lines,      Tool::Rectangle, Tool::Lasso,
+                                      Tool::Scale,    Tool::Direction,  Tool::Junctions};
 
 /// Its place in arrays with one entry a tool.
 constexpr std::size_t indexOf(Tool tool) { return static_cast<std::size_t>(tool); }

@@ -11,6 +11,7 @@
 #include "core/contour/centreline/faint_ends.h"
 #include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
 #include "core/contour/centreline/refinement.h"
@@ -41,18 +42,18 @@ void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
 }
 
 // The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
-std::vector<StrokePath> centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
-                                      const RunContext& context) {
+StrokeNet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
+                        const RunContext& context) {
   const BitImage* shapes = options.shapes;
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
   const bool isKnown = options.known != nullptr && options.known->ink == all;
-  if (isKnown && shapes == nullptr) return std::move(options.known->paths);
+  if (isKnown && shapes == nullptr) return {std::move(options.known->paths), std::move(options.known->junctions)};
   BitImage skeleton = isKnown ? std::move(options.known->skeleton) : BitImage(all);
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
-  if (shapes == nullptr) return findStrokePaths(skeleton, all, params, context);
-  std::vector<StrokePath> paths = findStrokePaths(without(std::move(skeleton), *shapes), all, params, context);
-  endAtRims(paths, *shapes);
-  return paths;
+  if (shapes == nullptr) return findStrokeNet(skeleton, all, params, context);
+  StrokeNet net = findStrokeNet(without(std::move(skeleton), *shapes), all, params, context);
+  endAtRims(net.paths, *shapes);
+  return net;
 }
 
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
@@ -239,7 +240,8 @@ void groupByIntent(ContourSet& set, const EdgeParams& params, double width, doub
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                                 const RunContext& context, const CentrelineOptions& options) {
   const BitImage* shapes = options.shapes;
-  std::vector<StrokePath> paths = centrelinesOf(strokes, options, params, context);
+  StrokeNet net = centrelinesOf(strokes, options, params, context);
+  std::vector<StrokePath>& paths = net.paths;
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(paths, [](int) { return true; });
   const bool isKnown = shapes == nullptr && options.known != nullptr && options.known->ink == strokes;
@@ -257,7 +259,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     ink = &bodies;
     if (context.isCancelled()) return cancelled();
-    paths = centrelinesOf(bodies, options, params, context);
+    net = centrelinesOf(bodies, options, params, context);
   }
   std::vector<bool> pencil;
   if (anyPencil) {
@@ -294,6 +296,8 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     set.contours = cutAtTurns(mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context), width, context);
     if (context.isCancelled()) return cancelled();
   }
+  if (!params.intent && params.mergeWidths <= 0.0)
+    set.junctions = junctionsOfLines(std::move(net.junctions), set.contours);
   set.report.droppedMargins =
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey); }));
   return set;

@@ -27,6 +27,7 @@ Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const R
 struct StrokesOfInk {
   BitImage ink, skeleton;
   std::vector<StrokePath> paths;
+  std::vector<StrokeJunction> junctions;
   GraininessMap grain;
 };
 

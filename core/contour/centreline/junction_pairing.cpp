@@ -31,19 +31,6 @@ struct PairCost {
   double gain = 0.0;  // [deg^2] against leaving both alone
 };
 
-// [deg] Of going from one end to another; nothing where a stroke does not.
-std::optional<double> costOf(const MeetingEnd& p, const MeetingEnd& q, double nodeRadius, double usualRadius,
-                             double maxBendDeg) {
-  const double bend = turnDeg(-p.out, q.out);
-  if (bend > maxBendDeg) return std::nullopt;
-  const Vec2 d = q.at - p.at;
-  const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
-  // A pixel more or less says nothing about a width.
-  const double octaves = std::max(0.0, std::abs(std::log2(p.radius / q.radius)) - 0.5 / std::min(p.radius, q.radius));
-  return bend + kMissPerWidthDeg * miss / std::max({2.0 * usualRadius, 2.0 * nodeRadius, 1.0}) +
-         kWidthPerOctaveDeg * octaves;
-}
-
 // The pairs of the greatest sum of gains, tried one end after the other.
 class BestPairs {
  public:
@@ -150,6 +137,15 @@ std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const Sk
   return ends;
 }
 
+double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, double nodeRadius, double usualRadius) {
+  const Vec2 d = q.at - p.at;
+  const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
+  // A pixel more or less says nothing about a width.
+  const double octaves = std::max(0.0, std::abs(std::log2(p.radius / q.radius)) - 0.5 / std::min(p.radius, q.radius));
+  return turnDeg(-p.out, q.out) + kMissPerWidthDeg * miss / std::max({2.0 * usualRadius, 2.0 * nodeRadius, 1.0}) +
+         kWidthPerOctaveDeg * octaves;
+}
+
 std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, double nodeRadius, double usualRadius,
                                           double maxBendDeg) {
   const int n = static_cast<int>(ends.size());
@@ -158,9 +154,9 @@ std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, doub
   const double worst = maxBendDeg + kWorstMissWidths * kMissPerWidthDeg + kWorstOctaves * kWidthPerOctaveDeg;
   for (int a = 0; a < n; ++a) {
     for (int b = a + 1; b < n; ++b) {
-      const auto cost = costOf(ends[a], ends[b], nodeRadius, usualRadius, maxBendDeg);
-      if (!cost) continue;
-      costs.push_back({a, b, std::max(1.0, worst * worst - *cost * *cost)});
+      if (turnDeg(-ends[a].out, ends[b].out) > maxBendDeg) continue;
+      const double cost = pairCostDeg(ends[a], ends[b], nodeRadius, usualRadius);
+      costs.push_back({a, b, std::max(1.0, worst * worst - cost * cost)});
     }
   }
   return n <= kMostEnds ? BestPairs(n, costs).find() : greedyPairs(n, std::move(costs));

@@ -23,6 +23,10 @@ struct MeetingEnd {
 /// @param usualRadius [px] of the strokes of the page.
 std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const SkeletonNode& node, double usualRadius);
 
+/// [deg] What it costs that two ends are one stroke: their bend, and with it how far one lies aside of the other's
+/// course and how their widths differ.
+double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, double nodeRadius, double usualRadius);
+
 /// Which ends of a junction are one stroke: over all of it at once, by their bend, by how far one lies aside of the
 /// other's course, and by how alike their widths are. An end that bends to every other by more than `maxBendDeg` stays
 /// alone.

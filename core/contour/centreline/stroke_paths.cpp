@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "core/base/statistics.h"
+#include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/junction_pairing.h"
+#include "core/contour/centreline/junction_ways.h"
 #include "core/contour/centreline/skeleton_graph.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
@@ -16,15 +18,28 @@ namespace {
 
 constexpr double kLeastLastStepPx = 0.3;  // a shorter last step is left out
 constexpr double kForwardCos = 0.2;       // 78 degrees: a direction that points away by more looks back
+constexpr double kPlaceWidths = 1.0;      // [stroke widths] beyond the junction: the place that stands for a branch
 
 class StrokePathMaker {
  public:
-  StrokePathMaker(const SkeletonGraph& graph, double maxBendDeg)
-      : graph_(graph), maxBendDeg_(maxBendDeg), ends_(2 * graph.edges().size()), partner_(2 * graph.edges().size()) {}
+  StrokePathMaker(const SkeletonGraph& graph, const EdgeParams& params)
+      : graph_(graph), params_(params), ends_(2 * graph.edges().size()), partner_(2 * graph.edges().size()) {}
 
-  std::vector<StrokePath> make() {
-    for (const SkeletonNode& node : graph_.nodes()) pair(node);
-    std::vector<StrokePath> paths;
+  StrokeNet make() {
+    StrokeNet net;
+    const std::vector<std::optional<int>> choiceOf = choicesOfNodes(graph_, params_.junctions);
+    std::vector<std::optional<int>> junctionOf(graph_.nodes().size());
+    for (int i = 0; i < std::ssize(graph_.nodes()); ++i) {
+      std::optional<StrokeJunction> junction = pair(graph_.nodes()[i], choiceOf[i]);
+      if (!junction) continue;
+      junctionOf[i] = static_cast<int>(net.junctions.size());
+      net.junctions.push_back(std::move(*junction));
+    }
+    for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
+      if (!isShared(edge)) continue;
+      for (const std::optional<int> node : edge_(edge).node) net.junctions[*junctionOf[*node]].isDoubtful = true;
+    }
+    std::vector<StrokePath>& paths = net.paths;
     std::vector<bool> used(graph_.edges().size(), false);
     for (int pass = 0; pass < 2; ++pass) {
       for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
@@ -36,7 +51,7 @@ class StrokePathMaker {
         }
       }
     }
-    return paths;
+    return net;
   }
 
  private:
@@ -44,16 +59,55 @@ class StrokePathMaker {
   EdgeFromEnd fromEnd(int end) const { return {edge_(end / 2).points, end % 2}; }
   const StrokePathPoint& point(int end, int k) const { return fromEnd(end)[k]; }
 
-  void pair(const SkeletonNode& node) {
-    if (node.ends.size() < 2) return;
+  // Nothing where less than three ends meet.
+  std::optional<StrokeJunction> pair(const SkeletonNode& node, std::optional<int> choice) {
+    if (node.ends.size() < 2) return std::nullopt;
     std::vector<EdgeFromEnd> edges;
     for (const int end : node.ends) edges.push_back(fromEnd(end));
     const std::vector<MeetingEnd> meeting = measureEnds(edges, node, graph_.medianRadius());
     for (int i = 0; i < std::ssize(meeting); ++i) ends_[node.ends[i]] = meeting[i];
-    for (const auto& [a, b] : pairEnds(meeting, node.radius, graph_.medianRadius(), maxBendDeg_)) {
+    const EndPairs own = pairEnds(meeting, node.radius, graph_.medianRadius(), params_.maxBendDeg);
+    const EndPairs pairs = choice ? chosenPairs(params_.junctions[*choice], edges) : own;
+    for (const auto& [a, b] : pairs) {
       partner_[node.ends[a]] = node.ends[b];
       partner_[node.ends[b]] = node.ends[a];
     }
+    if (node.ends.size() < 3) return std::nullopt;
+    StrokeJunction junction;
+    junction.positionPx = node.centre;
+    junction.radiusPx = node.radius;
+    junction.pairs = pairs;
+    junction.choice = choice;
+    for (int i = 0; i < std::ssize(edges); ++i) junction.branchesPx.push_back(placeOn(edges[i], meeting[i].first));
+    JunctionWays found = findWays(meeting, own, node.radius, graph_.medianRadius(), params_.maxBendDeg);
+    junction.ways = std::move(found.ways);
+    junction.cost = found.cost;
+    junction.nextCost = found.nextCost;
+    junction.isDoubtful = found.isDoubtful;
+    return junction;
+  }
+
+  // Whether strokes part at both ends of an edge of which only one is led through: two may lie on one another there.
+  bool isShared(int edge) const {
+    if (!edge_(edge).alive || edge_(edge).ring) return false;
+    return isParting(2 * edge) && isParting(2 * edge + 1);
+  }
+  // Whether the edge goes on beyond this end, and a branch that was left open might go on there instead.
+  bool isParting(int end) const {
+    const SkeletonNode* node = junctionAt(end);
+    if (node == nullptr || !partner_[end]) return false;
+    return std::ranges::any_of(node->ends, [&](int other) {
+      return !partner_[other] && turnDeg(-ends_[end].out, ends_[other].out) <= params_.maxBendDeg;
+    });
+  }
+
+  // A width beyond the first point with a middle of its own, or where the edge ends.
+  Vec2 placeOn(const EdgeFromEnd& points, int first) const {
+    double arc = 0.0;
+    int k = first;
+    for (; k + 1 < points.size() && arc < 2.0 * kPlaceWidths * graph_.medianRadius(); ++k)
+      arc += (points[k + 1].at - points[k].at).norm();
+    return points[k].at;
   }
 
   const SkeletonNode* junctionAt(int end) const {
@@ -135,7 +189,7 @@ class StrokePathMaker {
   }
 
   const SkeletonGraph& graph_;
-  double maxBendDeg_;
+  const EdgeParams& params_;
   std::vector<MeetingEnd> ends_;             // per end of an edge
   std::vector<std::optional<int>> partner_;  // the end that an end goes on with
 };
@@ -175,14 +229,19 @@ std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, cons
   return points;
 }
 
-std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
-                                        const RunContext& context) {
+StrokeNet findStrokeNet(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
+                        const RunContext& context) {
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
   graph.pruneSpurs(params.spurFactor);
   graph.mergeJunctions(params.mergeWidths > 0.0 && !params.intent);
   if (context.isCancelled()) return {};
-  return StrokePathMaker(graph, params.maxBendDeg).make();
+  return StrokePathMaker(graph, params).make();
+}
+
+std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
+                                        const RunContext& context) {
+  return findStrokeNet(skeleton, ink, params, context).paths;
 }
 
 double medianWidth(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen) {

@@ -9,6 +9,7 @@
 #include "core/base/run_context.h"
 #include "core/base/vec2.h"
 #include "core/contour/centreline/skeleton.h"
+#include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
 
 namespace batten {
@@ -37,8 +38,16 @@ struct StrokePath {
   double widthPx() const;  ///< Median.
 };
 
+/// Strokes and the junctions where they meet.
+struct StrokeNet {
+  std::vector<StrokePath> paths;
+  std::vector<StrokeJunction> junctions;
+};
+
 /// The strokes of a skeleton: spurs pruned, junctions of one crossing merged, smooth edges led through (see
 /// EdgeParams). Deterministic order. Empty when cancelled.
+StrokeNet findStrokeNet(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
+                        const RunContext& context);
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context);
 

@@ -162,6 +162,7 @@ std::vector<ReportContent::Fact> settingsOf(const Recipe& recipe) {
   }
   addCount(list, "Marked corners", recipe.cornerMarks.size());
   addCount(list, "Refused corners", recipe.refusedCornersPx.size());
+  addCount(list, "Junctions paired by hand", recipe.edges.junctions.size());
   addCount(list, "Pen lines", recipe.penStrokes.size());
   addCount(list, "Regions to trace", recipe.regions.size());
   addCount(list, "Segment points", recipe.segmentPoints.size());

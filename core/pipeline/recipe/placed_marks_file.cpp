@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/pipeline/recipe/recipe_json.h"
@@ -57,12 +58,45 @@ Result<bool> readStarts(const Json& json, Recipe& recipe) {
   return true;
 }
 
+/// {"at": [x, y], "pairs": [[[x, y], [x, y]], ...]}
+std::optional<JunctionChoice> junctionFromJson(const Json& json) {
+  const auto at = placesFromJson(json, {"at"});
+  if (!at || json.size() != 2 || !json.contains("pairs") || !json["pairs"].is_array()) return std::nullopt;
+  JunctionChoice choice{(*at)[0], {}};
+  for (const Json& pair : json["pairs"]) {
+    const bool isPair = pair.is_array() && pair.size() == 2;
+    const auto first = isPair ? pointFromJson(pair[0]) : std::nullopt;
+    const auto second = isPair ? pointFromJson(pair[1]) : std::nullopt;
+    if (!first || !second) return std::nullopt;
+    choice.pairs.push_back({*first, *second});
+  }
+  return choice;
+}
+
+Result<bool> readJunctions(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"junctions\" is not a list.");
+  for (const Json& entry : json) {
+    auto choice = junctionFromJson(entry);
+    if (!choice)
+      return refuseRecipe("The recipe is damaged: an entry of \"junctions\" must have \"at\" and \"pairs\" only.");
+    recipe.edges.junctions.push_back(std::move(*choice));
+  }
+  return true;
+}
+
+Json junctionToJson(const JunctionChoice& choice) {
+  Json pairs = Json::array();
+  for (const BranchPair& pair : choice.pairs) pairs.push_back({pairToJson(pair.firstPx), pairToJson(pair.secondPx)});
+  return {{"at", pairToJson(choice.positionPx)}, {"pairs", std::move(pairs)}};
+}
+
 }  // namespace
 
 Result<bool> readPlacedMark(const std::string& name, const Json& value, Recipe& recipe) {
   if (name == "scale") return readScaleLine(value, recipe);
   if (name == "directions") return readDirections(value, recipe);
   if (name == "starts") return readStarts(value, recipe);
+  if (name == "junctions") return readJunctions(value, recipe);
   return false;
 }
 
@@ -72,6 +106,7 @@ void addPlacedMarks(const Recipe& recipe, Json& json) {
   for (const DirectionMark& mark : recipe.directions)
     json["directions"].push_back({{"at", pairToJson(mark.positionPx)}, {"towards", pairToJson(mark.towardsPx)}});
   for (const StartMark& mark : recipe.starts) json["starts"].push_back(pairToJson(mark.positionPx));
+  for (const JunctionChoice& choice : recipe.edges.junctions) json["junctions"].push_back(junctionToJson(choice));
 }
 
 }  // namespace batten

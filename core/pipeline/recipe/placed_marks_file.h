@@ -9,7 +9,7 @@
 
 namespace batten {
 
-/// The part of recipe_file.h about "scale", "directions" and "starts".
+/// The part of recipe_file.h about "scale", "directions", "starts" and "junctions".
 
 /// Reads one of these entries. @return false for another name; BadParameter if the entry is damaged.
 Result<bool> readPlacedMark(const std::string& name, const nlohmann::ordered_json& value, Recipe&);

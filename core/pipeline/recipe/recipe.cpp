@@ -36,6 +36,11 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
   for (const EdgeChoice& choice : recipe.edges.choices) {
     if (!isPlace(choice.positionPx)) return badPlace("A trace mode choice");
   }
+  for (const JunctionChoice& choice : recipe.edges.junctions) {
+    const auto arePlacesOf = [](const BranchPair& pair) { return isPlace(pair.firstPx) && isPlace(pair.secondPx); };
+    if (!isPlace(choice.positionPx) || !std::ranges::all_of(choice.pairs, arePlacesOf))
+      return badPlace("The pairing of a junction");
+  }
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isPlace(mark.positionPx)) return badPlace("A corner mark");
   }

@@ -117,6 +117,13 @@ Recipe coarseRecipe(Recipe recipe, const Scan& scan, int factor) {
   for (PenStroke& stroke : recipe.penStrokes) divide(stroke.points, by);
   for (RegionOfInterest& region : recipe.regions) divide(region.cornersPx, by);
   for (EdgeChoice& choice : recipe.edges.choices) choice.positionPx /= by;
+  for (JunctionChoice& choice : recipe.edges.junctions) {
+    choice.positionPx /= by;
+    for (BranchPair& pair : choice.pairs) {
+      pair.firstPx /= by;
+      pair.secondPx /= by;
+    }
+  }
   for (CornerMark& mark : recipe.cornerMarks) mark.positionPx /= by;
   divide(recipe.refusedCornersPx, by);
   for (SegmentPoint& point : recipe.segmentPoints) point.positionPx /= by;

@@ -113,6 +113,15 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
         add(h, choice.positionPx);
         h.integer(static_cast<int>(choice.mode));
       }
+      addCount(h, r.edges.junctions);
+      for (const JunctionChoice& choice : r.edges.junctions) {
+        add(h, choice.positionPx);
+        addCount(h, choice.pairs);
+        for (const BranchPair& pair : choice.pairs) {
+          add(h, pair.firstPx);
+          add(h, pair.secondPx);
+        }
+      }
       break;  // the pen strokes come on top, see stageKeys
     case StageId::Pieces:
       addCount(h, r.cornerMarks);

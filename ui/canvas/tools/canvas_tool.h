@@ -58,5 +58,6 @@ std::unique_ptr<CanvasTool> makeLinesTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeRegionTool(CanvasScene&, bool isLasso);
 std::unique_ptr<CanvasTool> makeScaleTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeDirectionTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makeJunctionTool(CanvasScene&);
 
 }  // namespace batten

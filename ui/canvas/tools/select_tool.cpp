@@ -2,10 +2,12 @@
 #include <QCoreApplication>
 #include <QKeyEvent>
 
+#include "ui/canvas/layers/junction_layer.h"
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/junction_edits.h"
 #include "ui/session/edits/pen_edits.h"
 #include "ui/session/judged_view.h"
 
@@ -22,6 +24,8 @@ class SelectTool final : public CanvasTool {
       over_.reset();
       return toggleExtremum(scene_.session, scene_.session.selectedCurve(), note);
     }
+    if (const auto junction = markedJunction(event.px))
+      return pairNextWay(scene_.session, junctionsOf(scene_.session)[*junction]);
     const auto curve = scene_.curveNear(event.px);
     if (!curve) return;
     if (*curve == scene_.session.selectedCurve() && judgedIn(scene_.view) == Judged::Result)
@@ -35,6 +39,10 @@ class SelectTool final : public CanvasTool {
     const auto over = mark ? std::optional(*mark) : std::nullopt;
     if (over.has_value() != over_.has_value() || (over && over->px != over_->px)) scene_.repaint();
     over_ = over;
+    const auto junction = over ? std::nullopt : markedJunction(event.px);
+    if (junction != overJunction_) scene_.repaint();
+    overJunction_ = junction;
+    if (junction) return scene_.hint(junctionHint(scene_, junctionsOf(scene_.session)[*junction]));
     const auto curve = scene_.curveNear(event.px);
     const bool isOnSpan =
         curve && *curve == scene_.session.selectedCurve() && !over_ && judgedIn(scene_.view) == Judged::Result;
@@ -51,18 +59,29 @@ class SelectTool final : public CanvasTool {
 
   void paint(QPainter& painter) override {
     if (over_) paintLabel(painter, scene_, over_->text, scene_.transform.toWidget(over_->px));
+    const auto junctions = junctionsOf(scene_.session);
+    if (!overJunction_ || *overJunction_ >= std::ssize(junctions)) return;
+    const StrokeJunction& junction = junctions[*overJunction_];
+    paintPairs(painter, scene_, junction);
+    paintLabel(painter, scene_, junctionHint(scene_, junction), scene_.transform.toWidget(junction.positionPx));
   }
 
   void leave() override { reset(); }
   void reset() override {
     isOver_ = false;
     over_.reset();
+    overJunction_.reset();
   }
   Qt::CursorShape cursorShape() const override {
-    return isOver_ || (over_ && over_->note) ? Qt::PointingHandCursor : Qt::ArrowCursor;
+    return isOver_ || overJunction_ || (over_ && over_->note) ? Qt::PointingHandCursor : Qt::ArrowCursor;
   }
 
  private:
+  /// A junction that is marked because its strokes might be paired otherwise.
+  std::optional<int> markedJunction(const Vec2& px) const {
+    if (!scene_.view.isVisible(Layer::Junctions)) return std::nullopt;
+    return junctionNear(scene_, px, kMarkReachPx, true);
+  }
   static QString spanHint() {
     return QCoreApplication::translate("CurveCanvas", "Click a span of the curve to show the targets for that span.");
   }
@@ -76,6 +95,7 @@ class SelectTool final : public CanvasTool {
 
   bool isOver_ = false;
   std::optional<ExtremumMark> over_;  ///< The mark under the mouse.
+  std::optional<int> overJunction_;   ///< Likewise.
 };
 
 }  // namespace

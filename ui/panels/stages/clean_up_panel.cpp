@@ -15,6 +15,7 @@
 #include "ui/panels/stages/line_trace_mode.h"
 #include "ui/panels/stages/merge_suggestion.h"
 #include "ui/panels/stages/pen_panel.h"
+#include "ui/session/edits/junction_edits.h"
 #include "ui/session/edits/region_edits.h"
 #include "ui/theme/theme.h"
 
@@ -95,6 +96,9 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
       clear_(linkButton(tr("Clear"), QStringLiteral("edges.clearRegions"), this)),
       strokes_(new QCheckBox(tr("Show stroke widths, merges, bridges"), this)),
       fallback_(new QCheckBox(tr("Show points not located"), this)),
+      junctions_(new QCheckBox(tr("Show doubtful junctions"), this)),
+      pair_(plainButton(tr("Pair strokes"), QStringLiteral("edges.pair"), this)),
+      unpair_(linkButton(tr("Pair all by rule"), QStringLiteral("edges.pairByRule"), this)),
       figures_(new FigureTable(this)),
       note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
@@ -108,6 +112,7 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
   layout->addWidget(tracing_[0]);
   layout->addWidget(tracing_[1]);
   buildChoice();
+  buildJunctions();
   layout->addWidget(tracing_[2]);
   layout->addWidget(figures_);
   layout->addWidget(note_);
@@ -143,6 +148,35 @@ void EdgesPanel::buildChoice() {
   connect(&view_, &ViewSettings::changed, this, &EdgesPanel::refreshChoice);
   connect(&session_, &EditorSession::recipeChanged, this, &EdgesPanel::refreshChoice);
   refreshChoice();
+}
+
+void EdgesPanel::buildJunctions() {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  junctions_->setObjectName(QStringLiteral("edges.showJunctions"));
+  layout->addWidget(junctions_);
+  auto* row = new QHBoxLayout;
+  pair_->setCheckable(true);
+  pair_->setToolTip(
+      tr("Click a junction to lead its strokes through it in the next way, or two of its branches to join "
+         "them  (J)"));
+  row->addWidget(pair_);
+  row->addStretch();
+  row->addWidget(unpair_);
+  layout->addLayout(row);
+  tracing_.insert(tracing_.end(), {junctions_, pair_});
+  connect(junctions_, &QCheckBox::clicked, this, [this](bool on) { view_.choose(Layer::Junctions, on); });
+  connect(pair_, &QPushButton::clicked, this, [this](bool on) { view_.setTool(on ? Tool::Junctions : Tool::Select); });
+  connect(unpair_, &QPushButton::clicked, this, [this] { forgetPairings(session_); });
+  connect(&view_, &ViewSettings::changed, this, &EdgesPanel::refreshJunctions);
+  connect(&view_, &ViewSettings::toolChanged, this, &EdgesPanel::refreshJunctions);
+  connect(&session_, &EditorSession::recipeChanged, this, &EdgesPanel::refreshJunctions);
+  refreshJunctions();
+}
+
+void EdgesPanel::refreshJunctions() {
+  junctions_->setChecked(view_.isVisible(Layer::Junctions));
+  pair_->setChecked(view_.tool() == Tool::Junctions);
+  unpair_->setVisible(!session_.recipe().edges.junctions.empty());
 }
 
 void EdgesPanel::refreshChoice() {
@@ -198,6 +232,11 @@ void EdgesPanel::refresh() {
   rows.push_back({tr("Gaps bridged"),
                   {{grouped(bridgeCount(*set))}},
                   tr("Gaps in the ink across which two ends were joined: dashes on the drawing.")});
+  if (const int doubtful = doubtfulCount(*set); doubtful > 0)
+    rows.push_back({tr("Doubtful junctions"),
+                    {{grouped(doubtful)}},
+                    tr("Where strokes might also be paired otherwise: rings on the drawing; click one for the next "
+                       "way.")});
   if (report.droppedMargins > 0)
     rows.push_back({tr("Scanner margins dropped"), {{grouped(report.droppedMargins)}}, {}});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines dropped"), {{grouped(report.droppedHoles)}}, {}});

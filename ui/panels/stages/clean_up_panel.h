@@ -38,7 +38,9 @@ class EdgesPanel : public QWidget {
  private:
   void buildChoice();
   void refresh();
+  void buildJunctions();
   void refreshChoice();
+  void refreshJunctions();
   EditorSession& session_;
   std::vector<QWidget*> tracing_;  ///< What is about the lines of the scan.
   ViewSettings& view_;
@@ -47,6 +49,9 @@ class EdgesPanel : public QWidget {
   QPushButton* clear_;
   QCheckBox* strokes_;
   QCheckBox* fallback_;
+  QCheckBox* junctions_;
+  QPushButton* pair_;
+  QPushButton* unpair_;
   FigureTable* figures_;
   QLabel* note_;
 };
