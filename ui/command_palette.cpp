@@ -21,6 +21,7 @@ constexpr int kWidth = 520;
 constexpr int kRow = 30;
 constexpr int kMostRows = 10;
 enum Role { ShortcutRole = Qt::UserRole, EnabledRole, HelpRole };
+constexpr const char* kWhyNot = "whyNot";
 
 class ActionDelegate : public QStyledItemDelegate {
  public:
@@ -48,7 +49,7 @@ class ActionDelegate : public QStyledItemDelegate {
     painter->drawText(box, Qt::AlignVCenter | Qt::AlignRight, keys);
     const int keysWidth = painter->fontMetrics().horizontalAdvance(keys) + 12;
     const QRect middle = box.adjusted(nameWidth, 0, -keysWidth, 0);
-    const QString help = enabled ? index.data(HelpRole).toString() : CommandPalette::tr("not available now");
+    const QString help = index.data(HelpRole).toString();
     if (middle.width() > 40)
       painter->drawText(middle, Qt::AlignVCenter | Qt::AlignLeft,
                         painter->fontMetrics().elidedText(help, Qt::ElideRight, middle.width()));
@@ -57,6 +58,8 @@ class ActionDelegate : public QStyledItemDelegate {
 };
 
 }  // namespace
+
+void setWhyNot(QAction& action, const QString& why) { action.setProperty(kWhyNot, why); }
 
 CommandPalette::CommandPalette(QWidget* parent)
     : QFrame(parent), edit_(new QLineEdit(this)), list_(new QListWidget(this)) {
@@ -122,7 +125,13 @@ void CommandPalette::refresh() {
     auto* item = new QListWidgetItem(action->text().remove(QLatin1Char('&')), list_);
     item->setData(ShortcutRole, action->shortcut().toString(QKeySequence::NativeText));
     item->setData(EnabledRole, action->isEnabled());
-    item->setData(HelpRole, action->statusTip());
+    const QString whyNot = action->property(kWhyNot).toString();
+    const QString help = action->isEnabled() ? action->statusTip()
+                         : whyNot.isEmpty()  ? tr("Not available now.")
+                                             : whyNot;
+    item->setData(HelpRole, help);
+    item->setData(Qt::AccessibleTextRole, item->text() + QStringLiteral(". ") + help);
+    if (!action->isEnabled()) item->setToolTip(help);
     shown_.append(action);
   }
   list_->setCurrentRow(0);

@@ -10,6 +10,9 @@ class QListWidget;
 
 namespace batten {
 
+/// What the finder says of an action while it is disabled.
+void setWhyNot(QAction& action, const QString& why);
+
 /// Finds an action by a few letters of its name or help and does it. Opens over the canvas, closes with Escape.
 class CommandPalette : public QFrame {
   Q_OBJECT

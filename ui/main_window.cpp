@@ -58,8 +58,10 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
                             action(ActionId::ShowComb),   action(ActionId::ZoomFit), action(ActionId::ZoomActual),
                             action(ActionId::FindAction), action(ActionId::Export)};
   parts_->topBar = new TopBar(view_, bar, parts_->mainMenu, parts_->layersMenu, whole);
+  parts_->topBar->setObjectName(QStringLiteral("topBar"));
   parts_->errors = new ErrorStrip(whole);
   parts_->rail = new StageRail(session_, whole);
+  parts_->rail->setObjectName(QStringLiteral("stageRail"));
   QList<QAction*> tools;
   for (const Tool tool : kTools) tools.append(action(toolAction(tool)));
   parts_->rail->layout()->addWidget(new ToolList(tools, parts_->rail));
@@ -68,13 +70,15 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   row->addWidget(parts_->rail);
   row->addWidget(makeCentre(), 1);
   row->addWidget(makeInspector());
-  // Made in the order in which Tab walks them.
   parts_->status = new StatusLine(session_, whole);
   column->addWidget(parts_->topBar);
   column->addWidget(parts_->errors);
   column->addLayout(row, 1);
   column->addWidget(parts_->status);
   setCentralWidget(whole);
+  // The settings at hand follow the drawing; what leads elsewhere comes last.
+  tabAsLaidOut({parts_->canvas, parts_->errors, parts_->inspector, parts_->strip, parts_->plots, parts_->status,
+                parts_->rail, parts_->topBar});
   parts_->finder = new CommandPalette(whole);
   parts_->journal = std::make_unique<RecipeJournal>(session_, journalFolder());
   parts_->opening = std::make_unique<OpeningGuard>(session_);
@@ -155,7 +159,6 @@ QWidget* MainWindow::makeInspector() {
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setFocusPolicy(Qt::NoFocus);
     p.inspector->addWidget(scroll);
-    tabAsLaidOut(panel);
     p.settings->add(stage, scroll);
     // Keys typed after Enter are the drawing's.
     for (auto* field : panel->findChildren<NumberField*>())
@@ -198,7 +201,7 @@ void MainWindow::connectSession() {
   connect(&session_, &EditorSession::failed, this, &MainWindow::showProblem);
   connect(&session_, &EditorSession::failureCleared, this, [this] {
     // Messages of a run are cleared by the next run; other messages stay until dismissed.
-    if (parts_->problemOrigin == FailureOrigin::Run) parts_->errors->hide();
+    if (parts_->problemOrigin == FailureOrigin::Run) leaveProblem();
   });
   connect(&session_, &EditorSession::scanOpened, this, &MainWindow::scanOpened);
   connect(session_.undoStack(), &QUndoStack::cleanChanged, this, &MainWindow::refreshTitle);

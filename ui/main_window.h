@@ -71,6 +71,7 @@ class MainWindow : public QMainWindow {
   void showStrokes(bool isEntering);
   void showRoundings();
   void trigger(ActionId id);
+  void applyTarget(int degree);
   void newDrawing();
   void chooseScan();
   void chooseRecipe();
@@ -99,6 +100,7 @@ class MainWindow : public QMainWindow {
   void showHelp(const QString& page);
   void showShapes();
   void showProblem(const Error& error, FailureOrigin origin);
+  void leaveProblem();
   /// What helps against an error: the button's text, and what it does.
   std::pair<QString, std::function<void()>> remedyFor(const Error& error, FailureOrigin origin);
   void refreshActions();

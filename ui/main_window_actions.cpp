@@ -152,7 +152,7 @@ void MainWindow::connectActions() {
 }
 
 void MainWindow::trigger(ActionId id) {
-  if (const auto degree = targetOf(id)) return chooseTarget(session_, targetOfDegree(*degree));
+  if (const auto degree = targetOf(id)) return applyTarget(*degree);
   switch (id) {
     case ActionId::NewDrawing:
       return newDrawing();
@@ -187,7 +187,7 @@ void MainWindow::trigger(ActionId id) {
     case ActionId::PreviousCurve:
       return walkCurves(-1);
     case ActionId::CancelWork:
-      parts_->errors->hide();
+      leaveProblem();
       return session_.cancel();
     case ActionId::ComputeAgain:
       return session_.computeAgain();
@@ -206,6 +206,12 @@ void MainWindow::trigger(ActionId id) {
     default:
       return;
   }
+}
+
+// A digit that slips changes nothing where nobody sees it.
+void MainWindow::applyTarget(int degree) {
+  if (isLowerWanted()) return chooseTarget(session_, targetOfDegree(degree));
+  parts_->status->showMessage(tr("Targets are applied where they are shown: in Curves and Fairing, or after P."));
 }
 
 // While edges are worked on, gaps that were bridged are shown, and of merged strokes the room within which they lay.
@@ -292,28 +298,33 @@ void MainWindow::connectLayers() {
 
 void MainWindow::refreshActions() {
   QUndoStack& undo = *session_.undoStack();
-  const auto describe = [](QAction* one, const QString& verb, const QString& what, bool possible) {
-    one->setEnabled(possible);
-    one->setText(what.isEmpty() ? verb : verb + QStringLiteral(": ") + what);
+  const auto allow = [this](ActionId id, bool isPossible, const QString& whyNot) {
+    action(id)->setEnabled(isPossible);
+    setWhyNot(*action(id), whyNot);
   };
-  describe(action(ActionId::Undo), tr("Undo"), undo.undoText(), undo.canUndo());
-  describe(action(ActionId::Redo), tr("Redo"), undo.redoText(), undo.canRedo());
-  const bool has = session_.hasScan();
+  const auto describe = [&](ActionId id, const QString& verb, const QString& what, bool isPossible,
+                            const QString& whyNot) {
+    allow(id, isPossible, whyNot);
+    action(id)->setText(what.isEmpty() ? verb : verb + QStringLiteral(": ") + what);
+  };
+  describe(ActionId::Undo, tr("Undo"), undo.undoText(), undo.canUndo(), tr("Nothing to undo."));
+  describe(ActionId::Redo, tr("Redo"), undo.redoText(), undo.canRedo(), tr("Nothing was undone."));
   for (const ActionId id :
        {ActionId::ToolPen, ActionId::ToolScale, ActionId::SaveRecipe, ActionId::SaveRecipeAs, ActionId::Export,
         ActionId::ZoomFit, ActionId::ZoomActual, ActionId::ZoomIn, ActionId::ZoomOut})
-    action(id)->setEnabled(has);
-  action(ActionId::ClearRegions)->setEnabled(!session_.recipe().regions.empty());
+    allow(id, session_.hasScan(), tr("Needs an open drawing."));
+  allow(ActionId::ClearRegions, !session_.recipe().regions.empty(), tr("No region is drawn."));
   const bool curves = !session_.curves().empty();
+  const QString noCurves = tr("Needs a curve; there is none yet.");
   for (const ActionId id : {ActionId::NextCurve, ActionId::PreviousCurve, ActionId::CopySvg, ActionId::ToolDirection})
-    action(id)->setEnabled(curves);
-  action(ActionId::ReverseCurve)->setEnabled(session_.selected() != nullptr);
-  action(ActionId::Pin)->setEnabled(curves || session_.pinned());
+    allow(id, curves, noCurves);
+  allow(ActionId::ReverseCurve, session_.selected() != nullptr, tr("No curve is selected."));
+  allow(ActionId::Pin, curves || session_.pinned(), noCurves);
   action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);
   for (int degree = 1; degree <= 6; ++degree)
-    action(static_cast<ActionId>(static_cast<int>(ActionId::Target1) + degree - 1))->setEnabled(curves);
-  action(ActionId::CancelWork)->setEnabled(session_.isWorking() || !parts_->errors->isHidden());
-  action(ActionId::ComputeAgain)->setEnabled(session_.isStopped());
+    allow(static_cast<ActionId>(static_cast<int>(ActionId::Target1) + degree - 1), curves, noCurves);
+  allow(ActionId::CancelWork, session_.isWorking() || !parts_->errors->isHidden(), tr("Nothing is running."));
+  allow(ActionId::ComputeAgain, session_.isStopped(), tr("Nothing was stopped."));
 }
 
 void MainWindow::findAction() {

@@ -137,10 +137,18 @@ std::pair<QString, std::function<void()>> MainWindow::remedyFor(const Error& err
 void MainWindow::showProblem(const Error& error, FailureOrigin origin) {
   auto [text, remedy] = remedyFor(error, origin);
   parts_->remedy = std::move(remedy);
-  parts_->dismissal = {};
+  parts_->dismissal = [this] { leaveProblem(); };
   parts_->problemOrigin = origin;
   parts_->errors->show(QString::fromStdString(error.message).simplified(), text);
   refreshActions();
+}
+
+// An offer of unsaved work that the problem had covered comes back.
+void MainWindow::leaveProblem() {
+  const bool wasProblem = parts_->problemOrigin.has_value();
+  parts_->problemOrigin.reset();
+  parts_->errors->hide();
+  if (wasProblem && parts_->leftWork) offerLeftWork();
 }
 
 void MainWindow::loadSettings() {

@@ -9,6 +9,7 @@
 #include <QScrollArea>
 #include <QTimer>
 
+#include "ui/command_palette.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
@@ -76,6 +77,7 @@ QList<QAction*> SettingFinder::actions() {
   for (const Entry& entry : entries_) {
     const QWidget* panel = entry.panel->widget();
     entry.action->setEnabled(applies(*entry.widget, *panel) && entry.widget->isEnabledTo(panel));
+    setWhyNot(*entry.action, tr("Has no effect with what is chosen in %1.").arg(label(entry.stage)));
     all.append(entry.action);
   }
   return all;

@@ -86,9 +86,9 @@ RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunCo
   return regions;
 }
 
-Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx) {
+Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx, const RunContext& context) {
   try {
-    return closeInk(pencil, grainClosing(widthPx));
+    return closeInk(pencil, grainClosing(widthPx), context);
   } catch (const cv::Exception& e) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.", e.what());
   }
@@ -140,7 +140,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   }
   const StrokesOfInk& known = *split.known;
   const double widthPx = medianWidth(known.paths, [&](int i) { return known.grain.isPencil(i); });
-  Result<BitImage> body = withGrainClosed(both(split.strokes, split.pencil), widthPx);
+  Result<BitImage> body = withGrainClosed(both(split.strokes, split.pencil), widthPx, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
   Result<BitImage> solids = pencilSolids(*body, widthPx, params.mergeWidths, context);

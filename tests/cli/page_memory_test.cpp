@@ -21,15 +21,31 @@ constexpr PageSize kSmall{1500, 1000}, kLarge{5000, 3600};
 /// What is on a page: an outline at its upper left, and over all of it lines.
 struct PageKind {
   const char* name;
-  Colour ink, lines;  ///< Lines of white: none.
-  double mostBytes;   ///< A pixel.
+  Colour ink, lines;        ///< Lines of white: none.
+  double mostBytes;         ///< A pixel.
+  bool hasPatches = false;  ///< Patches of ink with holes, all over the page.
 };
+
+constexpr Colour kWhite{255, 255, 255};
+
+/// Ink of 200 x 160 px with eight holes of 16 px in it, every 400 px.
+void drawPatches(Picture& page, const Colour& ink) {
+  constexpr int kEvery = 400, kWidth = 200, kHeight = 160, kHoleEvery = 40, kHole = 16;
+  for (int y = 620; y < page.height; ++y) {
+    for (int x = 20; x < page.width - 20; ++x) {
+      const int u = x % kEvery, v = y % kEvery;
+      if (u >= kWidth || v >= kHeight || y - v < 620 || y - v + kHeight > page.height - 20) continue;
+      const bool isHole = u % kHoleEvery < kHole && v % kHoleEvery < kHole && u > kHole && v > kHole;
+      if (!isHole) page.set(x, y, ink);
+    }
+  }
+}
 
 class PageMemory : public test::Program, public testing::WithParamInterface<PageKind> {
  protected:
   std::uint64_t peakOf(const PageSize& size) const {
     Picture page(size.width, size.height);
-    constexpr Colour kWhite{255, 255, 255};
+    if (GetParam().hasPatches) drawPatches(page, GetParam().ink);
     for (int y = 40; y < size.height && GetParam().lines != kWhite; y += 60) {
       for (int x = 0; x < size.width; ++x)
         for (int k = 0; k < 3; ++k) page.set(x, y + k < size.height ? y + k : y, GetParam().lines);
@@ -65,7 +81,8 @@ TEST_P(PageMemory, GrowsByFewBytesAPixel) {
 INSTANTIATE_TEST_SUITE_P(Kinds, PageMemory,
                          testing::Values(PageKind{"grey", {30, 30, 30}, {255, 255, 255}, 5.0},
                                          PageKind{"colour", {30, 40, 160}, {255, 255, 255}, 13.0},
-                                         PageKind{"ruled", {30, 40, 160}, {160, 190, 230}, 12.5}),
+                                         PageKind{"ruled", {30, 40, 160}, {160, 190, 230}, 12.5},
+                                         PageKind{"holes", {30, 30, 30}, {255, 255, 255}, 6.0, true}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

@@ -21,9 +21,9 @@
 
 namespace batten {
 namespace {
-constexpr double kMarkReachPx = 9.0;      // how near the mouse has to be to a mark
-constexpr int kLeastPlotPx = 200;         // lower, and neither curve nor targets can be read
-constexpr int kLeftPx = 54, kTopPx = 18;  // margins of the axes
+constexpr double kMarkReachPx = 9.0;                                     // how near the mouse has to be to a mark
+constexpr int kLeftPx = 54, kTopPx = 18, kRightPx = 16, kBottomPx = 22;  // margins of the axes
+constexpr int kLeastAxesPx = 200;  // lower, and neither curve nor targets can be read
 }  // namespace
 
 struct CurvePlots::State {
@@ -86,13 +86,13 @@ void CurvePlots::build() {
   d.plot = new QCustomPlot(this);
   d.plot->setObjectName(QStringLiteral("plot"));
   d.plot->setAccessibleName(tr("Plot over arc length of the selected curve"));
-  d.plot->setMinimumHeight(kLeastPlotPx);
+  d.plot->setMinimumHeight(kTopPx + kLeastAxesPx + kBottomPx);
   d.plot->setAntialiasedElements(QCP::aeAll);
   d.plot->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   d.plot->axisRect()->setRangeDrag(Qt::Horizontal);
   d.plot->axisRect()->setRangeZoom(Qt::Horizontal);
   d.plot->axisRect()->setAutoMargins(QCP::msNone);
-  d.plot->axisRect()->setMargins(QMargins(kLeftPx, kTopPx, 16, 22));
+  d.plot->axisRect()->setMargins(QMargins(kLeftPx, kTopPx, kRightPx, kBottomPx));
   d.plot->setMouseTracking(true);
   d.plot->installEventFilter(this);
   // Installed last, so asked first.

@@ -110,7 +110,7 @@ BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vec
                   const GraininessMap& grain, const RunContext& context) {
   const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
   const double closing = grainClosing(width);
-  BitImage body = closeInk(strokes, closing);
+  BitImage body = closeInk(strokes, closing, context);
   bool anyPen = false;
   for (int i = 0; i < std::ssize(paths); ++i) anyPen = anyPen || !grain.isPencil(i);
   BitImage ownPens(strokes.width, strokes.height);

@@ -4,70 +4,69 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
+#include "core/image/bits/ink_holes.h"
 #include "core/image/bits/run_pieces.h"
 
 namespace batten {
 namespace {
 
-// The part of the page around the ink, with a margin; 255 = ink.
-struct InkWindow {
-  cv::Mat mat;
-  int x0 = 0, y0 = 0;
+// Where there is ink: rows, and columns by words.
+struct InkBox {
+  int top, bottom, left, right;
 };
 
-InkWindow windowAround(const BitImage& ink, int margin) {
-  int top = ink.height, bottom = -1, left = ink.wordsPerRow, right = -1;
+InkBox boxOfInk(const BitImage& ink) {
+  InkBox box{.top = ink.height, .bottom = -1, .left = ink.wordsPerRow, .right = -1};
   for (int y = 0; y < ink.height; ++y) {
     for (int i = 0; i < ink.wordsPerRow; ++i) {
       if (ink.row(y)[i] == 0) continue;
-      top = std::min(top, y);
-      bottom = y;
-      left = std::min(left, i);
-      right = std::max(right, i);
+      box.top = std::min(box.top, y);
+      box.bottom = y;
+      box.left = std::min(box.left, i);
+      box.right = std::max(box.right, i);
     }
   }
-  InkWindow w;
-  if (bottom < 0) return w;
-  w.x0 = left * 64 - margin;
-  w.y0 = top - margin;
-  w.mat = cv::Mat(bottom - top + 1 + 2 * margin, (right - left + 1) * 64 + 2 * margin, CV_8U, cv::Scalar(0));
-  for (int y = top; y <= bottom; ++y) {
-    std::uint8_t* row = w.mat.ptr<std::uint8_t>(y - w.y0);
-    for (int i = left; i <= right; ++i) {
-      for (std::uint64_t bits = ink.row(y)[i]; bits != 0; bits &= bits - 1) {
-        row[i * 64 + std::countr_zero(bits) - w.x0] = 255;
-      }
-    }
-  }
-  return w;
+  return box;
 }
 
-// Fills the holes of `ink` (255) that no disc of diameter `limitPx` fits into; `toInk` is the distance of paper from
-// ink.
-void fillNarrowHoles(cv::Mat& ink, double limitPx) {
-  cv::Mat paper = ink == 0, labels, toInk;
-  const int count = cv::connectedComponents(paper, labels, 4, CV_32S);
-  cv::distanceTransform(paper, toInk, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  std::vector<float> inscribed(count, 0.0f);
-  for (int y = 0; y < ink.rows; ++y) {
-    for (int x = 0; x < ink.cols; ++x) {
-      float& most = inscribed[labels.at<int>(y, x)];
-      most = std::max(most, toInk.at<float>(y, x));
+// Closes rows [y0, y1). Ink farther away than twice the radius has no say.
+void closeRows(const BitImage& ink, const InkBox& box, int y0, int y1, double radius, BitImage& closed) {
+  const int margin = static_cast<int>(std::ceil(radius)) + 2;
+  const int x0 = box.left * 64 - margin, top = y0 - 2 * margin;
+  cv::Mat mat(y1 - y0 + 4 * margin, (box.right - box.left + 1) * 64 + 2 * margin, CV_8U, cv::Scalar(0));
+  for (int y = std::max(0, top); y < std::min(ink.height, top + mat.rows); ++y) {
+    std::uint8_t* row = mat.ptr<std::uint8_t>(y - top);
+    for (int i = box.left; i <= box.right; ++i) {
+      for (std::uint64_t bits = ink.row(y)[i]; bits != 0; bits &= bits - 1)
+        row[i * 64 + std::countr_zero(bits) - x0] = 255;
     }
   }
-  inscribed[labels.at<int>(0, 0)] = std::numeric_limits<float>::infinity();  // the margin: not a hole
-  for (int y = 0; y < ink.rows; ++y) {
-    for (int x = 0; x < ink.cols; ++x) {
-      const float radius = inscribed[labels.at<int>(y, x)];
-      if (ink.at<std::uint8_t>(y, x) == 0 && 2.0 * radius - 1.0 < limitPx) ink.at<std::uint8_t>(y, x) = 255;
-    }
+  cv::Mat distance;
+  cv::distanceTransform(mat == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const cv::Mat dilated = distance <= radius;
+  cv::distanceTransform(dilated, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const cv::Mat body = (distance > radius) | mat;
+  for (int y = y0; y < y1; ++y) {
+    const std::uint8_t* row = body.ptr<std::uint8_t>(y - top);
+    for (int x = std::max(0, x0); x < std::min(ink.width, x0 + body.cols); ++x)
+      if (row[x - x0] != 0) closed.set(x, y, true);
+  }
+}
+
+// Fills the holes of the ink that no disc of diameter `limitPx` fits into.
+void fillNarrowHoles(BitImage& ink, double limitPx, const RunContext& context) {
+  std::vector<InkHole> holes = findInkHoles(ink, context);
+  measureWidths(ink, holes, context);
+  if (context.isCancelled()) return;
+  for (const InkHole& hole : holes) {
+    if (hole.widthPx >= limitPx) continue;
+    for (const InkRun& run : hole.runs) setBits(ink, run);
   }
 }
 
@@ -185,23 +184,15 @@ StrokeSplit split(const BitImage& ink, const EdgeParams& params, const RunContex
 
 }  // namespace
 
-BitImage closeInk(const BitImage& ink, double diameterPx) {
-  const double radius = 0.5 * diameterPx;
-  const InkWindow window = windowAround(ink, static_cast<int>(std::ceil(radius)) + 2);
+BitImage closeInk(const BitImage& ink, double diameterPx, const RunContext& context) {
+  constexpr int kRowsAtOnce = 256;  // so that no plane of distances, 4 bytes a pixel, is as large as the page
   BitImage closed(ink.width, ink.height);
-  if (window.mat.empty()) return closed;
-  cv::Mat toInk, toPaper;
-  cv::distanceTransform(window.mat == 0, toInk, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  const cv::Mat dilated = toInk <= radius;
-  cv::distanceTransform(dilated, toPaper, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  cv::Mat body = (toPaper > radius) | window.mat;
-  fillNarrowHoles(body, diameterPx + 2.0);
-  for (int y = std::max(0, -window.y0); y < body.rows && y + window.y0 < ink.height; ++y) {
-    const std::uint8_t* row = body.ptr<std::uint8_t>(y);
-    for (int x = std::max(0, -window.x0); x < body.cols && x + window.x0 < ink.width; ++x) {
-      if (row[x] != 0) closed.set(x + window.x0, y + window.y0, true);
-    }
+  const InkBox box = boxOfInk(ink);
+  for (int y = box.top; y <= box.bottom; y += kRowsAtOnce) {
+    if (context.isCancelled()) return closed;
+    closeRows(ink, box, y, std::min(box.bottom + 1, y + kRowsAtOnce), 0.5 * diameterPx, closed);
   }
+  fillNarrowHoles(closed, diameterPx + 2.0, context);
   return closed;
 }
 

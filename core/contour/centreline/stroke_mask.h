@@ -7,8 +7,8 @@
 namespace batten {
 
 /// Closing by a disc of this diameter [px], then holes whose largest disc is less than 2 px wider are filled: the
-/// specks of a pencil stroke become one body. May throw std::bad_alloc or cv::Exception.
-BitImage closeInk(const BitImage& ink, double diameterPx);
+/// specks of a pencil stroke become one body. Unfinished when cancelled. May throw std::bad_alloc or cv::Exception.
+BitImage closeInk(const BitImage& ink, double diameterPx, const RunContext& context);
 
 /// [px] Diameter that closes the grain of pencil strokes of this width [px].
 double grainClosing(double widthPx);

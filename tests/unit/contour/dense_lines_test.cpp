@@ -142,7 +142,7 @@ TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
     if (pencil) test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
     const DensePage page = densePage(std::move(cover), 150.0, 7);
     const GraininessMap grain(rawStrokePaths(page), page.grey, {});
-    const OrientedLines comb = filterOrientedLines(closeInk(page.ink, 6.0), page.grey, grain, 5.0, {});
+    const OrientedLines comb = filterOrientedLines(closeInk(page.ink, 6.0, {}), page.grey, grain, 5.0, {});
     const Vec2 across(-std::sin(30.0 * std::numbers::pi / 180.0), std::cos(30.0 * std::numbers::pi / 180.0));
     int inGap = 0;
     for (int y = 0; y < kDenseHeight; ++y) {
@@ -161,7 +161,7 @@ TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
     test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
     const DensePage page = densePage(std::move(cover), 150.0, 7);
     const GraininessMap grain(rawStrokePaths(page), page.grey, {});
-    EXPECT_EQ(filterOrientedLines(closeInk(page.ink, 0.75 * width + 1.0), page.grey, grain, width, {}).gaps.count(), 0)
+    EXPECT_EQ(filterOrientedLines(closeInk(page.ink, 0.75 * width + 1.0, {}), page.grey, grain, width, {}).gaps.count(), 0)
         << width;
   }
 }

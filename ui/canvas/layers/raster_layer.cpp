@@ -70,6 +70,7 @@ void renderPage(const RasterContent& content, double zoom, const QRect& device, 
     const int tone = content.tones ? (*content.tones)[v] : static_cast<int>(v);
     palette[v] = qRgb(tone, tone, tone);
   }
+  const QRgb desk = colors::desk(content.isDark);
   for (int j = 0; j < device.height(); ++j) {
     auto* line = reinterpret_cast<QRgb*>(out.scanLine(j));
     const double y = (device.y() + j + 0.5) / zoom;
@@ -83,7 +84,7 @@ void renderPage(const RasterContent& content, double zoom, const QRect& device, 
         const double paper = std::max(1.0, content.paper->at(x, y));
         grey[at] = static_cast<std::uint8_t>(std::min(255.0, 255.0 * grey[at] / paper + 0.5));
       }
-      line[i] = !onPage ? colors::kDesk : grey.empty() ? colors::kPaper : palette[grey[at]];
+      line[i] = !onPage ? desk : grey.empty() ? colors::kPaper : palette[grey[at]];
     }
   }
 }

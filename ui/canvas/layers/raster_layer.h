@@ -20,7 +20,8 @@ struct RasterContent {
   std::optional<std::array<std::uint8_t, 256>> tones;  ///< The log image instead of the scan.
   std::shared_ptr<const BitImage> mask, edges;         ///< Null: not shown.
   bool showsPicture = false;
-  int maskFactor = 1;  ///< One px of the mask covers so many of the page, along both sides.
+  bool isDark = false;  ///< The theme, for what surrounds the page.
+  int maskFactor = 1;   ///< One px of the mask covers so many of the page, along both sides.
   int pageWidth = 0, pageHeight = 0;
   bool operator==(const RasterContent&) const = default;
 };

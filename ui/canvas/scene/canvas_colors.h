@@ -5,9 +5,10 @@
 #include <QRgb>
 
 /// The canvas has its own colours, the same in the light and the dark theme: what was drawn must not change its look.
+/// Only what surrounds the page follows the theme, so that it does not dazzle in a dark room.
 namespace batten::colors {
 
-inline constexpr QRgb kDesk = qRgb(218, 216, 211);   ///< Around the page.
+inline QRgb desk(bool isDark) { return isDark ? qRgb(46, 48, 51) : qRgb(218, 216, 211); }  ///< Around the page.
 inline constexpr QRgb kPaper = qRgb(252, 251, 248);  ///< The page where no picture of it is shown.
 inline constexpr QRgb kMask = qRgb(0, 110, 116);
 inline constexpr QRgb kEdges = qRgb(176, 36, 142);

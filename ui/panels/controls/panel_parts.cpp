@@ -40,9 +40,9 @@ void addLaidOut(QLayout* layout, std::vector<QWidget*>& found) {
 }
 }  // namespace
 
-void tabAsLaidOut(QWidget* panel) {
+void tabAsLaidOut(const std::vector<QWidget*>& parts) {
   std::vector<QWidget*> found;
-  addLaidOut(panel, found);
+  for (QWidget* part : parts) addLaidOut(part, found);
   for (std::size_t i = 1; i < found.size(); ++i) QWidget::setTabOrder(found[i - 1], found[i]);
 }
 

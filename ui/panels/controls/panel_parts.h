@@ -23,7 +23,7 @@ QPushButton* plainButton(const QString& text, const QString& name, QWidget* pare
 QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent);  ///< Accent text without frame.
 
 /// Tab walks what takes the keyboard in the order of the layouts, from top to bottom, whichever was made first.
-void tabAsLaidOut(QWidget* panel);
+void tabAsLaidOut(const std::vector<QWidget*>& parts);
 
 /// Numbers in rows with hairlines: a name at the left, one or two columns at the right. Amber marks what is over
 /// tolerance.

@@ -36,14 +36,15 @@ std::optional<int> shownDegree(const EditorSession& session, const TracedCurve& 
   return degreeOf(curve.fairingUsed.target);
 }
 
+// The rows stand there for any target, also while it is computed: what is below them stays in its place.
 void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& session, const TracedCurve& curve) {
-  if (!wasFaired(curve) || curve.fairingUsed.mode != FairingMode::Target || !isPolynomial(curve.fairingUsed.target))
-    return;
+  if (fairingAsked(session).mode != FairingMode::Target) return;
   const auto targets = session.targets();
-  const auto degree = shownDegree(session, curve);
-  // The rows stand there while the targets are computed, so that what is below them stays in its place.
+  const bool isFollowed = wasFaired(curve) && curve.fairingUsed.mode == FairingMode::Target;
+  const bool hasDegree = isFollowed && isPolynomial(curve.fairingUsed.target);
+  const auto degree = hasDegree ? shownDegree(session, curve) : std::nullopt;
   const TargetProfile* profile = targets && degree ? &targets->targets.profiles[*degree - 1] : nullptr;
-  const auto& after = curve.fairing.similarityAfter;
+  const auto after = hasDegree ? curve.fairing.similarityAfter : std::nullopt;
   rows.push_back({FairingPanel::tr("Similarity S"),
                   {profile ? Cell{similarityText(profile->similarity)} : noFigure(),
                    after ? Cell{similarityText(*after)} : noFigure()},

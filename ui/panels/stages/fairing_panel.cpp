@@ -97,13 +97,14 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   buildScopeAndMode();
   buildTolerance();
   buildSettingsOfModes();
-  column->addWidget(note_);
+  buildNote();
   buildLinks();
   buildScopeLinks();
-  buildProfiles();
   buildFigures();
   column->addWidget(caption(tr("Curves"), this));
   column->addWidget(new CurveList(session, Judged::Result, this), 1);
+  // Last: the list grows with what is saved.
+  buildProfiles();
   column->addStretch();
   followSession();
   refresh();
@@ -172,8 +173,22 @@ void FairingPanel::bindToScope(ParameterRow* row,
                    }});
 }
 
+// What is said of the curve, and how to help it, in a room that stays: so nothing moves away under a click that selects
+// another curve.
+void FairingPanel::buildNote() {
+  said_ = new QWidget(this);
+  auto* lines = new QVBoxLayout(said_);
+  lines->setContentsMargins(0, 0, 0, 0);
+  lines->setSpacing(2);
+  note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  lines->addWidget(note_);
+  lines->addWidget(raise_, 0, Qt::AlignLeft);
+  lines->addStretch();
+  column()->addWidget(said_);
+}
+
 void FairingPanel::buildLinks() {
-  for (QPushButton* link : {whole_, split_, unsplit_, draw_, forget_, like_, logAesthetic_})
+  for (QPushButton* link : {split_, whole_, unsplit_, draw_, forget_, like_, logAesthetic_})
     column()->addWidget(link, 0, Qt::AlignLeft);
   split_->setText(tr("Natural spans"));
   split_->setToolTip(
@@ -203,7 +218,7 @@ void FairingPanel::buildLinks() {
 }
 
 void FairingPanel::buildScopeLinks() {
-  for (QPushButton* link : {raise_, useForAll_, followAll_}) column()->addWidget(link, 0, Qt::AlignLeft);
+  for (QPushButton* link : {useForAll_, followAll_}) column()->addWidget(link, 0, Qt::AlignLeft);
   connect(raise_, &QPushButton::clicked, this, &FairingPanel::raiseTolerance);
   connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
   connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
@@ -250,16 +265,21 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   const bool isDrawn = isTargetDrawn(session_);
   draw_->setVisible(isTarget && !isDrawn);
   forget_->setVisible(isDrawn);
-  logAesthetic_->setVisible(isTarget && params.target != FairingTarget::LogAesthetic);
+  // Links of a mode that have nothing to do stay where they are, greyed: those below keep their places.
+  logAesthetic_->setVisible(isTarget);
+  logAesthetic_->setEnabled(params.target != FairingTarget::LogAesthetic);
   like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
   auto* shelf = findChild<ProfileShelf*>();
   shelf->setVisible(shelf->count() > 0 && session_.hasScan());
   findChild<QLabel*>(QStringLiteral("fairing.savedProfiles"))->setVisible(shelf->count() > 0 && session_.hasScan());
   const bool canSplit = isTarget && !isDrawn && params.targets.quantity == TargetQuantity::Curvature;
   const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;
-  whole_->setVisible(canSplit && session_.pointedSpan().has_value());
-  unsplit_->setVisible(canSplit && spans > 0);
-  split_->setVisible(canSplit && !hasNaturalSpans(session_));
+  const bool isPointed = canSplit && session_.pointedSpan().has_value();
+  whole_->setVisible(isPointed);
+  unsplit_->setVisible(isTarget && !isPointed);
+  unsplit_->setEnabled(canSplit && spans > 0);
+  split_->setVisible(isTarget);
+  split_->setEnabled(canSplit && !hasNaturalSpans(session_));
 }
 
 FairingParams FairingPanel::shown(const Recipe& recipe) const {
@@ -335,8 +355,10 @@ void FairingPanel::refresh() {
   tolerance_->setEnabled(params.mode != FairingMode::None);
   ends_->refresh();
   refreshLinks(params);
-  useForAll_->setVisible(several && own);
-  followAll_->setVisible(several && own);
+  for (QPushButton* link : {useForAll_, followAll_}) {
+    link->setVisible(several);
+    link->setEnabled(own);
+  }
   refreshFigures();
 }
 
@@ -345,11 +367,12 @@ void FairingPanel::refreshFigures() {
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
   note_->setText(said.text);
-  // The usual two lines keep their place, so that the list does not move away under a click on one of its rows.
-  note_->setMinimumHeight(2 * note_->fontMetrics().lineSpacing());
-  note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  const bool isFairing = shown(session_.recipe()).mode != FairingMode::None;
-  note_->setVisible(curve != nullptr && (isFairing || !said.text.isEmpty()));
+  constexpr int kUsualLines = 2, kLinesOfTargets = 4;
+  const FairingMode mode = shown(session_.recipe()).mode;
+  const int lines = mode == FairingMode::None ? 0 : mode == FairingMode::Target ? kLinesOfTargets : kUsualLines;
+  said_->setMinimumHeight(lines * note_->fontMetrics().lineSpacing());
+  note_->setVisible(!said.text.isEmpty());
+  said_->setVisible(mode != FairingMode::None || !said.text.isEmpty());
   if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
   raise_->setVisible(said.neededMm.has_value());
 }

@@ -41,6 +41,7 @@ class FairingPanel : public QWidget {
   bool actsOnOne() const { return oneCurve_; }
   void setMode(FairingMode mode);
   void bindToScope(ParameterRow* row, const std::function<void(PieceChoice&, const FairingParams&)>& store);
+  void buildNote();
   void buildLinks();
   void buildScopeLinks();
   void buildProfiles();
@@ -63,6 +64,7 @@ class FairingPanel : public QWidget {
   ParameterRow* moves_;
   ParameterEditor* editor_;
   QLabel* note_;
+  QWidget* said_ = nullptr;
   QPushButton* raise_;
   QPushButton* useForAll_;
   QPushButton* followAll_;

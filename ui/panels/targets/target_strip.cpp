@@ -79,6 +79,10 @@ void TargetStrip::alignFigures() {
   TargetTile::Figures least = TargetTile::Figures::All;
   for (const TargetTile* tile : tiles_) least = std::max(least, tile->roomFor());
   for (TargetTile* tile : tiles_) tile->setFigures(least);
+  const bool isAbove = least >= TargetTile::Figures::WithoutSimilarity &&
+                       std::all_of(tiles_.begin(), tiles_.end(),
+                                   [](const TargetTile* tile) { return tile->hasRoomForSimilarityAbove(); });
+  for (TargetTile* tile : tiles_) tile->setSimilarityAbove(isAbove);
   // The advice looks alike on whichever tile it stands.
   const bool inFull = std::all_of(tiles_.begin(), tiles_.end(), [](auto* tile) { return tile->hasRoomForAdvice(); });
   for (TargetTile* tile : tiles_) tile->setAdviceInFull(inFull);

@@ -166,6 +166,19 @@ void TargetTile::setAdviceInFull(bool inFull) {
   update();
 }
 
+bool TargetTile::hasRoomForSimilarityAbove() const {
+  if (!outcomes_ || !problem().isEmpty()) return true;
+  const double number = QFontMetricsF(uiFont(12, QFont::Bold)).horizontalAdvance(QString::number(degree_)) + 5;
+  const double name = QFontMetricsF(uiFont(12)).horizontalAdvance(degreeName(degree_)) + 6;
+  return number + name + QFontMetricsF(uiFont(11)).horizontalAdvance(figureTexts().similarity) <= innerBox().width();
+}
+
+void TargetTile::setSimilarityAbove(bool isAbove) {
+  if (isSimilarityAbove_ == isAbove) return;
+  isSimilarityAbove_ = isAbove;
+  update();
+}
+
 void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   const Theme& theme = themeOf(palette());
   const QString number = QString::number(degree_);
@@ -177,6 +190,8 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_ && fits();
   const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, toleranceMm_);
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
+  if (isSimilarityAbove_ && outcomes_ && problem().isEmpty())
+    return paintTitleWithSimilarity(painter, title.adjusted(numberWidth, 0, 0, 0), isAdvised);
   const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
   QString word = isAdvised ? tr("recommended") : isNearest ? tr("simplest fit") : QString();
   const auto hasRoom = [&](const QString& one) {
@@ -192,6 +207,26 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   painter.setFont(uiFont(11));
   painter.setPen(isAdvised ? theme.good : theme.mute);
   painter.drawText(title, Qt::AlignRight | Qt::AlignVCenter, word);
+}
+
+// In a narrow tile: the sign of advice beside the name, the similarity where the word would be.
+void TargetTile::paintTitleWithSimilarity(QPainter& painter, const QRectF& box, bool isAdvised) const {
+  constexpr double kApartPx = 6.0;
+  const Theme& theme = themeOf(palette());
+  const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
+  const QString similarity = figureTexts().similarity, sign = QStringLiteral("✓");
+  const double signWidth = isAdvised ? small.horizontalAdvance(sign) + 0.5 * kApartPx : 0.0;
+  const double room = box.width() - small.horizontalAdvance(similarity) - kApartPx - signWidth;
+  const QString name = metrics.elidedText(degreeName(degree_), Qt::ElideRight, room);
+  painter.setFont(uiFont(12));
+  painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, name);
+  painter.setFont(uiFont(11));
+  painter.setPen(theme.mute);
+  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, similarity);
+  if (!isAdvised) return;
+  painter.setPen(theme.good);
+  painter.drawText(box.adjusted(metrics.horizontalAdvance(name) + 0.5 * kApartPx, 0, 0, 0),
+                   Qt::AlignLeft | Qt::AlignVCenter, sign);
 }
 
 QPainterPath TargetTile::pathOf(const std::vector<double>& values, const QRectF& box, double low, double high) const {

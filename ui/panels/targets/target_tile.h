@@ -34,6 +34,13 @@ class TargetTile : public QAbstractButton {
   /// Whether the title leaves room for the word of advice, and whether that is written in full or as a sign.
   bool hasRoomForAdvice() const;
   void setAdviceInFull(bool inFull);
+  /// Whether the title has room for the similarity where the line of figures has none, and whether it stands there.
+  bool hasRoomForSimilarityAbove() const;
+  void setSimilarityAbove(bool isAbove);
+  /// Whether the similarity can be read somewhere on the tile.
+  bool showsSimilarity() const {
+    return isSimilarityAbove_ || figures_ == Figures::All || figures_ == Figures::WithoutWords;
+  }
   Figures figures() const { return figures_; }
   static constexpr int kHeight = 97, kLowHeight = 77;
   QSize sizeHint() const override { return {156, kHeight}; }
@@ -56,6 +63,7 @@ class TargetTile : public QAbstractButton {
   /// Met within the tolerance, without a curvature extremum more.
   bool fits() const;
   void paintTitle(class QPainter&, const QRectF&) const;
+  void paintTitleWithSimilarity(class QPainter&, const QRectF& box, bool isAdvised) const;
   void paintProfiles(class QPainter&, const QRectF&) const;
   QRectF profileBox() const;
   /// The range of values that all tiles show; none where there is too little to draw.
@@ -73,7 +81,7 @@ class TargetTile : public QAbstractButton {
   std::shared_ptr<const TargetOutcomes> outcomes_;
   QString waiting_;
   double toleranceMm_ = 0.0;
-  bool chosen_ = false, runsLeft_ = false, adviceInFull_ = true;
+  bool chosen_ = false, runsLeft_ = false, adviceInFull_ = true, isSimilarityAbove_ = false;
   Figures figures_ = Figures::All;
 };
 

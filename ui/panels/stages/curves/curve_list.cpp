@@ -97,7 +97,7 @@ class CurveDelegate : public QStyledItemDelegate {
     const QString extrema = index.data(ExtremaRole).toString();
     if (extrema.isEmpty())
       return painter.drawText(box, Qt::AlignVCenter | Qt::AlignRight, index.data(FiguresRole).toString());
-    painter.drawText(box, Qt::AlignVCenter | Qt::AlignRight, index.data(PointsRole).toString());
+    if (columns.hasPoints) painter.drawText(box, Qt::AlignVCenter | Qt::AlignRight, index.data(PointsRole).toString());
     painter.drawText(box.adjusted(0, 0, -columns.points, 0), Qt::AlignVCenter | Qt::AlignRight, extrema);
     if (index.data(SameRole).toBool())
       painter.drawText(box.adjusted(box.width() - columns.figures(), 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft,
@@ -224,6 +224,11 @@ void CurveList::measure() {
     widen(shortest, shortNameOf(item(i)->text()));
   }
   columns_ = columns;
+  // The name is what canvas and files call the curve by: it goes after the control points, and its number never.
+  if (shortest > nameRoom() && columns_.points > 0) {
+    columns_.points = 0;
+    columns_.hasPoints = false;
+  }
   columns_.isNumberOnly = shortest > nameRoom();
   viewport()->update();
 }

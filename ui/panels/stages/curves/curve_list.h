@@ -31,6 +31,7 @@ class CurveList : public QListWidget {
   /// [px] What stands right of the names in every row; 0 where no row has it.
   struct Columns {
     int same = 0, extrema = 0, points = 0, words = 0, warning = 0, badge = 0;
+    bool hasPoints = true;      ///< The control points are said; else only in the tip.
     bool isNumberOnly = false;  ///< "2" instead of "Curve 2", in all rows.
     int figures() const { return same + extrema + points > words ? same + extrema + points : words; }
   };

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What stays in its place while its contents change, what a key does not do, and what the window says of it.
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QDir>
+#include <QLabel>
+#include <QLayout>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPainter>
+#include <QPainterPath>
+#include <QStackedWidget>
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/document/unsaved_work.h"
+#include "tests/ui/window_fixture.h"
+#include "ui/error_strip.h"
+#include "ui/new_drawing_dialog.h"
+#include "ui/panels/stages/curves/curve_list.h"
+#include "ui/panels/targets/target_tile.h"
+#include "ui/session/profile_library.h"
+#include "ui/session/recipe_journal.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+/// An arc, a wave and a closed line, so that targets fit one and not the other.
+QImage mixedPage() {
+  return test::drawnPage({640, 400}, [](QPainter& painter) {
+    QPainterPath arc({40, 120});
+    arc.quadTo({160, 20}, {300, 110});
+    painter.drawPath(arc);
+    painter.drawEllipse(360, 40, 220, 130);
+    QPainterPath wave({60, 320});
+    wave.cubicTo({200, 180}, {380, 460}, {600, 230});
+    painter.drawPath(wave);
+  });
+}
+
+class Steady : public test::WindowFixture {
+ protected:
+  void TearDown() override {
+    window_.reset();
+    QDir(MainWindow::journalFolder()).removeRecursively();
+  }
+  void pressInCanvas(int key) {
+    auto* canvas = find<CurveCanvas>("canvas");
+    canvas->setFocus();
+    QTest::keyClick(canvas, static_cast<Qt::Key>(key));
+  }
+  CurveList* fairingList() { return find<QWidget>("panel.fairing")->findChild<CurveList*>(); }
+  /// Where in the panel what can be clicked stands now.
+  std::map<std::string, int> places() {
+    QTest::qWait(30);
+    std::map<std::string, int> all;
+    auto* panel = find<QWidget>("panel.fairing");
+    for (const auto* button : panel->findChildren<QAbstractButton*>())
+      if (button->isVisible() && button->objectName().startsWith(QStringLiteral("fairing.")))
+        all[button->objectName().toStdString()] = button->mapTo(panel, QPoint(0, 0)).y();
+    all["list"] = fairingList()->mapTo(panel, QPoint(0, 0)).y();
+    return all;
+  }
+};
+
+TEST_F(Steady, LinksAndListOfFairingStayWhileTargetsAndCurvesChange) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  ASSERT_EQ(session().curves().size(), 3u);
+  window_->resize(1366, 1000);
+  window_->setStage(PanelStage::Fairing);
+  QTest::mouseClick(find<QAbstractButton>("fairing.mode.target"), Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  const auto before = places();
+  EXPECT_GT(before.size(), 8u);
+  const auto expectSame = [&](const std::string& when) {
+    for (const auto& [name, y] : places()) {
+      const auto was = before.find(name);
+      if (was == before.end()) continue;
+      EXPECT_EQ(y, was->second) << name << " " << when;
+    }
+  };
+  const auto settleTargets = [this] { return settle() && waitUntil([this] { return !session().isTargeting(); }); };
+  for (int row = 0; row < 3; ++row) {
+    QTest::mouseClick(fairingList()->viewport(), Qt::LeftButton, {},
+                      fairingList()->visualItemRect(fairingList()->item(row)).center());
+    ASSERT_TRUE(settleTargets());
+    ASSERT_EQ(session().selectedCurve(), row);
+    expectSame("curve " + std::to_string(row));
+    for (const int degree : {1, 3, 6}) {
+      pressInCanvas(Qt::Key_0 + degree);
+      ASSERT_TRUE(settleTargets());
+      expectSame("target " + std::to_string(degree) + " of curve " + std::to_string(row));
+    }
+  }
+  QTest::mouseClick(find<QAbstractButton>("fairing.logAesthetic"), Qt::LeftButton);
+  ASSERT_TRUE(settleTargets());
+  expectSame("log-aesthetic");
+  QTest::mouseClick(find<QAbstractButton>("fairing.draw"), Qt::LeftButton);
+  ASSERT_TRUE(settleTargets());
+  expectSame("drawn");
+  // A curve with a choice of its own among curves without.
+  QTest::mouseClick(find<QAbstractButton>("fairing.scope.one"), Qt::LeftButton);
+  pressInCanvas(Qt::Key_4);
+  ASSERT_TRUE(settleTargets());
+  EXPECT_TRUE(find<QAbstractButton>("fairing.useForAll")->isEnabled());
+  expectSame("own choice");
+  session().selectCurve(0);
+  ASSERT_TRUE(settleTargets());
+  expectSame("another curve");
+}
+
+TEST_F(Steady, SavedProfilesGrowWhereNothingIsBelowThem) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  window_->setStage(PanelStage::Fairing);
+  auto* panel = find<QWidget>("panel.fairing");
+  auto* shelf = find<QListWidget>("fairing.profiles");
+  EXPECT_GT(panel->layout()->indexOf(shelf), panel->layout()->indexOf(fairingList()));
+}
+
+TEST_F(Steady, TheAxesOfThePlotKeep200PixelsOnASmallScreen) {
+  constexpr int kMarginsPx = 40;  // of the axes, for their names and numbers
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  window_->resize(1366, 720);
+  for (const PanelStage stage : {PanelStage::Curves, PanelStage::Fairing}) {
+    window_->setStage(stage);
+    auto* plot = find<QWidget>("plot");
+    EXPECT_TRUE(waitUntil([&] { return plot->height() >= 200 + kMarginsPx; }, 3000)) << plot->height();
+    EXPECT_GT(find<CurveCanvas>("canvas")->height(), 200);
+  }
+}
+
+TEST_F(Steady, TilesSayTheSimilarityOnASmallScreenToo) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  window_->setStage(PanelStage::Fairing);
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
+  for (const int width : {1366, 1920}) {
+    window_->resize(width, 740);
+    ASSERT_TRUE(waitUntil([&] { return window_->width() == width; }, 5000));
+    QTest::qWait(30);
+    for (const TargetTile* tile : window_->findChildren<TargetTile*>())
+      EXPECT_TRUE(tile->showsSimilarity()) << tile->objectName().toStdString() << " at " << width;
+  }
+}
+
+TEST_F(Steady, ANarrowListKeepsTheNamesAndLeavesTheControlPointsOut) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  window_->setStage(PanelStage::Curves);
+  auto* list = find<QWidget>("panel.curves")->findChild<CurveList*>();
+  ASSERT_TRUE(waitUntil([&] { return !list->item(0)->data(CurveList::kBadgeRole).toString().isEmpty(); }));
+  EXPECT_TRUE(list->columns().hasPoints);
+  for (int width = list->width(); width > 120 && list->columns().hasPoints; width -= 4) {
+    list->setFixedWidth(width);
+    QCoreApplication::processEvents();
+  }
+  EXPECT_FALSE(list->columns().hasPoints);
+  for (int row = 0; row < list->count(); ++row)
+    EXPECT_TRUE(list->shownName(row).startsWith(QStringLiteral("Curve"))) << list->shownName(row).toStdString();
+}
+
+TEST_F(Steady, DigitsApplyNoTargetWhereNoneIsShownAndSaySo) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  const Recipe before = session().recipe();
+  for (const PanelStage stage : {PanelStage::Scan, PanelStage::Threshold, PanelStage::CleanUp, PanelStage::Edges,
+                                 PanelStage::Corners, PanelStage::Export}) {
+    window_->setStage(stage);
+    pressInCanvas(Qt::Key_3);
+    EXPECT_EQ(session().recipe(), before) << label(stage).toStdString();
+    EXPECT_TRUE(find<QLabel>("status.hint")->text().contains(QStringLiteral("Targets are applied")))
+        << label(stage).toStdString();
+  }
+  window_->setStage(PanelStage::Fairing);
+  pressInCanvas(Qt::Key_3);
+  EXPECT_NE(session().recipe(), before);
+  ASSERT_TRUE(settle());
+}
+
+TEST_F(Steady, TheFinderSaysWhyAnActionIsNotAvailable) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  const auto saidOf = [this](const QString& letters) {
+    window_->action(ActionId::FindAction)->trigger();
+    auto* edit = find<QLineEdit>("palette.edit");
+    QTest::keyClicks(edit, letters);
+    auto* list = find<QListWidget>("palette.list");
+    EXPECT_GT(list->count(), 0);
+    const QString said = list->count() > 0 ? list->item(0)->data(Qt::AccessibleTextRole).toString() : QString();
+    QTest::keyClick(edit, Qt::Key_Escape);
+    return said;
+  };
+  EXPECT_EQ(saidOf(QStringLiteral("Redo")), QStringLiteral("Redo. Nothing was undone."));
+  EXPECT_EQ(saidOf(QStringLiteral("Compute again")), QStringLiteral("Compute again. Nothing was stopped."));
+  window_->action(ActionId::FindAction)->trigger();
+  auto* list = find<QListWidget>("palette.list");
+  for (int i = 0; i < list->count(); ++i)
+    EXPECT_FALSE(list->item(i)->data(Qt::AccessibleTextRole).toString().contains(QStringLiteral("Not available")))
+        << list->item(i)->text().toStdString();
+  QTest::keyClick(find<QLineEdit>("palette.edit"), Qt::Key_Escape);
+}
+
+TEST_F(Steady, AnErrorCoversTheOfferOfUnsavedWorkOnlyUntilItIsDismissed) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  {
+    EditorSession lost;
+    lost.newDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
+    ASSERT_TRUE(waitUntil([&] { return lost.hasScan() && !lost.isBusy(); }));
+    Recipe recipe = lost.recipe();
+    recipe.penStrokes.push_back({{Vec2(10, 20), Vec2(60, 25)}, false});
+    ASSERT_TRUE(QDir().mkpath(MainWindow::journalFolder()));
+    QFile file(MainWindow::journalFolder() + QStringLiteral("/lost.journal"));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    UnsavedWork work;
+    work.recipe = recipe;
+    file.write(QByteArray::fromStdString(unsavedWorkToJson(work)));
+  }
+  ASSERT_TRUE(window_->offerLeftWork());
+  auto* strip = find<ErrorStrip>("errorStrip");
+  const QString offer = strip->message();
+  EXPECT_TRUE(offer.contains(QStringLiteral("Unsaved work"))) << offer.toStdString();
+  window_->openPath(folder_.filePath(QStringLiteral("is-not-there.png")));
+  ASSERT_TRUE(waitUntil([&] { return !strip->message().isEmpty() && strip->message() != offer; }, 5000));
+  QTest::mouseClick(find<QAbstractButton>("error.dismiss"), Qt::LeftButton);
+  EXPECT_EQ(strip->message(), offer);
+  window_->openPath(folder_.filePath(QStringLiteral("is-not-there.png")));
+  ASSERT_TRUE(waitUntil([&] { return strip->message() != offer; }, 5000));
+  pressInCanvas(Qt::Key_Escape);
+  EXPECT_EQ(strip->message(), offer) << "after Esc, too";
+  QTest::mouseClick(find<QAbstractButton>("error.dismiss"), Qt::LeftButton);
+  EXPECT_TRUE(strip->message().isEmpty()) << "discarded";
+}
+
+TEST_F(Steady, TheDarkThemeHasADarkDeskAndTheSamePage) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage({400, 400})));
+  window_->setStage(PanelStage::Scan);
+  auto* canvas = find<CurveCanvas>("canvas");
+  const QPoint desk(3, canvas->height() / 2), page = canvas->toWidget({200, 200}).toPoint();
+  const QImage light = canvas->grab().toImage();
+  window_->setThemeChoice(ThemeChoice::Dark);
+  QTest::qWait(50);
+  const QImage dark = canvas->grab().toImage();
+  EXPECT_GT(qGray(light.pixel(desk)), 180);
+  EXPECT_LT(qGray(dark.pixel(desk)), 80);
+  EXPECT_EQ(dark.pixel(page), light.pixel(page)) << "what was drawn keeps its look";
+  window_->setThemeChoice(ThemeChoice::Light);
+}
+
+TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  window_->activateWindow();
+  for (const PanelStage stage : {PanelStage::Edges, PanelStage::Curves, PanelStage::Fairing, PanelStage::Export}) {
+    window_->setStage(stage);
+    QCoreApplication::processEvents();
+    auto* canvas = find<CurveCanvas>("canvas");
+    canvas->setFocus();
+    ASSERT_TRUE(waitUntil([&] { return canvas->hasFocus(); }, 3000));
+    enum Part { Panel, Lower, Status, Rail, Top };
+    const std::pair<Part, const char*> parts[] = {{Panel, "inspector"},   {Lower, "targetStrip"}, {Lower, "plots"},
+                                                  {Status, "statusLine"}, {Rail, "stageRail"},    {Top, "topBar"}};
+    std::vector<Part> walked;
+    std::set<const QWidget*> seen;
+    std::string names;
+    for (int i = 0; i < 200; ++i) {
+      QTest::keyClick(window_->focusWidget(), Qt::Key_Tab);
+      const QWidget* now = window_->focusWidget();
+      ASSERT_NE(now, nullptr);
+      if (now == canvas || !seen.insert(now).second) break;  // once round
+      for (const auto& [part, name] : parts) {
+        const auto* widget = window_->findChild<QWidget*>(QString::fromLatin1(name));
+        if (widget != nullptr && widget->isAncestorOf(now)) walked.push_back(part);
+      }
+      names += now->objectName().toStdString() + " (" + now->metaObject()->className() + "), ";
+    }
+    ASSERT_GT(walked.size(), 5u) << label(stage).toStdString();
+    EXPECT_EQ(walked.front(), Panel) << label(stage).toStdString();
+    EXPECT_EQ(walked.back(), Top) << label(stage).toStdString();
+    EXPECT_TRUE(std::is_sorted(walked.begin(), walked.end())) << label(stage).toStdString() << ": " << names;
+  }
+}
+
+}  // namespace
+}  // namespace batten
