@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,7 @@ namespace batten::cli {
 namespace {
 
 struct Advice {
+  std::optional<std::string> note;  ///< On what was not looked at.
   MergeAdvice merge;
   std::vector<CornerSuggestion> corners;
 };
@@ -68,12 +71,14 @@ Result<Advice> adviceFor(const TraceArguments& arguments) {
   if (!merge) return fail(merge.error());
   auto corners = cornersOf(*scan, *recipe, cache, context);
   if (!corners) return fail(corners.error());
-  return Advice{std::move(*merge), std::move(*corners)};
+  return Advice{otherPagesNote(arguments, *recipe, *scan), std::move(*merge), std::move(*corners)};
 }
 
 }  // namespace
 
-int runSuggest(const TraceArguments& arguments) {
+int runSuggest(const TraceArguments& given) {
+  TraceArguments arguments = given;
+  arguments.takesAllPages = false;
   const auto advice = adviceFor(arguments);
   if (!advice) return reportError(advice.error());
   nlohmann::ordered_json json{
@@ -85,7 +90,9 @@ int runSuggest(const TraceArguments& arguments) {
       {"curves_meant", advice->merge.meant ? nlohmann::ordered_json(*advice->merge.meant) : nlohmann::ordered_json()},
       {"overdrawn_share", withDecimals(advice->merge.share, 4)},
       {"reason", describe(advice->merge)},
-      {"corners", cornersToJson(advice->corners)}};
+      {"corners", cornersToJson(advice->corners)},
+      {"notes", nlohmann::ordered_json::array()}};
+  if (advice->note) json["notes"].push_back(*advice->note);
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }
