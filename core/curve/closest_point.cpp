@@ -79,10 +79,11 @@ class StartTable {
   // How far a curve of moderate turn lies off its chord at the most, with some to spare: an arc a quarter of the slope
   // of its ends against the chord, of which the sag beside its middle tells, a double bend a tenth.
   static constexpr double kPerSag = 1.5, kPerSlope = 0.3;
-  static constexpr double kPerChord = 1.5;   // of a chord of any turn
-  static constexpr int kDeepest = 6;         // halvings of a step
-  static constexpr double kMostTurn = 0.87;  // cosine of half a radian
-  static constexpr double kMostSag = 0.15;   // of the chord, beside its middle
+  static constexpr double kPerChord = 1.5;    // of a chord of any turn
+  static constexpr double kRounding = 1e-12;  // of the coordinates; some thousand times that of a place
+  static constexpr int kDeepest = 6;          // halvings of a step
+  static constexpr double kMostTurn = 0.87;   // cosine of half a radian
+  static constexpr double kMostSag = 0.15;    // of the chord, beside its middle
 
   void add(double at, const Vec2& point, bool knot) {
     u.push_back(at);
@@ -103,7 +104,8 @@ class StartTable {
         const double speed = along.norm();
         rise = std::max(rise, speed > 0.0 ? std::abs(cross(along, b[0] - a[0])) / speed : chord);
       }
-      places_.back().bulge = std::min(places_.back().bulge, kPerSag * sag + kPerSlope * rise);
+      places_.back().bulge =
+          std::min(places_.back().bulge, kPerSag * sag + kPerSlope * rise + kRounding * b[0].cwiseAbs().maxCoeff());
       return;
     }
     addBetween(low, a, middle, m, depth - 1);
