@@ -69,7 +69,9 @@ constexpr const char* kScanKinds = "PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP, 
 void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
   app.add_option("scan", a.scan, help.scan)->type_name("SCAN");
   app.add_option("--recipe", a.recipe, help.recipe)->type_name("R.json");
-  app.add_option("--page", a.page, help.page)->type_name(help.pages);
+  app.add_option_function<std::string>(
+         "--page", [&a](const std::string& text) { a.page = text; }, help.page)
+      ->type_name(help.pages);
   app.add_option(
          "--as-in", a.asIn,
          "Use all settings of a paper: " + paperPresetNames() + "; --set overrides it; a note states the drawbacks")
@@ -99,7 +101,7 @@ void addTrace(CLI::App& app, TraceArguments& a) {
              {std::string("The scan: ") + kScanKinds +
                   "; or curves or points to fair; omitted for a recipe drawn on an empty page",
               "Use this recipe; --set, --corner and --dpi override it",
-              "Page of a TIFF or PDF, from 1; all: every page, with -p1, -p2 … appended to the output "
+              "Page of a TIFF or PDF, 1 to 100000; all: every page, with -p1, -p2 … appended to the output "
               "names",
               "N|all"});
   addRepeated(*trace, "-o,--output", a.outputs, "OUT",
@@ -118,12 +120,13 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP, 3DM and CSV: mm or in")->type_name("mm|in");
   trace
       ->add_option_function<std::string>(
-          "--scale", [&a](const std::string& text) { a.scale = text; }, "Scale factor of the curves, above 0")
+          "--scale", [&a](const std::string& text) { a.scale = text; },
+          "Scale factor of the curves, above 0, up to 1000000")
       ->type_name("N");
   trace
       ->add_option_function<std::string>(
           "--tolerance", [&a](const std::string& text) { a.tolerance = text; },
-          "Maximum deviation of approximated curves from the exact ones, mm")
+          "Maximum deviation of approximated curves from the exact ones, from 0.000001 mm")
       ->type_name("MM");
   trace
       ->add_option_function<std::string>(
@@ -154,12 +157,13 @@ void addTrace(CLI::App& app, TraceArguments& a) {
       ->add_option_function<std::string>(
           "--dpi", [&a](const std::string& text) { a.dpi = text; },
           "Resolution of the scan, 1 to 100000, overriding the file; for a PDF the rendering "
-          "resolution (300)")
+          "resolution, 20 to 4800 (300)")
       ->type_name("N");
   trace
-      ->add_option("--known-length", a.knownLength,
-                   "Resolution from two points, px from the upper left, and their true distance: 100mm, "
-                   "10cm or 4in")
+      ->add_option_function<std::string>(
+          "--known-length", [&a](const std::string& text) { a.knownLength = text; },
+          "Resolution from two points, px from the upper left, and their true distance: 100mm, "
+          "10cm or 4in")
       ->type_name("X,Y,X,Y,LENGTH");
   addRepeated(*trace, "--direction", a.directions, "X,Y,X,Y",
               "Direct the curve near the first point towards the second, px; may be repeated");
@@ -191,7 +195,7 @@ CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
       "for --pair. Changes nothing.");
   addDrawing(*suggest, a,
              {std::string("The scan: ") + kScanKinds, "Use this recipe; --set and the points given override it",
-              "Which page of a TIFF or PDF, from 1", "N"});
+              "Which page of a TIFF or PDF, 1 to 100000", "N"});
   return suggest;
 }
 
@@ -213,11 +217,11 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
   addRepeated(*batch, "--set", a.settings, "NAME=VALUE", "Set a parameter of every page; may be repeated");
   addNumber(
       *batch, "--dpi", [&a](double dpi) { a.dpi = dpi; }, {1.0, 1e5, "a number from 1 to 100000"},
-      "Resolution of the pages that state none in the manifest")
+      "Resolution of the pages that state none in the manifest, 1 to 100000; of a PDF 20 to 4800")
       ->type_name("N");
   addInteger(
       *batch, "--jobs", [&a](int jobs) { a.jobs = jobs; }, {0, 1024, "a whole number from 0 to 1024"},
-      "Pages processed in parallel; 0 = one per processor")
+      "Pages processed in parallel, 0 to 1024; 0 = one per processor")
       ->type_name("N");
   batch->add_option("--existing", a.existing, "Existing outputs: skip unchanged pages, overwrite all, or abort")
       ->check(CLI::IsMember({"skip", "overwrite", "abort"}).description(""))
@@ -225,7 +229,7 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
   addInteger(
       *batch, "--first-line", [&a](int line) { a.firstLine = line; },
       {1, 1000000000, "a whole number from 1 to 1000000000"},
-      "Line number of the first line of the manifest, if it is part of a larger one (1)")
+      "Line number of the first line of the manifest, if it is part of a larger one, 1 to 1000000000 (1)")
       ->type_name("N");
   batch->add_flag("--resume", a.resume, "Resume an earlier run, regardless of --existing");
   addNumber(

@@ -24,18 +24,22 @@ bool isPdfFile(const std::string& path) {
 /// --dpi and --page.
 Result<void> applyPage(const TraceArguments& arguments, Recipe& recipe) {
   if (arguments.dpi) {
+    const bool isDrawn = !arguments.scan.empty() && isPdfFile(arguments.scan);
     const auto dpi = numberFromText(*arguments.dpi);
-    if (!dpi) return wrong("--dpi takes a number from 1 to 100000, not \"" + *arguments.dpi + "\".");
-    if (!arguments.scan.empty() && isPdfFile(arguments.scan)) {
+    if (!dpi || (isDrawn && (*dpi < kCoarsestPdfDpi || *dpi > kFinestPdfDpi)))
+      return wrong(std::string("--dpi takes a number from ") + (isDrawn ? "20 to 4800 for a PDF" : "1 to 100000") +
+                   ", not \"" + *arguments.dpi + "\".");
+    if (isDrawn) {
       recipe.scanPage.pdfDpi = *dpi;
     } else {
       setResolution(recipe, dpi);
     }
   }
-  if (arguments.page.empty()) return {};
-  const auto page = integerFromText(arguments.page);
-  if (!page || *page < 1)
-    return wrong("--page takes the number of a page, from 1, or all, not \"" + arguments.page + "\".");
+  if (!arguments.page) return {};
+  const auto page = integerFromText(*arguments.page);
+  if (!page || *page < 1 || *page > kMostPages)
+    return wrong("--page takes the number of a page, 1 to 100000" +
+                 std::string(arguments.takesAllPages ? ", or all" : "") + ", not \"" + *arguments.page + "\".");
   if (arguments.scan.empty()) return wrong("--page needs a scan: name the file.");
   recipe.scanPage.number = *page;
   return {};
@@ -242,20 +246,28 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   for (const std::string& start : arguments.starts) {
     if (auto set = applyStart(start, *recipe); !set) return fail(set.error());
   }
-  if (arguments.dpi && !arguments.knownLength.empty())
+  if (arguments.dpi && arguments.knownLength)
     return wrong("--dpi and --known-length both set the resolution. Give one of them.");
-  if (!arguments.knownLength.empty() && arguments.scan.empty() && !recipe->page)
+  if (arguments.knownLength && arguments.scan.empty() && !recipe->page)
     return wrong(
         "--known-length sets the resolution of a scan, and none is named. Imported curves have their unit: "
         "use --import-unit or --scale.");
-  if (!arguments.knownLength.empty()) {
-    if (auto set = applyKnownLength(arguments.knownLength, *recipe); !set) return fail(set.error());
+  if (arguments.knownLength) {
+    if (auto set = applyKnownLength(*arguments.knownLength, *recipe); !set) return fail(set.error());
   }
   if (arguments.scan.empty() && !recipe->page && arguments.imports.empty()) {
     return wrong("Name a scan. Only a recipe drawn on an empty page needs none.");
   }
   if (auto problem = validate(*recipe)) return fail(std::move(*problem));
   return recipe;
+}
+
+std::optional<std::string> otherPagesNote(const TraceArguments& arguments, const Recipe& recipe, const Scan& scan) {
+  const bool isPageChosen = arguments.page || recipe.scanPage.number != PageChoice{}.number;
+  if (scan.pages < 2 || isPageChosen) return std::nullopt;
+  return "The file holds " + std::to_string(scan.pages) + " pages; page " + std::to_string(scan.page.number) +
+         (arguments.takesAllPages ? " was traced. Use --page N for another page or --page all for all."
+                                  : " was looked at. Use --page N for another page.");
 }
 
 }  // namespace batten::cli

@@ -5,6 +5,8 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,7 @@ namespace batten::cli {
 namespace {
 
 struct Advice {
+  std::optional<std::string> note;  ///< On what was not looked at.
   MergeAdvice merge;
   std::vector<CornerSuggestion> corners;
   std::vector<StrokeJunction> junctions;
@@ -92,12 +95,15 @@ Result<Advice> adviceFor(const TraceArguments& arguments) {
   if (!merge) return fail(merge.error());
   const auto lines = linesOf(*scan, *recipe, cache, context);
   if (!lines) return fail(lines.error());
-  return Advice{std::move(*merge), possibleCorners(**lines, context), (*lines)->junctions};
+  return Advice{otherPagesNote(arguments, *recipe, *scan), std::move(*merge), possibleCorners(**lines, context),
+                (*lines)->junctions};
 }
 
 }  // namespace
 
-int runSuggest(const TraceArguments& arguments) {
+int runSuggest(const TraceArguments& given) {
+  TraceArguments arguments = given;
+  arguments.takesAllPages = false;
   const auto advice = adviceFor(arguments);
   if (!advice) return reportError(advice.error());
   nlohmann::ordered_json json{
@@ -110,7 +116,9 @@ int runSuggest(const TraceArguments& arguments) {
       {"overdrawn_share", withDecimals(advice->merge.share, 4)},
       {"reason", describe(advice->merge)},
       {"corners", cornersToJson(advice->corners)},
-      {"doubtful_junctions", junctionsToJson(advice->junctions)}};
+      {"doubtful_junctions", junctionsToJson(advice->junctions)},
+      {"notes", nlohmann::ordered_json::array()}};
+  if (advice->note) json["notes"].push_back(*advice->note);
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }

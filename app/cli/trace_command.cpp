@@ -10,6 +10,7 @@
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/note_list.h"
+#include "app/cli/recipe_arguments.h"
 #include "app/cli/report_output.h"
 #include "app/cli/shown_digits.h"
 #include "app/cli/stage_dump.h"
@@ -254,12 +255,7 @@ class Trace {
     std::vector<std::string> list = plan_.notes;
     if (isScaleAssumed(scan_, plan_.recipe))
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
-    const bool isPageChosen = !arguments_.page.empty() || plan_.recipe.scanPage.number != PageChoice{}.number;
-    if (scan_.pages > 1 && !isPageChosen) {
-      list.push_back("The file holds " + std::to_string(scan_.pages) + " pages; page " +
-                     std::to_string(scan_.page.number) +
-                     " was traced. Use --page N for another page or --page all for all.");
-    }
+    if (const auto note = otherPagesNote(arguments_, plan_.recipe, scan_)) list.push_back(*note);
     list.insert(list.end(), out_.page->notes.begin(), out_.page->notes.end());
     if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);
     if (out_.filtered && out_.filtered->report.thinStrokesLost) {
@@ -296,10 +292,10 @@ namespace {
 /// One of all pages that could not be traced has its line, too: which page, and why.
 int reportPage(const TraceArguments& arguments, Error error) {
   const std::string why = error.message;
-  error.message = "Page " + arguments.page + ": " + why;
+  error.message = "Page " + arguments.page.value_or("") + ": " + why;
   const int code = reportError(error);
   const nlohmann::ordered_json json{{"scan", nameText(arguments.scan)},
-                                    {"page", integerFromText(arguments.page).value_or(0)},
+                                    {"page", integerFromText(arguments.page.value_or("")).value_or(0)},
                                     {"curves", 0},
                                     {"pieces", 0},
                                     {"files", nlohmann::ordered_json::array()},

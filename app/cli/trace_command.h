@@ -37,8 +37,9 @@ struct TraceArguments {
   std::vector<std::string> imports;        ///< --import FILE; a scan that is a file of curves counts as one
   std::string importUnit;                  ///< --import-unit mm|cm|m|in
   bool isOneOfAll = false;                 ///< One of the pages of --page all
-  std::string page;                        ///< --page N|all; empty: the recipe's, else the first
-  std::string knownLength;                 ///< --known-length X,Y,X,Y,LENGTH
+  std::optional<std::string> page;         ///< --page N|all; absent: the recipe's, else the first
+  bool takesAllPages = true;               ///< Whether --page all is known to the command
+  std::optional<std::string> knownLength;  ///< --known-length X,Y,X,Y,LENGTH
   std::vector<std::string> directions;     ///< --direction X,Y,X,Y
   std::vector<std::string> starts;         ///< --start X,Y
   std::string report;                      ///< --report

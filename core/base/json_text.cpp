@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr unsigned kEventsPerLook = 1024;  // between two looks at the cancel token: well under a millisecond
+constexpr std::size_t kEventsPerLook = 1024;  // between two looks at the cancel token: well under a millisecond
 
 /// Builds the value as its parts are met. Every event answers whether to go on.
 class Builder {
@@ -70,6 +70,10 @@ class Builder {
       problem_ = cancelled().value();
       return nullptr;
     }
+    if (events_ > limits_.values) {
+      refuse("it holds more than " + std::to_string(limits_.values) + " values");
+      return nullptr;
+    }
     if (levels_.empty()) {
       root_ = std::move(value);
       return &root_;
@@ -101,7 +105,7 @@ class Builder {
   Json root_;
   std::vector<Level> levels_;
   Error problem_;
-  unsigned events_ = 0;
+  std::size_t events_ = 0;
 };
 
 }  // namespace

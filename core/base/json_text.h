@@ -11,11 +11,12 @@
 namespace batten {
 
 /// What a JSON text may ask of its reader; files of ours stay far below. Beyond these a text is damage, or an attack on
-/// the stack (depth), the memory (bytes) or the time (keys: an object is searched from its start).
+/// the stack (depth), the memory (bytes, values) or the time (keys: an object is searched from its start).
 struct JsonLimits {
   std::size_t bytes = std::size_t{64} << 20;  ///< of the whole text
   std::size_t depth = 64;                     ///< arrays and objects within one another
   std::size_t keys = 1000;                    ///< of one object
+  std::size_t values = 4'000'000;             ///< of the whole text; each takes some fifty bytes once it is read
 };
 
 /// The one door through which JSON comes in, whatever file or place it lies in. Takes time in proportion to the text;

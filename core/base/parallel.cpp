@@ -6,9 +6,12 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <system_error>
 #include <thread>
+
+#include "core/base/platform.h"
 
 namespace batten {
 namespace {
@@ -44,7 +47,7 @@ class Helpers {
   /// As many as all loops that are being run have asked for: a short one need not wait for a long one.
   void provide() {
     try {
-      for (; threads_ < asked_; ++threads_) std::thread([this] { help(); }).detach();
+      for (; threads_ < std::min(asked_, most_); ++threads_) std::thread([this] { help(); }).detach();
     } catch (const std::system_error&) {
       // The system gives no more threads: those there are do the work, the caller's at the least.
     }
@@ -67,6 +70,8 @@ class Helpers {
   std::condition_variable wake_, left_;
   std::deque<Task*> waiting_;
   int threads_ = 0, asked_ = 0;
+  // Threads that leave no memory to the work would be worse than none.
+  const int most_ = threadsWithinLimits().value_or(std::numeric_limits<int>::max());
 };
 
 /// Never destroyed: its threads wait for work until the process ends.

@@ -21,6 +21,7 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -122,6 +123,17 @@ std::uint64_t peakMemoryBytes() {
 #else
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 #endif
+}
+
+std::optional<int> threadsWithinLimits() {
+  // What a thread takes of it: its stack, and the region from which the C library hands out memory to it.
+  constexpr rlim_t kUsualStack = rlim_t{8} << 20, kRegion = rlim_t{64} << 20;
+  constexpr rlim_t kLeftToWork = 4;  // one part of so many goes to threads
+  rlimit all{}, stack{};
+  if (getrlimit(RLIMIT_AS, &all) != 0 || all.rlim_cur == RLIM_INFINITY) return std::nullopt;
+  const bool isKnown = getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
+  const rlim_t each = (isKnown ? stack.rlim_cur : kUsualStack) + kRegion;
+  return static_cast<int>(std::min<rlim_t>(all.rlim_cur / kLeftToWork / each, std::numeric_limits<int>::max()));
 }
 
 bool isProcessRunning(std::int64_t processId) {
@@ -240,10 +252,11 @@ tl::expected<ReadableFile, std::error_code> ReadableFile::open(const std::filesy
   return ReadableFile(std::move(file), FileKind::Ordinary, static_cast<std::uint64_t>(info.st_size));
 }
 
-std::error_code ReadableFile::read(std::span<std::byte> bytes) const {
+std::error_code ReadableFile::read(std::span<std::byte> bytes, std::uint64_t from) const {
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t got = ::pread(file_->descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+    const ssize_t got =
+        ::pread(file_->descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(from + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return systemError();
     if (got == 0) return std::make_error_code(std::errc::io_error);

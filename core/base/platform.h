@@ -58,6 +58,10 @@ void becomeDependentChild();
 /// which a null pointer ends. They are bytes, whatever they spell. Returns only where that fails or is not known.
 void becomeProgram(const char* const* words);
 
+/// How many threads may be started so that most of the address space that the process is allowed is left to the work;
+/// absent where it is not limited.
+std::optional<int> threadsWithinLimits();
+
 /// A file or folder, whatever names lead to it: links of either kind give it no other.
 struct FileId {
   std::uint64_t device = 0, number = 0;
@@ -95,8 +99,8 @@ class ReadableFile {
 
   FileKind kind() const { return kind_; }
   std::uint64_t size() const { return size_; }  ///< [bytes] Of an ordinary file, when it was opened; else 0.
-  /// Fills `bytes` from the start of the file. @return std::errc::io_error if there are fewer.
-  std::error_code read(std::span<std::byte> bytes) const;
+  /// Fills `bytes` from this place of the file on. @return std::errc::io_error if there are fewer.
+  std::error_code read(std::span<std::byte> bytes, std::uint64_t from = 0) const;
 
  private:
   ReadableFile(OpenFile file, FileKind kind, std::uint64_t size) : file_(std::move(file)), kind_(kind), size_(size) {}

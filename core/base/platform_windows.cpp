@@ -110,6 +110,8 @@ std::uint64_t residentMemoryBytes(std::int64_t processId) {
 
 void returnFreeMemory() {}
 
+std::optional<int> threadsWithinLimits() { return std::nullopt; }
+
 bool isProcessRunning(std::int64_t processId) {
   if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return false;
   const OpenFile process = owned(OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(processId)));
@@ -188,12 +190,12 @@ tl::expected<ReadableFile, std::error_code> ReadableFile::open(const fs::path& p
   return ReadableFile(std::move(file), FileKind::Ordinary, static_cast<std::uint64_t>(size.QuadPart));
 }
 
-std::error_code ReadableFile::read(std::span<std::byte> bytes) const {
+std::error_code ReadableFile::read(std::span<std::byte> bytes, std::uint64_t from) const {
   constexpr std::size_t kAtOnce = std::size_t{1} << 30;  // [bytes] One call takes no more than 32 bits hold.
   for (std::uint64_t done = 0; done < bytes.size();) {
     OVERLAPPED place{};
-    place.Offset = static_cast<DWORD>(done & 0xffffffffu);
-    place.OffsetHigh = static_cast<DWORD>(done >> 32);
+    place.Offset = static_cast<DWORD>((from + done) & 0xffffffffu);
+    place.OffsetHigh = static_cast<DWORD>((from + done) >> 32);
     const std::size_t wanted = std::min<std::size_t>(kAtOnce, bytes.size() - done);
     DWORD got = 0;
     if (ReadFile(file_->handle, bytes.data() + done, static_cast<DWORD>(wanted), &got, &place) == 0) {

@@ -47,8 +47,8 @@ tl::expected<RegularFile, FileProblem> RegularFile::open(const std::filesystem::
   return RegularFile(std::move(*file));
 }
 
-tl::expected<void, FileProblem> RegularFile::read(std::span<std::byte> bytes) const {
-  if (file_.read(bytes)) return Problem(FileProblem::Broken);
+tl::expected<void, FileProblem> RegularFile::read(std::span<std::byte> bytes, std::uint64_t from) const {
+  if (file_.read(bytes, from)) return Problem(FileProblem::Broken);
   return {};
 }
 

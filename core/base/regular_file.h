@@ -32,8 +32,8 @@ class RegularFile {
   static tl::expected<RegularFile, FileProblem> open(const std::filesystem::path&);
 
   std::uint64_t size() const { return file_.size(); }  ///< [bytes] When it was opened.
-  /// Fills `bytes` from the start of the file. @return Broken if there are fewer.
-  tl::expected<void, FileProblem> read(std::span<std::byte> bytes) const;
+  /// Fills `bytes` from this place of the file on. @return Broken if there are fewer.
+  tl::expected<void, FileProblem> read(std::span<std::byte> bytes, std::uint64_t from = 0) const;
 
  private:
   explicit RegularFile(ReadableFile file) : file_(std::move(file)) {}

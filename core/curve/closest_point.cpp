@@ -64,11 +64,8 @@ class StartTable {
       }
     }
     add(curve.end(), polynomials.at(curve.end())[0], true);
-    for (std::size_t i = 0; i < size(); ++i) {
-      const double before = i == 0 ? 0.0 : (places_[i].point - places_[i - 1].point).norm();
-      const double after = i + 1 == size() ? 0.0 : (places_[i + 1].point - places_[i].point).norm();
-      places_[i].reach = 1.5 * std::max(before, after);
-    }
+    // Noted for the interval behind a place, it holds for the one before it as well.
+    for (std::size_t i = size() - 1; i > 0; --i) places_[i].bulge = std::max(places_[i].bulge, places_[i - 1].bulge);
     tree_.emplace(std::move(places_));
   }
   std::size_t size() const { return u.size(); }
@@ -79,9 +76,14 @@ class StartTable {
   std::vector<char> isKnot;
 
  private:
-  static constexpr int kDeepest = 6;         // halvings of a step
-  static constexpr double kMostTurn = 0.87;  // cosine of half a radian
-  static constexpr double kMostSag = 0.15;   // of the chord, beside its middle
+  // How far a curve of moderate turn lies off its chord at the most, with some to spare: an arc a quarter of the slope
+  // of its ends against the chord, of which the sag beside its middle tells, a double bend a tenth.
+  static constexpr double kPerSag = 1.5, kPerSlope = 0.3;
+  static constexpr double kPerChord = 1.5;    // of a chord of any turn
+  static constexpr double kRounding = 1e-12;  // of the coordinates; some thousand times that of a place
+  static constexpr int kDeepest = 6;          // halvings of a step
+  static constexpr double kMostTurn = 0.87;   // cosine of half a radian
+  static constexpr double kMostSag = 0.15;    // of the chord, beside its middle
 
   void add(double at, const Vec2& point, bool knot) {
     u.push_back(at);
@@ -89,11 +91,23 @@ class StartTable {
     isKnot.push_back(knot ? 1 : 0);
   }
   void addBetween(double low, const std::array<Vec2, 3>& a, double high, const std::array<Vec2, 3>& b, int depth) {
-    if (depth == 0) return;
     const double middle = 0.5 * (low + high), chord = (b[0] - a[0]).norm();
+    places_.back().bulge = kPerChord * chord;
+    if (depth == 0) return;
     const bool turns = !(a[1].dot(b[1]) >= kMostTurn * a[1].norm() * b[1].norm());
     const auto m = polynomials.at(middle);
-    if (!turns && (m[0] - 0.5 * (a[0] + b[0])).norm() <= kMostSag * chord) return;
+    const double sag = (m[0] - 0.5 * (a[0] + b[0])).norm();
+    if (!turns && sag <= kMostSag * chord) {
+      // Half a chord on, the slopes of a moderate turn are those of its ends and its middle.
+      double rise = 0.0;
+      for (const Vec2& along : {a[1], m[1], b[1]}) {
+        const double speed = along.norm();
+        rise = std::max(rise, speed > 0.0 ? std::abs(cross(along, b[0] - a[0])) / speed : chord);
+      }
+      places_.back().bulge =
+          std::min(places_.back().bulge, kPerSag * sag + kPerSlope * rise + kRounding * b[0].cwiseAbs().maxCoeff());
+      return;
+    }
     addBetween(low, a, middle, m, depth - 1);
     add(middle, m[0], false);
     addBetween(middle, m, high, b, depth - 1);
@@ -121,7 +135,6 @@ ClosestPoint closestWith(const StartTable& table, const Vec2& p) {
   };
   const std::size_t nearest = table.tree().nearest(p);
   ClosestPoint best = refine(nearest);
-  // Within one sample step the distance changes by no more than the arc to the neighbour.
   table.tree().within(
       p, [&] { return best.distance; },
       [&](std::size_t i) {

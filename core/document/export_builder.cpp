@@ -95,9 +95,9 @@ void joinWidths(std::vector<ExportPiece>& pieces, bool closed) {
 
 /// Adds the lines of a run in one of their two kinds.
 void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& recipe, bool sketched, bool isBoth,
-               ExportedWidths widthsWanted, ExportDocument& document) {
+               ExportedWidths widthsWanted, CancelCheck check, ExportDocument& document) {
   const DirectionOwners owners = assignDirections(*output.pieces, recipe);
-  StrokeWidths widths(output, scan);
+  StrokeWidths widths(output, scan, check);
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -108,6 +108,7 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
     byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
   }
   for (const auto& [contour, pieces] : byContour) {
+    if (check.isCancelled()) return;
     const Contour& line = output.contours->contours[contour];
     for (const auto& run : runs(pieces, line.closed)) {
       ExportCurve& curve = document.curves.emplace_back();
@@ -140,7 +141,7 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
 }  // namespace
 
 ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe, const Scan& scan,
-                              ExportedCurves which, ExportedWidths widths) {
+                              ExportedCurves which, ExportedWidths widths, CancelCheck check) {
   ExportDocument document;
   document.frame = output.frame;
   document.dpi = recipe.dpi ? recipe.dpi : scan.dpi;
@@ -151,8 +152,8 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
     if (!parameter.isForDisplay) document.settings.emplace_back(parameter.name, parameter.get(recipe));
   if (!output.faired || !output.pieces || !output.contours) return document;
   const bool isBoth = which == ExportedCurves::Both;
-  if (which != ExportedCurves::Faired) addCurves(output, scan, recipe, true, isBoth, widths, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, scan, recipe, false, isBoth, widths, document);
+  if (which != ExportedCurves::Faired) addCurves(output, scan, recipe, true, isBoth, widths, check, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, scan, recipe, false, isBoth, widths, check, document);
   return document;
 }
 

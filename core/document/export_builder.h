@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/cancel_check.h"
 #include "core/exchange/model/export_model.h"
 #include "core/pipeline/run/pipeline.h"
 
@@ -18,6 +19,7 @@ enum class ExportedWidths { Measured, None };
 /// "-sketched"; a piece that was not faired is one of both kinds. Pieces are named and numbered as in the window and
 /// the report.
 ExportDocument exportDocument(const PipelineOutput&, const Recipe&, const Scan&,
-                              ExportedCurves which = ExportedCurves::Faired, ExportedWidths = ExportedWidths::Measured);
+                              ExportedCurves which = ExportedCurves::Faired, ExportedWidths = ExportedWidths::Measured,
+                              CancelCheck = {});
 
 }  // namespace batten

@@ -56,7 +56,8 @@ Result<Page> pageOf(const ExportDocument& document, const ExportSettings& settin
       page.layers.push_back(curve.layer);
       page.content += "/OC /L" + std::to_string(page.layers.size()) + " BDC\n";
     }
-    const auto outline = cubicOutline(curve, Eigen::Matrix2d::Identity(), Vec2::Zero(), tolerance, kPdfGridMm);
+    const auto outline =
+        cubicOutline(curve, Eigen::Matrix2d::Identity(), Vec2::Zero(), {tolerance, kPdfGridMm}, context);
     if (!outline) return fail(outline.error());
     pdf.cubics += outline->cubics;
     pdf.largestErrorMm = std::max(pdf.largestErrorMm, outline->largestError);
@@ -170,7 +171,7 @@ Result<double> checkPdf(std::string_view bytes, const ExportDocument& document, 
     if (context.isCancelled()) return cancelled();
     context.report(static_cast<double>(i) / static_cast<double>(paths->size()));
     if ((*paths)[i].empty()) return readsBackOtherwise("an empty path");
-    most = std::max(most, distanceFromLine((*paths)[i], document.curves[i]));
+    most = std::max(most, distanceFromLine((*paths)[i], document.curves[i], context));
   }
   return most;
 }

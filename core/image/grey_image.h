@@ -15,13 +15,25 @@ struct GreyImage {
 
   int width = 0;
   int height = 0;
-  std::vector<std::uint16_t> pixels;  ///< Row by row, no padding.
+  std::vector<std::uint16_t> pixels;  ///< Row by row, no padding; of a uniform picture one row only.
+  bool isUniform = false;             ///< All rows are the first: a page of one tone, which is not written to.
 
   GreyImage() = default;
   GreyImage(int w, int h, std::uint16_t fill = 0xffff) : width(w), height(h), pixels(std::ptrdiff_t{w} * h, fill) {}
 
-  std::uint16_t* row(int y) { return pixels.data() + std::ptrdiff_t{y} * width; }
-  const std::uint16_t* row(int y) const { return pixels.data() + std::ptrdiff_t{y} * width; }
+  /// A picture of one tone, which takes the memory of a row.
+  static GreyImage uniform(int w, int h, std::uint16_t fill) {
+    GreyImage image(w, 1, fill);
+    image.height = h;
+    image.isUniform = true;
+    return image;
+  }
+
+  /// How far apart a pixel and the one below it lie in `pixels`.
+  std::ptrdiff_t pitch() const { return isUniform ? 0 : width; }
+  /// @pre not uniform
+  std::uint16_t* row(int y) { return pixels.data() + y * pitch(); }
+  const std::uint16_t* row(int y) const { return pixels.data() + y * pitch(); }
   /// Grey level 0..255 of a pixel. @pre inside the picture.
   double level(int x, int y) const { return row(y)[x] / kGreyUnit; }
   bool operator==(const GreyImage&) const = default;

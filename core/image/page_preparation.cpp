@@ -42,6 +42,7 @@ constexpr double kCrossingWidths = 2.0;    // [line widths] diagonal of what is 
 constexpr double kLeastDrawnShare = 0.01;  // of the pixels of the lines: a drawing on ruled paper has more
 constexpr const char* kNothingButRulings =
     "The page contains only evenly spaced dark lines; they are treated as the drawing.";
+constexpr const char* kNoMemory = "Not enough memory to prepare the page; scan at a lower resolution or crop.";
 constexpr int kRulingRounds = 3;  // the ruling of the back may shine through beside that of the front
 
 const GreyImage& greyOf(const Scan& scan, const PreparedPage& page) {
@@ -143,8 +144,9 @@ Result<PreparedPage> preparePage(const Scan& scan, const PreparationParams& para
     if (context.isCancelled()) return cancelled();
     return page;
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to prepare the page; scan at a lower resolution or crop.");
+    return fail(ErrorCode::OutOfMemory, kNoMemory);
   } catch (const cv::Exception& exception) {
+    if (exception.code == cv::Error::StsNoMem) return fail(ErrorCode::OutOfMemory, kNoMemory, exception.what());
     return fail(ErrorCode::Numerical,
                 "The page could not be prepared; set paper.sheet to off and paper.colour to grey.", exception.what());
   }

@@ -6,18 +6,16 @@
 namespace batten {
 
 std::optional<Error> validate(const PageChoice& page) {
-  constexpr int kMostPages = 100000;
-  constexpr double kCoarsest = 20.0, kFinest = 4800.0;
   if (!(page.number >= 1 && page.number <= kMostPages))
     return Error{ErrorCode::BadParameter, "The page of a scan is counted from 1 to 100000.", {}};
-  if (!(page.pdfDpi >= kCoarsest && page.pdfDpi <= kFinest))
+  if (!(page.pdfDpi >= kCoarsestPdfDpi && page.pdfDpi <= kFinestPdfDpi))
     return Error{ErrorCode::BadParameter, "The pages of a PDF are drawn at 20 to 4800 dpi.", {}};
   return std::nullopt;
 }
 
 Scan blankScan(int widthPx, int heightPx, double dpi) {
   Scan scan;
-  scan.grey = GreyImage(widthPx, heightPx);
+  scan.grey = GreyImage::uniform(widthPx, heightPx, 0xffff);
   scan.info.format = "blank";
   scan.info.width = widthPx;
   scan.info.height = heightPx;

@@ -12,10 +12,13 @@
 
 namespace batten {
 
+inline constexpr int kMostPages = 100000;
+inline constexpr double kCoarsestPdfDpi = 20.0, kFinestPdfDpi = 4800.0;
+
 /// Which page of a file is read, and how finely a page is drawn that has no pixels of its own.
 struct PageChoice {
-  int number = 1;         ///< 1.. of a TIFF or PDF; other files have one page.
-  double pdfDpi = 300.0;  ///< [dpi] 20..4800. Of the pages of a PDF.
+  int number = 1;         ///< 1..kMostPages, of a TIFF or PDF; other files have one page.
+  double pdfDpi = 300.0;  ///< [dpi] kCoarsestPdfDpi..kFinestPdfDpi. Of the pages of a PDF.
   bool operator==(const PageChoice&) const = default;
 };
 std::optional<Error> validate(const PageChoice&);
@@ -43,8 +46,8 @@ struct Scan {
   std::string path;           ///< As given by the user; for messages only.
 };
 
-/// A page of white paper, for drawing without a scan. Its format is "blank", its path empty; the hash
-/// stands for the size.
+/// A page of white paper, for drawing without a scan. It takes no memory for its pixels. Its format is "blank", its
+/// path empty; the hash stands for the size.
 /// @pre width and height > 0.
 Scan blankScan(int widthPx, int heightPx, double dpi);
 bool isBlank(const Scan&);

@@ -46,6 +46,22 @@ TEST_F(HostileInput, ManyNamesTakeNoTime) {
   expectRefused("trace " + scene() + " -o " + file("o.svg") + " --recipe " + file("keys.json"), 2, "1000 names");
 }
 
+TEST_F(HostileInput, MoreThanADrawingHasIsRefusedAtOnce) {
+  const auto listOf = [](int count, const std::string& one) {
+    std::string text = one;
+    for (int i = 1; i < count; ++i) text += "," + one;
+    return "[" + text + "]}";
+  };
+  const std::string start = R"({"format":"batten-recipe","version":1,"parameters":{},"page":[200,200],)";
+  const std::string trace = "trace --recipe " + file("r.json") + " -o " + file("o.svg");
+  write("r.json", start + R"("corners":)" + listOf(1'400'000, "[1,2]"));
+  expectRefused(trace, 2, "it holds more than 4000000 values");
+  write("r.json", start + R"("corners":)" + listOf(100'001, "[1,2]"));
+  expectRefused(trace, 2, "It holds 100001 corner marks; at most 100000 can be used.");
+  write("r.json", start + R"("strokes":)" + listOf(100'001, R"({"points":[[1,2],[3,4]]})"));
+  expectRefused(trace, 2, "It holds 100001 pen strokes; at most 100000 can be used.");
+}
+
 TEST_F(HostileInput, APipeThatNobodyReadsTakesNoResults) {
   ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
   expectRefused("batch " + scene() + " --to " + file("out") + " --results " + file("pipe"), 5, "a pipe needs a reader");
@@ -67,6 +83,54 @@ TEST_F(HostileInput, OnlyOrdinaryFilesAreRead) {
   fs::resize_file(file("large.json"), std::uintmax_t{1} << 40);
   expectRefused(start + " --recipe " + file("large.json"), 2, "is too large");
   expectRefused("compare " + file("large.json") + " " + file("large.json"), 3, "is too large");
+}
+
+// Of those of the kernel some are ordinary by their kind, hold nothing by their size, and never end.
+TEST_F(HostileInput, BatchReadsOnlyOrdinaryFilesToTheirEnd) {
+  namespace fs = std::filesystem;
+  const std::string scan = scene();
+  ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
+  fs::create_symlink(file("pipe"), file("pipe.jsonl"));
+  fs::create_symlink("/dev/zero", file("zero.jsonl"));
+  const auto batch = [&](const std::string& words) {
+    const int status = std::system(
+        ("timeout 60 '" BATTEN_CLI "' batch " + words + " >'" + file("out.txt") + "' 2>'" + file("err.txt") + "'")
+            .c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  for (const char* manifest : {"pipe.jsonl", "zero.jsonl"}) {
+    EXPECT_EQ(batch(file(manifest)), 2) << manifest;
+    EXPECT_NE(test::readFile(file("err.txt")).find("is not a regular file"), std::string::npos) << manifest;
+  }
+  for (const std::string& name : {file("pipe"), std::string("/dev/zero"), std::string("/proc/kmsg")}) {
+    EXPECT_EQ(batch(name + " --to " + file("out")), 6) << name;
+    EXPECT_NE(test::readFile(file("out.txt")).find("\"failed\""), std::string::npos) << name;
+    EXPECT_EQ(batch(scan + " --to " + file("out") + " --recipe " + name), 6) << name;
+    write("pages.jsonl", json{{"scan", scan}, {"recipe", name}, {"outputs", {file("x.svg")}}}.dump() + "\n" +
+                             json{{"scan", name}, {"outputs", {file("y.svg")}}}.dump() + "\n");
+    EXPECT_EQ(batch(file("pages.jsonl")), 6) << name;
+    EXPECT_NE(test::readFile(file("err.txt")).find("2 pages of 2 have failed"), std::string::npos) << name;
+  }
+}
+
+TEST_F(HostileInput, EveryReaderRefusesPipesAndDevices) {
+  namespace fs = std::filesystem;
+  const std::string scan = scene();
+  ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
+  for (const char* ending : {"dxf", "igs", "step", "svg", "csv", "txt", "json", "tif", "pdf", "png"}) {
+    for (const auto& [target, name] : {std::pair<std::string, std::string>{file("pipe"), "p."}, {"/dev/zero", "z."}}) {
+      const std::string link = file(name + ending);
+      fs::create_symlink(target, link);
+      expectRefused("trace " + link + " -o " + file("o.svg"), 3, "");
+      if (std::string(ending) == "tif" || std::string(ending) == "pdf" || std::string(ending) == "png") {
+        expectRefused("suggest " + link, 3, "");
+        EXPECT_EQ(run("trace " + link + " --page all -o " + file("o.svg")).code, 3) << link;
+      } else {
+        expectRefused("trace " + scan + " --import " + link + " -o " + file("o.svg"), 3, "");
+        expectRefused("compare " + link + " " + link, 3, "");
+      }
+    }
+  }
 }
 
 TEST_F(HostileInput, NamesAreBytes) {
@@ -119,6 +183,13 @@ TEST_F(HostileInput, TinyFilesTakeLittleMemory) {
     recipe["strokes"].push_back({{"closed", false}, {"points", points}});
   }
   write("far.json", recipe.dump());
+  json large = {{"format", "batten-recipe"}, {"version", 1}, {"parameters", json::object()}, {"page", {20000, 20000}}};
+  large["strokes"].push_back({{"closed", false}, {"points", {{100, 100}, {5000, 7000}, {15000, 9000}}}});
+  write("page.json", large.dump());
+  const Outcome page = run("trace --recipe " + file("page.json") + " -o " + file("page.svg"));
+  ASSERT_EQ(page.code, 0) << page.err;
+  constexpr std::uint64_t kPagePixels = 20000 * 20000;
+  EXPECT_LT(json::parse(page.out)["peak_memory_bytes"].get<std::uint64_t>(), kPagePixels) << "a byte a pixel";
   const Outcome far = run("trace --recipe " + file("far.json") + " -o " + file("far.svg"));
   ASSERT_EQ(far.code, 0) << far.err;
   EXPECT_LT(json::parse(far.out)["peak_memory_bytes"].get<std::uint64_t>(), kMostBytes);
@@ -200,6 +271,52 @@ TEST_F(HostileInput, NumbersAreNumbersAndRangesAreTaken) {
   for (const char* threads : {"0x2", "\"\"", "1.5", "-1", "1025", "two"})
     expectRefused(start + "--threads " + threads, 2, "--threads takes a whole number from 0 to 1024");
   for (const char* threads : {"0", "1", "1024"}) EXPECT_EQ(run(start + "--threads " + threads).code, 0) << threads;
+}
+
+TEST_F(HostileInput, EveryNumberIsReadInOneWay) {
+  const std::string scan = scene(), start = "trace " + scan + " -o " + file("o.svg") + " ";
+  struct Option {
+    std::string words, says;
+  };
+  const Option options[] = {
+      {start + "--page ", "--page takes the number of a page, 1 to 100000, or all"},
+      {"suggest " + scan + " --page ", "--page takes the number of a page, 1 to 100000, not"},
+      {start + "--dpi ", "--dpi takes a number from 1 to 100000"},
+      {start + "--threads ", "--threads takes a whole number from 0 to 1024"},
+      {"suggest " + scan + " --threads ", "--threads takes a whole number from 0 to 1024"},
+      {start + "--scale ", "--scale takes a number above 0"},
+      {start + "--tolerance ", "--tolerance takes a length in mm"},
+      {start + "--curves ", "umbers such as 1,3-5"},
+      {start + "--corner ", "--corner takes X,Y"},
+      {start + "--segment-point ", "--segment-point takes X,Y"},
+      {start + "--outline ", "--outline takes X,Y"},
+      {start + "--centreline ", "--centreline takes X,Y"},
+      {start + "--direction ", "--direction takes X,Y,X,Y"},
+      {start + "--start ", "--start takes X,Y"},
+      {start + "--roi ", "--roi takes X,Y,WIDTH,HEIGHT"},
+      {start + "--known-length ", "--known-length takes X,Y,X,Y,LENGTH"},
+      {start + "--set fairing.tolerance=", "fairing.tolerance cannot be"},
+      {"suggest " + scan + " --set edges.merge=", "edges.merge cannot be"},
+      {"batch " + scan + " --to " + file("out") + " --dpi ", "--dpi takes a number from 1 to 100000"},
+      {"batch " + scan + " --to " + file("out") + " --jobs ", "--jobs takes a whole number from 0 to 1024"},
+      {"batch " + scan + " --to " + file("out") + " --first-line ", "--first-line takes a whole number"},
+      {"batch " + scan + " --to " + file("out") + " --page-timeout ", "--page-timeout takes seconds"},
+      {"batch " + scan + " --to " + file("out") + " --max-failures ", "--max-failures takes a share"},
+  };
+  for (const auto& [words, says] : options) {
+    for (const char* value : {"\"\"", "0x10", "1e999", "nan", "inf", "1.2.3", "five"})
+      expectRefused(words + value, 2, says);
+  }
+  const std::string pdf = file("scan.pdf");
+  write("scan.pdf", "%PDF-1.4\n");
+  for (const char* dpi : {"19.9", "4801", "\"\"", "0x60"})
+    expectRefused("trace " + pdf + " -o " + file("o.svg") + " --dpi " + dpi, 2, "--dpi takes a number from 20 to 4800");
+  for (const char* page : {"0", "-1", "100001", "1.5"}) {
+    expectRefused(start + "--page=" + page, 2, "1 to 100000, or all");
+    expectRefused("suggest " + scan + " --page=" + page, 2, "1 to 100000, not");
+  }
+  expectRefused("suggest " + scan + " --page all", 2, "1 to 100000, not");
+  EXPECT_EQ(run("suggest " + scan + " --page ' +1 '").code, 0) << "blanks and a plus sign are taken, as in recipes";
 }
 
 TEST_F(HostileInput, GoesOnWithTheThreadsThereAre) {

@@ -132,6 +132,10 @@ TEST_F(CommandLinePages, EveryPageOfAStackIsTracedWhenAsked) {
   const auto first = run("trace " + stack + " --dpi 254 -o " + file("o.json"));
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("The file holds 2 pages; page 1 was traced"));
+  const auto advice = run("suggest " + stack);
+  ASSERT_EQ(advice.code, 0) << advice.err;
+  EXPECT_THAT(advice.out, HasSubstr("The file holds 2 pages; page 1 was looked at"));
+  EXPECT_THAT(run("suggest " + stack + " --page 2").out, testing::Not(HasSubstr("The file holds")));
   for (const int page : {1, 2}) {
     const auto chosen = run("trace " + stack + " --dpi 254 --page " + std::to_string(page) + " -o " + file("two.json"));
     ASSERT_EQ(chosen.code, 0);

@@ -41,7 +41,9 @@ void SelectedWidth::follow() {
   if (isKnown_) return worker_.cancelAll();
   worker_.start([asked, to = QPointer<SelectedWidth>(this)](const CancelToken& token) {
     const auto found = guarded<std::optional<WidthFigures>>([&]() -> Result<std::optional<WidthFigures>> {
-      const auto widths = strokeWidthsAlong(asked->output, *asked->scan, asked->curve, asked->curve.sketched);
+      RunContext context;
+      context.cancel = token;
+      const auto widths = strokeWidthsAlong(asked->output, *asked->scan, asked->curve, asked->curve.sketched, context);
       return widths ? std::optional(figuresOf(*widths)) : std::nullopt;
     });
     if (token.isCancelled() || !to) return;

@@ -20,7 +20,8 @@ namespace {
 /// that undoing finds them. Every value that a slider passes leaves some, too, which nobody asks for again.
 std::size_t cacheBytes(const Scan& scan) {
   constexpr std::size_t kBytesPerPixel = 3, kLeastBytes = std::size_t{96} << 20;
-  return std::max(kLeastBytes, kBytesPerPixel * scan.grey.pixels.size());
+  return std::max(kLeastBytes, kBytesPerPixel * static_cast<std::size_t>(scan.grey.width) *
+                                   static_cast<std::size_t>(scan.grey.height));
 }
 
 double squaredDistance(const Piece& piece, const Vec2& place) {

@@ -31,8 +31,13 @@ tl::unexpected<Error> wrong(std::string message) { return fail(ErrorCode::BadPar
 bool isManifest(const std::string& input) { return input == "-" || input.ends_with(".jsonl"); }
 
 Result<std::string> textOf(const std::string& input) {
-  if (input == "-") return std::string{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // some two million pages
+  if (input == "-") {
+    std::string lines, line;
+    while (std::getline(std::cin, line) && lines.size() <= kMostBytes) lines.append(line).append("\n");
+    if (lines.size() <= kMostBytes) return lines;
+    return wrong("The manifest from stdin is too large: split it.");
+  }
   auto text = readWhole(input, kMostBytes);
   if (text) return std::move(*text);
   return wrong("The manifest " + shownText(input) + " cannot be read: it " + describe(text.error()) +

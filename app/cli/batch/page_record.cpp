@@ -2,8 +2,7 @@
 #include "app/cli/batch/page_record.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <cstddef>
 #include <iterator>
 #include <span>
 
@@ -19,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kMostRecordBytes = std::uint64_t{64} << 20;
-constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;  // [bytes]
+constexpr std::uint64_t kReadAtOnce = std::uint64_t{1} << 20;  // [bytes]
 
 const char* wordOf(PageStatus status) {
   switch (status) {
@@ -53,17 +52,16 @@ std::string resultLine(const BatchPage& page, const PageResult& result) {
 }
 
 std::optional<std::string> fileHash(const std::string& name) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(name, code)) return std::nullopt;  // a pipe would never end
-  std::ifstream file(name, std::ios::binary);
+  const auto file = RegularFile::open(name);
   if (!file) return std::nullopt;
   HashBuilder hash;
-  std::vector<char> bytes(kReadAtOnce);
-  while (file) {
-    file.read(bytes.data(), std::ssize(bytes));
-    hash.bytes(std::as_bytes(std::span(bytes.data(), static_cast<std::size_t>(file.gcount()))));
+  std::vector<std::byte> bytes(std::min(kReadAtOnce, file->size()));
+  // So many bytes as it had when it was opened: files of the kernel's have none, and yet their end may never come.
+  for (std::uint64_t from = 0; from < file->size(); from += kReadAtOnce) {
+    const std::span part = std::span(bytes).first(std::min(kReadAtOnce, file->size() - from));
+    if (!file->read(part, from)) return std::nullopt;
+    hash.bytes(part);
   }
-  if (file.bad()) return std::nullopt;
   return hash.finish().hex();
 }
 

@@ -107,9 +107,9 @@ void sampleAcross(const GreyImage& grey, const Vec2& at, const Vec2& normal, int
   SamplesAcross s;
   for (int first = 0; first < samples; first += kSamplesAtOnce) {
     const int count = std::min(kSamplesAtOnce, samples - first);
-    placeSamples({at.x(), at.y(), normal.x(), normal.y(), first, half, grey.width}, count, s.pixel.data(),
-                 s.right.data(), s.down.data());
-    const std::uint16_t *upper = grey.pixels.data(), *lower = upper + grey.width;
+    placeSamples({at.x(), at.y(), normal.x(), normal.y(), first, half, static_cast<int>(grey.pitch())}, count,
+                 s.pixel.data(), s.right.data(), s.down.data());
+    const std::uint16_t *upper = grey.pixels.data(), *lower = upper + grey.pitch();
     for (int k = 0; k < count; ++k) {
       std::memcpy(s.upper.data() + 2 * k, upper + s.pixel[k], 2 * sizeof(std::uint16_t));
       std::memcpy(s.lower.data() + 2 * k, lower + s.pixel[k], 2 * sizeof(std::uint16_t));

@@ -84,7 +84,7 @@ bool isProfileOnPage(const GreyImage& grey, const Vec2& base, const Vec2& normal
 template <int kTaps>
 void readPixels(const GreyImage& grey, const SamplePlaces& places, int before, PixelRows<kTaps>& rows) {
   for (int j = 0; j < kTaps; ++j) {
-    const std::uint16_t* from = grey.pixels.data() + std::ptrdiff_t{j - before} * grey.width - before;
+    const std::uint16_t* from = grey.pixels.data() + (j - before) * grey.pitch() - before;
     for (int k = 0; k < kProfileSamples; ++k)
       std::memcpy(rows[j].data() + kTaps * k, from + places.pixel[k], kTaps * sizeof(std::uint16_t));
   }
@@ -101,7 +101,7 @@ void sampleProfile(const GreyImage& grey, const Vec2& base, const Vec2& normal, 
     return;
   }
   SamplePlaces places;
-  placeProfile({base.x(), base.y(), normal.x(), normal.y(), grey.width}, places);
+  placeProfile({base.x(), base.y(), normal.x(), normal.y(), static_cast<int>(grey.pitch())}, places);
   if (cubic) {
     PixelRows<kCubicTaps> rows;
     readPixels<kCubicTaps>(grey, places, 1, rows);

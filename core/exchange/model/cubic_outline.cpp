@@ -14,6 +14,7 @@ namespace batten {
 namespace {
 
 constexpr int kSamplesPerCubic = 8;
+constexpr double kNearEnd = 1e-3;  // of a piece's extent: where its last cubic ends
 
 /// The end and the start of a loop are one point: written alike, so that closing adds no line. The shift counts.
 void closeLoop(CubicOutline& outline) {
@@ -23,13 +24,25 @@ void closeLoop(CubicOutline& outline) {
   outline.closed = true;
 }
 
+/// The cubic that ends a piece at `end`: of those that come near it one behind the other, as small ones in a hook of
+/// the piece may, the nearest.
+std::size_t lastOfPiece(const std::vector<std::array<Vec2, 4>>& cubics, std::size_t first, const Vec2& end,
+                        double near) {
+  const auto away = [&](std::size_t i) { return (cubics[i].back() - end).norm(); };
+  std::size_t last = first;
+  while (last + 1 < cubics.size() && away(last) > near) ++last;
+  for (std::size_t i = last + 1; i < cubics.size() && away(i) <= near; ++i)
+    if (away(i) < away(last)) last = i;
+  return last;
+}
+
 }  // namespace
 
 Result<CubicOutline> cubicOutline(const ExportCurve& line, const Eigen::Matrix2d& linear, const Vec2& offset,
-                                  double tolerance, double grid) {
+                                  const CubicFit& fit, CancelCheck check) {
   CubicOutline outline;
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
-    auto path = cubicPath(line.pieces[i].curve.mapped(linear, offset), tolerance, grid);
+    auto path = cubicPath(line.pieces[i].curve.mapped(linear, offset), fit.tolerance, fit.grid, check);
     if (!path) return fail(path.error());
     for (std::size_t k = 0; k < path->runs.size(); ++k) {
       CubicRun& run = path->runs[k];
@@ -48,16 +61,14 @@ Result<CubicOutline> cubicOutline(const ExportCurve& line, const Eigen::Matrix2d
   return outline;
 }
 
-double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const ExportCurve& line) {
+double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const ExportCurve& line, CancelCheck check) {
   double worst = 0.0;
   std::size_t first = 0;
-  for (std::size_t piece = 0; piece < line.pieces.size() && first < cubics.size(); ++piece) {
+  for (std::size_t piece = 0; piece < line.pieces.size() && first < cubics.size() && !check.isCancelled(); ++piece) {
     const NurbsCurve& exact = line.pieces[piece].curve;
     const Vec2 start = exact.point(exact.start()), end = exact.point(exact.end());
-    std::size_t last = cubics.size() - 1;
-    for (std::size_t i = first; i < last && piece + 1 < line.pieces.size(); ++i) {
-      if ((cubics[i].back() - end).norm() <= 1e-3 * extent(exact)) last = i;
-    }
+    const std::size_t last =
+        piece + 1 < line.pieces.size() ? lastOfPiece(cubics, first, end, kNearEnd * extent(exact)) : cubics.size() - 1;
     std::vector<Vec2> part;
     for (std::size_t i = first; i <= last; ++i) {
       const auto& c = cubics[i];
@@ -65,8 +76,8 @@ double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const Ex
         part.push_back(cubicPoint(c, static_cast<double>(k) / kSamplesPerCubic));
       }
     }
-    worst =
-        std::max({worst, deviation(exact, part, true).max, (part.front() - start).norm(), (part.back() - end).norm()});
+    worst = std::max(
+        {worst, deviation(exact, part, true, check).max, (part.front() - start).norm(), (part.back() - end).norm()});
     first = last + 1;
   }
   return first == cubics.size() ? worst : std::numeric_limits<double>::infinity();

@@ -17,13 +17,18 @@ struct CubicOutline {
   double largestJump = 0.0;   ///< Likewise; seams and joints of pieces count where the curves have one curvature there.
 };
 
+/// How near cubics are to be, see cubic_path.h.
+struct CubicFit {
+  double tolerance = 0.0, grid = 0.0;
+};
+
 /// The pieces of a line as runs without a gap. Where a piece begins where the last one ends, but for rounding, it goes
 /// on there, and the shift counts as error. `linear` and `offset` map the curves to the frame of the file.
 Result<CubicOutline> cubicOutline(const ExportCurve&, const Eigen::Matrix2d& linear, const Vec2& offset,
-                                  double tolerance, double grid);
+                                  const CubicFit&, CancelCheck check = {});
 
 /// Largest distance of points along cubics, four points each, from the pieces of a line in the same frame; each piece
 /// ends where a cubic ends. Infinite if the cubics are no picture of the line.
-double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const ExportCurve&);
+double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const ExportCurve&, CancelCheck check = {});
 
 }  // namespace batten

@@ -45,8 +45,8 @@ EndCurvatures endCurvatures(const CubicBezier& c) {
 
 class Approximation {
  public:
-  Approximation(const NurbsCurve& curve, double tolerance, double grid, CubicPath& path)
-      : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path) {}
+  Approximation(const NurbsCurve& curve, double tolerance, double grid, CubicPath& path, CancelCheck check)
+      : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path), check_(check) {}
 
   /// Adds the curve, whose curvature has one slope at every place, to the last run, or begins one where it starts
   /// elsewhere. Curvatures less than kLeastCurvature / `wholeLength` count as that much.
@@ -222,6 +222,7 @@ class Approximation {
   }
 
   void recurse(double from, double to, int depth) {
+    if (check_.isCancelled()) return;
     const Vec2 start = path_.runs.back().end();
     const Vec2 end = rounded(curve_.point(to));
     const double middle = 0.5 * (from + to);
@@ -256,6 +257,7 @@ class Approximation {
   const NurbsCurve& curve_;
   double tolerance_, grid_;
   CubicPath& path_;
+  CancelCheck check_;
   double least_ = 0.0;            ///< Curvature below which a difference does not count.
   std::optional<double> before_;  ///< Curvature at the end of the cubic taken last.
   std::vector<Vec2> points_;
@@ -291,16 +293,17 @@ Result<std::vector<SmoothPart>> smoothParts(const NurbsCurve& curve) {
 
 }  // namespace
 
-Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double grid) {
+Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double grid, CancelCheck check) {
   auto parts = smoothParts(curve);
   if (!parts) return fail(parts.error());
   CubicPath path;
   const double length = ArcLength(curve).total();
   std::optional<double> behind;
   for (const SmoothPart& part : *parts) {
-    Approximation approximation(part.curve, tolerance, grid, path);
+    Approximation approximation(part.curve, tolerance, grid, path, check);
     approximation.add(length, part.isCurvatureContinuous ? behind : std::nullopt);
     behind = approximation.curvatureBehind();
+    if (check.isCancelled()) return cancelled();
   }
   return path;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/result.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -29,6 +30,6 @@ struct CubicPath {
 /// Cubics within `tolerance` of a curve, with its tangents and, but for 0.8 %, its curvatures at every joint, split by
 /// halves where one cubic is not enough. Coordinates are rounded to multiples of `grid` (what the file will hold)
 /// before anything is measured; ends stay ends. @pre tolerance > 4 grid > 0.
-Result<CubicPath> cubicPath(const NurbsCurve&, double tolerance, double grid);
+Result<CubicPath> cubicPath(const NurbsCurve&, double tolerance, double grid, CancelCheck check = {});
 
 }  // namespace batten

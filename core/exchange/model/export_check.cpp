@@ -23,7 +23,8 @@ bool isBroken(const NurbsCurve& curve) {
   const auto knots = curve.knots();
   const std::vector<double> breaks = curve.breaks();
   return std::any_of(breaks.begin(), breaks.end(), [&](double u) {
-    return u > curve.start() && u < curve.end() && std::count(knots.begin(), knots.end(), u) > curve.degree();
+    const auto [first, last] = std::equal_range(knots.begin(), knots.end(), u);
+    return u > curve.start() && u < curve.end() && last - first > curve.degree();
   });
 }
 

@@ -145,7 +145,7 @@ Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument& document,
     const auto path = pathOf(svg->paths[i], document.frame, svg->unitsPerMm);
     if (!path) return fail(path.error());
     if (path->closes != curve.closed) return readsBackOtherwise("a path closed otherwise than " + curve.id);
-    check.largestErrorMm = std::max(check.largestErrorMm, distanceFromLine(path->cubics, curve));
+    check.largestErrorMm = std::max(check.largestErrorMm, distanceFromLine(path->cubics, curve, context));
     check.cubics += static_cast<int>(path->cubics.size());
     ++check.curves;
   }

@@ -54,13 +54,13 @@ std::string outlineData(const WidthOutline& outline, const PageFrame& frame, dou
 }
 
 /// The path of a line in user units, y down from the upper edge.
-Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, const SvgOptions& options,
-                             SvgText& svg) {
+Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, const SvgOptions& options, SvgText& svg,
+                             CancelCheck check) {
   const double unit = options.unitsPerMm;
   Eigen::Matrix2d flip;
   flip << unit, 0.0, 0.0, -unit;
   const Vec2 corner(-frame.leftMm, frame.bottomMm + frame.lengthToModel(frame.heightPx));
-  const auto outline = cubicOutline(curve, flip, unit * corner, unit * options.toleranceMm, kGridMm);
+  const auto outline = cubicOutline(curve, flip, unit * corner, {unit * options.toleranceMm, kGridMm}, check);
   if (!outline) return fail(outline.error());
   svg.cubics += outline->cubics;
   svg.largestErrorMm = std::max(svg.largestErrorMm, outline->largestError / unit);
@@ -158,7 +158,7 @@ Result<std::string> layers(const ExportDocument& document, const SvgOptions& opt
               fixed(options.unitsPerMm * options.strokeWidthMm) +
               "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     }
-    auto data = pathData(curve, document.frame, options, svg);
+    auto data = pathData(curve, document.frame, options, svg, context);
     if (!data) return data;
     const std::string label = curve.name.empty() ? "" : "\" inkscape:label=\"" + xmlText(curve.name);
     text += "    <path id=\"" + xmlText(curve.id) + label + "\" d=\"" + *data + "\"/>\n";

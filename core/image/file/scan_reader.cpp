@@ -199,6 +199,8 @@ Result<Scan> readScan(const std::filesystem::path& path, const ScanRequest& requ
   } catch (const std::bad_alloc&) {
     return unreadable(path, "needs more memory than there is. Scan at a lower resolution or crop.");
   } catch (const cv::Exception& exception) {
+    if (exception.code == cv::Error::StsNoMem)
+      return unreadable(path, "needs more memory than there is. Scan at a lower resolution or crop.");
     return unreadable(path, "cannot be decoded; it is damaged or too large. Export it as PNG or scan it again.",
                       exception.what());
   } catch (const std::filesystem::filesystem_error& error) {

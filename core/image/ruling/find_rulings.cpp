@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <optional>
 
 #include "core/base/parallel.h"
@@ -24,6 +26,9 @@ constexpr double kLeastInk = 0.8;                          // of the length of t
 constexpr double kMostWidth = 0.3;                         // of the spacing
 constexpr double kDarkCoverage = 0.85;                     // asked of dark lines that make no grid
 constexpr int kDarkLines = 12;                             // likewise
+constexpr int kBorder = 4;                                 // [grid] so near to it a line runs to the border of the page
+constexpr double kLeastAtBorder = 0.5;                     // of the lines that run to the border of the page
+constexpr double kJoined = 0.9;                            // of the spaces between lines that a stroke crosses
 constexpr double kLeastRulingDepth = 0.015;
 
 /// Square by square, so that the columns written to stay in the cache.
@@ -96,9 +101,60 @@ std::optional<FoundLattice> lookFor(const Plane& grey, const RunContext& context
   return found;
 }
 
+/// Share of the seen lines that hold ink at a side of the page.
+double shareAtBorder(const Plane& grey, const FoundLattice& found, bool isLeft) {
+  const RulingLattice& l = found.lattice;
+  const int first = isLeft ? 0 : std::max(0, grey.width - kBorder), past = std::min(grey.width, first + kBorder);
+  const int half = std::max(2, static_cast<int>(0.5 * l.spacing));
+  int seen = 0, inked = 0;
+  for (std::size_t i = 0; i < l.isSeen.size(); ++i) {
+    if (!l.isSeen[i]) continue;
+    float darkest = std::numeric_limits<float>::max(), paper = 0.0f;
+    for (int x = first; x < past; ++x) {
+      const int middle = static_cast<int>(l.at(l.first + static_cast<double>(i), x + 0.5));
+      for (int y = std::max(0, middle - half); y <= std::min(grey.height - 1, middle + half); ++y) {
+        paper = std::max(paper, grey.row(y)[x]);
+        if (std::abs(y - middle) <= 1) darkest = std::min(darkest, grey.row(y)[x]);
+      }
+    }
+    ++seen;
+    inked += static_cast<double>(darkest) < (1.0 - 0.5 * found.look.depth) * static_cast<double>(paper) ? 1 : 0;
+  }
+  return seen > 0 ? inked / static_cast<double>(seen) : 0.0;
+}
+
+/// The largest share of the spaces between lines that one straight stroke square to them crosses.
+double shareJoined(const Plane& grey, const FoundLattice& found) {
+  const RulingLattice& l = found.lattice;
+  const int spaces = static_cast<int>(l.isSeen.size()) - 1;
+  std::vector<int> crossed(grey.width, 0);
+  for (int i = 0; i < spaces; ++i) {
+    const auto rowAt = [&](int x) { return static_cast<int>(l.at(l.first + i + 0.5, x + 0.5)); };
+    float paper = 0.0f;
+    for (int x = 0; x < grey.width; ++x) {
+      const int y = rowAt(x);
+      if (y >= 0 && y < grey.height) paper = std::max(paper, grey.row(y)[x]);
+    }
+    for (int x = 0; x < grey.width; ++x) {
+      const int y = rowAt(x);
+      if (y < 0 || y >= grey.height) continue;
+      crossed[x] += static_cast<double>(grey.row(y)[x]) < (1.0 - 0.5 * found.look.depth) * static_cast<double>(paper);
+    }
+  }
+  return spaces > 0 ? *std::max_element(crossed.begin(), crossed.end()) / static_cast<double>(spaces) : 0.0;
+}
+
+/// Lines that end on the page and are joined by a stroke across: the teeth of a comb. Ruled lines run to the border of
+/// the page, whatever crosses them, or stand by themselves.
+bool isComb(const Plane& grey, const FoundLattice& found) {
+  const double border = std::min(shareAtBorder(grey, found, true), shareAtBorder(grey, found, false));
+  return border < kLeastAtBorder && shareJoined(grey, found) >= kJoined;
+}
+
 /// Dark lines are a drawing unless they make a grid or fill the page without a gap.
-bool isPrinted(const FoundLattice& found, const std::optional<FoundLattice>& across) {
+bool isPrinted(const Plane& grey, const FoundLattice& found, const std::optional<FoundLattice>& across) {
   if (found.look.depth <= kDarkRuling || across) return true;
+  if (isComb(grey, found)) return false;
   return found.lattice.coverage >= kDarkCoverage && std::ssize(found.lattice.isSeen) >= kDarkLines;
 }
 
@@ -148,8 +204,8 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
   const auto columns = lookFor(down, context);
   std::vector<RulingFamily> families;
   if (context.isCancelled()) return families;
-  if (rows && isPrinted(*rows, columns)) families.push_back(familyOf(*rows, across, false, shrink));
-  if (columns && isPrinted(*columns, rows)) families.push_back(familyOf(*columns, down, true, shrink));
+  if (rows && isPrinted(across, *rows, columns)) families.push_back(familyOf(*rows, across, false, shrink));
+  if (columns && isPrinted(down, *columns, rows)) families.push_back(familyOf(*columns, down, true, shrink));
   return families;
 }
 

@@ -232,6 +232,12 @@ Plane statisticsPlane(const Plane& grey, int shrink, const RunContext& context) 
   return smooth(grey, gaussianKernel(std::max(0.25, remainingVariance(kEdgeVariance, shrink))), context);
 }
 
+/// How the statistics are measured on a picture.
+struct PlaneScale {
+  int shrink = 1;
+  double strength = 1.0;
+};
+
 /// The folds are taken out of the picture, and the thresholds found on what is left.
 void thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds, int shrink, double strength,
                            RegionThresholds& out, const RunContext& context) {
@@ -244,6 +250,22 @@ void thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds,
     out.note = folds.size() == 1 ? "A fold or shadow edge across the page was removed."
                                  : "Folds or shadow edges across the page were removed.";
   out.paper.folds = std::move(folds);
+}
+
+/// With what was taken for folds taken out, unless that was ink: a wall that is drawn right across the page steps like
+/// a shadow. Paper on both sides of a fold is one paper once the fold is out, and lines stay darker than it; where they
+/// turn out brighter, the dark side was drawn, and stays as it is.
+void thresholdsByFolds(const GreyImage& image, const Plane& grey, const PageEdges& edges, std::vector<PaperFold> folds,
+                       const PlaneScale& scale, RegionThresholds& out, const RunContext& context) {
+  if (!folds.empty()) {
+    thresholdsBesideFolds(image, std::move(folds), scale.shrink, scale.strength, out, context);
+    if (context.isCancelled() || out.foundLine || out.note != kBrighterLines) return;
+    RegionThresholds kept;
+    flattenedThresholds(grey, edges, scale.shrink, scale.strength, kept, context);
+    if (kept.foundLine) out = std::move(kept);
+    return;
+  }
+  flattenedThresholds(grey, edges, scale.shrink, scale.strength, out, context);
 }
 
 /// Puts the user's own values where set, and the acting contrast everywhere.
@@ -317,11 +339,7 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
       std::vector<PaperFold> folds;
       if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);
       if (context.isCancelled()) return cancelled();
-      if (folds.empty()) {
-        flattenedThresholds(grey, edges, shrink, params.strength, out, context);
-      } else {
-        thresholdsBesideFolds(image, std::move(folds), shrink, params.strength, out, context);
-      }
+      thresholdsByFolds(image, grey, edges, std::move(folds), {shrink, params.strength}, out, context);
       if (!out.foundLine) thresholdsWithoutPaper(image, smoothed, params.strength, out, context);
     } else {
       out.smoothingPx = kSmoothings.front();
@@ -334,6 +352,8 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the thresholds; scan at a lower resolution or crop.");
   } catch (const cv::Exception& exception) {
+    if (exception.code == cv::Error::StsNoMem)
+      return fail(ErrorCode::OutOfMemory, "Not enough memory for the thresholds; scan at a lower resolution or crop.");
     return fail(ErrorCode::Numerical, "The paper could not be measured; turn off Flatten paper.", exception.what());
   }
 }

@@ -92,6 +92,26 @@ std::optional<Error> validateNumbers(const CurveNumbers& numbers) {
   return std::nullopt;
 }
 
+/// No drawing has so many, and what a file may ask of the memory stays in proportion.
+std::optional<Error> validateCounts(const Recipe& recipe) {
+  constexpr std::size_t kMostEntries = 100'000;
+  for (const auto& [count, what] : {std::pair{recipe.cornerMarks.size(), "corner marks"},
+                                    {recipe.refusedCornersPx.size(), "excluded corners"},
+                                    {recipe.segmentPoints.size(), "segment points"},
+                                    {recipe.choices.size(), "choices for curves"},
+                                    {recipe.extremumChoices.size(), "choices for curvature extrema"},
+                                    {recipe.edges.choices.size(), "trace mode choices"},
+                                    {recipe.regions.size(), "regions"},
+                                    {recipe.directions.size(), "directions of curves"},
+                                    {recipe.starts.size(), "starts of curves"},
+                                    {recipe.penStrokes.size(), "pen strokes"}}) {
+    if (count > kMostEntries)
+      return bad("It holds " + std::to_string(count) + " " + what + "; at most " + std::to_string(kMostEntries) +
+                 " can be used.");
+  }
+  return std::nullopt;
+}
+
 constexpr double kFarthestPageMm = 1e5;
 
 bool isPageSide(int px) { return px >= 16 && px <= 20000; }
@@ -127,6 +147,7 @@ std::optional<Error> validate(const Recipe& recipe) {
     return bad("The resolution must be between 1 and 100000 dpi.");
   }
   if (auto e = validate(recipe.scanPage)) return e;
+  if (auto e = validateCounts(recipe)) return e;
   if (auto e = validatePlaces(recipe)) return e;
   if (recipe.scaleLine && !resolutionOf(*recipe.scaleLine)) {
     return bad("The line by which the scale is measured must have a length on the page and one in mm above 0.");

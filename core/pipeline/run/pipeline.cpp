@@ -91,8 +91,10 @@ class PipelineRun {
       case StageId::Thresholds:
         return thresholds();
       case StageId::Binary:
-        return step(stage, out_.binary,
-                    [&] { return binarize(grey(), *out_.thresholds, recipe_.threshold, context_); });
+        return step(stage, out_.binary, [&]() -> Result<BitImage> {
+          if (isBlank(scan_)) return BitImage(scan_.grey.width, scan_.grey.height);
+          return binarize(grey(), *out_.thresholds, recipe_.threshold, context_);
+        });
       case StageId::Filtered:
         return step(stage, out_.filtered, [&] { return neighbourhoodFilter(*out_.binary, recipe_.filter, context_); });
       case StageId::Edges:
@@ -117,6 +119,14 @@ class PipelineRun {
 
   const GreyImage& grey() const { return tracedGrey(scan_, out_); }
 
+  /// What the thresholds are measured on: of an empty page a part, which is as white as the whole.
+  const GreyImage& thresholdGrey() {
+    constexpr int kPartPx = 512;
+    if (!isBlank(scan_) || std::max(scan_.grey.width, scan_.grey.height) <= kPartPx) return grey();
+    part_ = GreyImage::uniform(std::min(scan_.grey.width, kPartPx), std::min(scan_.grey.height, kPartPx), 0xffff);
+    return part_;
+  }
+
   Result<PieceSet> pieces() {
     std::vector<Corner> certain;
     if (recipe_.corners.automatic) {
@@ -136,8 +146,9 @@ class PipelineRun {
       return isBlank(scan_) ? PreparedPage{} : preparePage(scan_, recipe_.preparation, context_);
     });
     if (!isPrepared) return false;
-    const bool isDone = step(StageId::Thresholds, out_.thresholds,
-                             [&] { return findThresholds(grey(), recipe_.paper, recipe_.threshold, context_); });
+    const bool isDone = step(StageId::Thresholds, out_.thresholds, [&] {
+      return findThresholds(thresholdGrey(), recipe_.paper, recipe_.threshold, context_);
+    });
     begin_ = begin;
     takeTime(StageId::Thresholds);
     return isDone;
@@ -168,6 +179,7 @@ class PipelineRun {
 
   /// The lines of the page, or of the parts of it that the user wants.
   Result<ContourSet> traceRegions() {
+    if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty.");
     const GreyImage& grey = flattenedScan();
     if (context_.isCancelled()) return cancelled();
     const auto trace = [&](const BitImage& ink) {
@@ -283,6 +295,7 @@ class PipelineRun {
   StageKeys keys_;
   PipelineOutput out_;
   std::optional<GreyImage> even_;
+  GreyImage part_;
 };
 
 }  // namespace

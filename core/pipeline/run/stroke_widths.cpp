@@ -20,11 +20,11 @@ constexpr double kCornerWidths = 1.0;
 /// Follows the points of a line along a curve through samples of it.
 class CurveWalk {
  public:
-  CurveWalk(const NurbsCurve& curve, bool closed, double pixelMm) : closed_(closed) {
+  CurveWalk(const NurbsCurve& curve, bool closed, double pixelMm, CancelCheck check) : closed_(closed) {
     const double length = ArcLength(curve).total();
     const int count = std::max(3, static_cast<int>(std::ceil(kSamplesPerPx * length / pixelMm)) + 1);
-    samples_ = sampleByArcLength(curve, count);
-    length_ = samples_.back().s;
+    samples_ = sampleByArcLength(curve, count, check);
+    length_ = samples_.empty() ? 0.0 : samples_.back().s;
   }
   double length() const { return length_; }
   double step() const { return length_ / static_cast<double>(last()); }
@@ -125,6 +125,10 @@ class StrokeWidths::OfLine {
     std::vector<float> widths = strokeWidthsOf(line.points);
     usualPx_ = upperMedian(widths);
     anyRefined_ = std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return p.refined; });
+    isBridge_.assign(line.points.size(), 0);
+    const int last = static_cast<int>(line.points.size()) - 1;
+    for (const auto& [from, to] : line.bridges)
+      for (int i = std::max(0, from); i <= std::min(last, to); ++i) isBridge_[i] = 1;
   }
   std::optional<double> usual() const { return usualPx_ > 0.0 ? std::optional(usualPx_) : std::nullopt; }
   /// @param index of a point of the line, as its piece counts on from its first one.
@@ -132,9 +136,7 @@ class StrokeWidths::OfLine {
     const int i = wrapIndex(index, static_cast<int>(line_.points.size()));
     const ContourPoint& point = line_.points[i];
     if (!point.widthPx || !std::isfinite(*point.widthPx)) return std::nullopt;
-    if (std::any_of(line_.bridges.begin(), line_.bridges.end(),
-                    [&](const auto& bridge) { return i >= bridge.first && i <= bridge.second; }))
-      return std::nullopt;
+    if (isBridge_[i] != 0) return std::nullopt;
     const double near = kCornerWidths * usualPx_;
     if ((piece.startIsCorner && toStartPx < near) || (piece.endIsCorner && toEndPx < near)) return std::nullopt;
     if (!anyRefined_) return *point.widthPx;  // pencil has no edges to measure between
@@ -145,11 +147,13 @@ class StrokeWidths::OfLine {
  private:
   const Contour& line_;
   ThinPlaces thin_;
+  std::vector<char> isBridge_;  ///< By point.
   double usualPx_ = 0.0;
   bool anyRefined_ = false;
 };
 
-StrokeWidths::StrokeWidths(const PipelineOutput& output, const Scan& scan) : output_(output), scan_(scan) {}
+StrokeWidths::StrokeWidths(const PipelineOutput& output, const Scan& scan, CancelCheck check)
+    : output_(output), scan_(scan), check_(check) {}
 StrokeWidths::~StrokeWidths() = default;
 
 const StrokeWidths::OfLine* StrokeWidths::ofLine(int contour) {
@@ -168,8 +172,8 @@ std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const 
   const OfLine* widths = ofLine(piece.contour);
   if (widths == nullptr) return std::nullopt;
   const double pixel = output_.frame.mmPerPx;
-  const CurveWalk walk(shape, curve.closed, pixel);
-  if (!(walk.length() > 0.0)) return std::nullopt;
+  const CurveWalk walk(shape, curve.closed, pixel, check_);
+  if (check_.isCancelled() || !(walk.length() > 0.0)) return std::nullopt;
   const std::vector<double> along = cumulativeLength(positionsOf(piece.points));
   const double whole = along.back() + (piece.closed ? (piece.points.front().at - piece.points.back().at).norm() : 0.0);
   if (!(whole > 0.0)) return std::nullopt;
@@ -178,6 +182,7 @@ std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const 
   std::vector<WidthSample> measured;
   std::ptrdiff_t at = curve.closed ? walk.nearest(output_.frame.pointToModel(piece.points[0].at)) : 0;
   for (int i = 0; i < std::ssize(piece.points); ++i) {
+    if (check_.isCancelled()) return std::nullopt;
     const double gone = i > 0 ? along[i] - along[i - 1] : 0.0;
     at = walk.near(at + std::lround(gone * samplesPerPx), output_.frame.pointToModel(piece.points[i].at));
     if (const auto px = widths->widthAt(piece, piece.firstPoint + i, along[i], whole - along[i]))
@@ -189,8 +194,8 @@ std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const 
 }
 
 std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput& output, const Scan& scan, const TracedCurve& curve,
-                                              const NurbsCurve& shape) {
-  return StrokeWidths(output, scan).along(curve, shape);
+                                              const NurbsCurve& shape, CancelCheck check) {
+  return StrokeWidths(output, scan, check).along(curve, shape);
 }
 
 }  // namespace batten

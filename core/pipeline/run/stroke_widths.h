@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/base/cancel_check.h"
 #include "core/curve/width_profile.h"
 #include "core/pipeline/run/pipeline.h"
 
@@ -13,8 +14,8 @@ namespace batten {
 /// The widths of the strokes of an output. What is of a whole line is measured once for all curves on it.
 class StrokeWidths {
  public:
-  /// Both must outlive it.
-  StrokeWidths(const PipelineOutput&, const Scan&);
+  /// All must outlive it.
+  StrokeWidths(const PipelineOutput&, const Scan&, CancelCheck = {});
   ~StrokeWidths();
   StrokeWidths(const StrokeWidths&) = delete;
   StrokeWidths& operator=(const StrokeWidths&) = delete;
@@ -29,6 +30,7 @@ class StrokeWidths {
 
   const PipelineOutput& output_;
   const Scan& scan_;
+  CancelCheck check_;
   std::map<int, std::unique_ptr<OfLine>> lines_;  ///< By contour.
 };
 
@@ -36,6 +38,6 @@ class StrokeWidths {
 /// points of its line and, where the stroke is too thin for its edges to be told apart, from the darkness of its ink.
 /// Absent for lines without widths: outlines, pen strokes, imported ones.
 std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput&, const Scan&, const TracedCurve&,
-                                              const NurbsCurve& shape);
+                                              const NurbsCurve& shape, CancelCheck = {});
 
 }  // namespace batten

@@ -11,14 +11,25 @@ namespace {
 
 /// A line that winds over a square as a boustrophedon, with some places twice.
 std::vector<CurvePlace> windingPlaces(int count, std::mt19937& random) {
-  std::uniform_real_distribution<double> reach(0.0, 2.0);
+  std::uniform_real_distribution<double> bulge(0.0, 2.0);
   std::vector<CurvePlace> places;
   for (int i = 0; i < count; ++i) {
     const int row = i / 50, column = row % 2 == 0 ? i % 50 : 49 - i % 50;
-    places.push_back({Vec2(column, row), reach(random)});
+    places.push_back({Vec2(column, row), bulge(random)});
     if (i % 17 == 0) places.push_back(places.back());
   }
   return places;
+}
+
+double toSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const double length = (b - a).squaredNorm();
+  const double share = length > 0.0 ? std::min(1.0, std::max(0.0, (p - a).dot(b - a) / length)) : 0.0;
+  return (p - a - share * (b - a)).norm();
+}
+
+double toChords(const std::vector<CurvePlace>& places, std::size_t i, const Vec2& p) {
+  const Vec2 before = places[i > 0 ? i - 1 : i].point, behind = places[std::min(i + 1, places.size() - 1)].point;
+  return std::min(toSegment(p, before, places[i].point), toSegment(p, places[i].point, behind));
 }
 
 TEST(SampleTree, AnswersAsASearchThroughAll) {
@@ -38,7 +49,7 @@ TEST(SampleTree, AnswersAsASearchThroughAll) {
       double bound = 3.0;
       std::vector<std::size_t> expected, found;
       for (std::size_t i = 0; i < places.size(); ++i) {
-        if ((places[i].point - p).norm() - places[i].reach > bound) continue;
+        if (toChords(places, i, p) - places[i].bulge > bound) continue;
         expected.push_back(i);
         bound *= 0.9;
       }

@@ -112,6 +112,19 @@ TEST(StrokeWidths, FollowTheWidthThatWasDrawn) {
   }
 }
 
+TEST(StrokeWidths, EndWhenTheRunIsCancelled) {
+  const TracedPage page = traced(test::widthStrokes(), test::cleanPage(), {});
+  ASSERT_FALSE(page.output.faired->curves.empty());
+  const TracedCurve& curve = page.output.faired->curves.front();
+  RunContext context;
+  EXPECT_TRUE(strokeWidthsAlong(page.output, page.scan, curve, curve.sketched, context));
+  context.cancel.cancel();
+  EXPECT_FALSE(strokeWidthsAlong(page.output, page.scan, curve, curve.sketched, context));
+  EXPECT_TRUE(
+      exportDocument(page.output, page.recipe, page.scan, ExportedCurves::Faired, ExportedWidths::Measured, context)
+          .curves.empty());
+}
+
 TEST(StrokeWidths, StayWithTheCurveHoweverItIsMade) {
   Recipe faired;
   faired.fairing.mode = FairingMode::Tolerance;

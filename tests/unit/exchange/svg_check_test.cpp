@@ -80,6 +80,21 @@ TEST(SvgCheck, FindsABridgeOverAGapAndAPathClosedOtherwise) {
   EXPECT_FALSE(checkSvg(replaced(text, "\"/>\n  </g>", " Z\"/>\n  </g>"), document));
 }
 
+TEST(SvgCheck, AHookAtTheEndOfAPieceBelongsToIt) {
+  // Smaller than a thousandth of the piece, whose end is where the hook ends.
+  const NurbsCurve hooked =
+      test::made(3, {0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2},
+                 {{5, 50}, {30, 60}, {60, 40}, {90, 50}, {90.06, 50.04}, {90.06, 50.06}, {90, 50.05}});
+  const NurbsCurve next = test::made(3, {0, 0, 0, 0, 1, 1, 1, 1}, {{90, 50.05}, {80, 60}, {60, 90}, {50, 95}});
+  ExportDocument document = test::exportOfAllKinds();
+  document.curves = {{"hooked", false, {{hooked}, {next}}}};
+  const auto svg = writeSvg(document, {});
+  ASSERT_TRUE(svg);
+  const auto check = checkSvg(svg->text, document);
+  ASSERT_TRUE(check) << check.error().message;
+  EXPECT_LE(check->largestErrorMm, 1.02 * svg->largestErrorMm + 1e-7);
+}
+
 TEST(SvgCheck, MeasuresAPathThatLeavesItsCurve) {
   const ExportDocument document = test::exportOfAllKinds();
   const std::string text = writeSvg(document, {}).value().text;

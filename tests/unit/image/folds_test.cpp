@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "core/image/binarize.h"
 #include "tests/support/angles.h"
@@ -187,6 +190,51 @@ TEST(Folds, DrawnByAProgramHatchingIsNoneEither) {
   for (const auto& [column, grey] : {std::pair(17, 190), {18, 20}, {19, 20}, {20, 20}, {21, 20}, {22, 20}, {23, 186}})
     upright[column] = grey;
   EXPECT_EQ(foldsOf(upright, 0), 0u) << "coarse, upright";
+}
+
+/// The walls of a maze without loops at the left of a page, one cell of the plan a square of 6 px.
+GreyImage mazePage(unsigned seed) {
+  constexpr int kCells = 32, kSide = 2 * kCells + 1, kSquarePx = 6;
+  std::vector<char> open(kSide * kSide, 0);
+  std::mt19937 random(seed);
+  std::vector<std::pair<int, int>> way{{1, 1}};
+  open[kSide + 1] = 1;
+  while (!way.empty()) {
+    const auto [x, y] = way.back();
+    std::vector<std::pair<int, int>> next;
+    for (const auto& [dx, dy] : {std::pair(2, 0), {-2, 0}, {0, 2}, {0, -2}}) {
+      const int u = x + dx, v = y + dy;
+      if (u > 0 && v > 0 && u < kSide && v < kSide && open[v * kSide + u] == 0) next.emplace_back(dx, dy);
+    }
+    if (next.empty()) {
+      way.pop_back();
+      continue;
+    }
+    const auto [dx, dy] = next[random() % next.size()];
+    open[(y + dy / 2) * kSide + x + dx / 2] = open[(y + dy) * kSide + x + dx] = 1;
+    way.emplace_back(x + dx, y + dy);
+  }
+  GreyImage page(600, 400, 235 * 257);
+  for (int y = 0; y < kSide * kSquarePx; ++y)
+    for (int x = 0; x < kSide * kSquarePx; ++x)
+      if (open[y / kSquarePx * kSide + x / kSquarePx] == 0) page.row(y)[x] = 20 * 257;
+  return page;
+}
+
+TEST(Folds, AWallRightAcrossThePageIsInk) {
+  for (const unsigned seed : {0u, 1u, 8u, 11u}) {
+    const GreyImage page = mazePage(seed);
+    const Traced traced = traceOn(page);
+    ASSERT_TRUE(traced.thresholds.foundLine) << seed << ": " << traced.thresholds.note;
+    int wrong = 0, dark = 0;
+    for (int y = 0; y < page.height; ++y) {
+      for (int x = 0; x < page.width; ++x) {
+        dark += page.row(y)[x] < 32768 ? 1 : 0;
+        wrong += traced.ink.at(x, y) != (page.row(y)[x] < 32768) ? 1 : 0;
+      }
+    }
+    EXPECT_LT(wrong, dark / 20) << seed << ": but for rounded corners";
+  }
 }
 
 TEST(Folds, RowsAndPlacesAgree) {

@@ -225,6 +225,23 @@ TEST(Rulings, DrawingsHaveNone) {
   }
 }
 
+TEST(Rulings, TeethOfACombAreNone) {
+  for (const int spacing : {5, 10, 25}) {
+    GreyImage comb(600, 400, 235 * 257);
+    for (int y = 10; y < 390; ++y) {
+      for (int x = 5; x < 595; ++x)
+        if ((x - 5) % spacing < 2 || (y >= 200 && y < 203)) comb.row(y)[x] = 20 * 257;
+    }
+    EXPECT_TRUE(findRulings(comb, {}).empty()) << spacing;
+    // Without what joins them, and with a line across that runs to the border, the lines are ruled.
+    for (int y = 0; y < 400; ++y) {
+      for (int x = 0; x < 600; ++x)
+        comb.row(y)[x] = (x - 5) % spacing < 2 || (y >= 200 && y < 203) ? 20 * 257 : 235 * 257;
+    }
+    EXPECT_FALSE(findRulings(comb, {}).empty()) << spacing << ", from border to border";
+  }
+}
+
 TEST(Rulings, AreKeptWhenAsked) {
   const Scan scan = paperWith({{ruling({}), light(0.8)}, {drawing(), kPen}});
   PreparationParams params;

@@ -6,15 +6,17 @@
 
 namespace batten {
 
-ExportDocument documentOf(const ExportRequest& request, const ExportSettings& settings) {
-  const ExportDocument whole = exportDocument(request.output, request.recipe, *request.scan, request.which,
-                                              holdsWidths(settings) ? ExportedWidths::Measured : ExportedWidths::None);
+ExportDocument documentOf(const ExportRequest& request, const ExportSettings& settings, CancelCheck check) {
+  const auto widths = holdsWidths(settings) ? ExportedWidths::Measured : ExportedWidths::None;
+  const ExportDocument whole =
+      exportDocument(request.output, request.recipe, *request.scan, request.which, widths, check);
   return request.numbers ? onlyCurves(whole, *request.numbers) : whole;
 }
 
 Result<ExportReport> runExport(const ExportRequest& request, const RunContext& context) {
   try {
-    const ExportDocument document = documentOf(request, request.settings);
+    const ExportDocument document = documentOf(request, request.settings, context);
+    if (context.isCancelled()) return cancelled();
     if (document.curves.empty())
       return fail(ErrorCode::NoCurve, "There is no curve to export. Include at least one curve (the eye in the list).");
     return exportToFile(document, request.settings, request.path, context);

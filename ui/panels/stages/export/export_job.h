@@ -27,7 +27,7 @@ struct ExportRequest {
 };
 
 /// What is to be written: the curves of the request as the drawing has them.
-ExportDocument documentOf(const ExportRequest&, const ExportSettings&);
+ExportDocument documentOf(const ExportRequest&, const ExportSettings&, CancelCheck = {});
 
 /// Builds the document and writes it, checked. Pure but for the file.
 Result<ExportReport> runExport(const ExportRequest&, const RunContext&);

@@ -42,7 +42,7 @@ PreviewCurve shapeOf(const std::vector<ExportPiece>& pieces, const ExportCurve& 
 }  // namespace
 
 Result<PreviewContent> previewOf(const ExportRequest& request, const RunContext& context) {
-  const auto made = arranged(documentOf(request, request.settings), isJoined(request.settings), context);
+  const auto made = arranged(documentOf(request, request.settings, context), isJoined(request.settings), context);
   if (!made) return fail(made.error());
   const ExportDocument document = scaled(made->document, request.settings.scale);
   PreviewContent content;

@@ -35,7 +35,8 @@ Result<ExportedFile> svgOf(const ExportRequest& request, std::optional<int> numb
     settings.scale = request.settings.scale;
     settings.joined = request.settings.joined;
     settings.svgUnitsPerMm = kPixelsPerMm;
-    ExportDocument document = documentOf(request, settings);
+    ExportDocument document = documentOf(request, settings, context);
+    if (context.isCancelled()) return cancelled();
     if (number) {
       auto one = chosenCurves(document, std::to_string(*number));
       if (!one) return fail(one.error());
