@@ -8,6 +8,8 @@
 #include "core/base/statistics.h"
 #include "core/contour/centreline/junction_pairing.h"
 #include "core/contour/centreline/skeleton_graph.h"
+#include "core/contour/centreline/skeleton_junctions.h"
+#include "core/contour/centreline/skeleton_spurs.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -179,8 +181,8 @@ std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage
                                         const RunContext& context) {
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
-  graph.pruneSpurs(params.spurFactor);
-  graph.mergeJunctions(params.mergeWidths > 0.0 && !params.intent);
+  pruneSpurs(graph, params.spurFactor);
+  mergeJunctions(graph, params.mergeWidths > 0.0 && !params.intent);
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params.maxBendDeg).make();
 }
