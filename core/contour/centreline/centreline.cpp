@@ -228,7 +228,8 @@ void askHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
 // The curves that were meant, in place of the lines, where the page shows lines drawn over more than once.
 void groupByIntent(ContourSet& set, const EdgeParams& params, double width, double minWidths,
                    const RunContext& context) {
-  auto meant = intendedLines(set.contours, width, params.mergeWidths, context);
+  const std::optional<double> given = params.mergeWidths > 0.0 ? std::optional(params.mergeWidths) : std::nullopt;
+  auto meant = intendedLines(set.contours, width, given, context);
   if (!meant) return;
   set.contours = std::move(*meant);
   set.report.isGrouped = true;

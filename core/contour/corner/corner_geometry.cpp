@@ -198,7 +198,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     at = nearest.index;
     zone = wanted;
   }
-  if (grey != nullptr && contour.blurPx > 0.0) return askPixels(*grey, contour.blurPx, *sides, result);
+  if (grey != nullptr && contour.blurPx) return askPixels(*grey, *contour.blurPx, *sides, result);
   return result;
 }
 

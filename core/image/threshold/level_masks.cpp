@@ -249,13 +249,13 @@ class BlockOfRows {
         packWords(flags_.data(), words, mask.row(y) + firstWord);
       };
       pack(contrastRow_, c_.masks.ink);
-      if (c_.masks.faint.width > 0) {
+      if (c_.masks.faint) {
         weakenRow(contrastRow_.data(), c_.faint.reach, c_.faint.limit, levelRow_.data(), at.count());
-        pack(levelRow_, c_.masks.faint);
+        pack(levelRow_, *c_.masks.faint);
       }
-      if (c_.masks.certain.width > 0) {
+      if (c_.masks.certain) {
         c_.certain.fillRow(y, at.x0, at.x1, levelRow_.data());
-        pack(levelRow_, c_.masks.certain);
+        pack(levelRow_, *c_.masks.certain);
       }
     }
   }
@@ -295,7 +295,9 @@ LevelMasks compareWithLevels(const GreyImage& image, const RegionThresholds& t, 
                              const RunContext& context) {
   const bool wantFaint = params.reach < 1.0, wantCertain = wantFaint || params.speckArea > 0;
   const BitImage blank(image.width, image.height);
-  LevelMasks masks{blank, wantCertain ? blank : BitImage(), wantFaint ? blank : BitImage()};
+  LevelMasks masks{blank, std::nullopt, std::nullopt};
+  if (wantCertain) masks.certain = blank;
+  if (wantFaint) masks.faint = blank;
   const double variance = params.smooth ? t.smoothingPx * t.smoothingPx : 0.0;
   const Comparison comparison{
       image,
