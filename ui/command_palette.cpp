@@ -96,14 +96,14 @@ void CommandPalette::open(const QList<QAction*>& actions) {
 }
 
 int CommandPalette::score(const QString& letters, const QString& text) {
-  int points = 1, at = -1;
+  int points = 1, from = 0;
   for (const QChar letter : letters) {
     if (letter.isSpace()) continue;
-    const auto next = static_cast<int>(text.indexOf(letter, at + 1, Qt::CaseInsensitive));
+    const auto next = static_cast<int>(text.indexOf(letter, from, Qt::CaseInsensitive));
     if (next < 0) return 0;
     const bool wordStart = next == 0 || !text.at(next - 1).isLetterOrNumber();
-    points += wordStart ? 8 : next == at + 1 ? 4 : 1;
-    at = next;
+    points += wordStart ? 8 : next == from ? 4 : 1;
+    from = next + 1;
   }
   return points;
 }

@@ -92,6 +92,97 @@ void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
       ->type_name("N");
 }
 
+// The files that are written, and those that are read besides the scan.
+void addFiles(CLI::App& trace, TraceArguments& a) {
+  addRepeated(trace, "-o,--output", a.outputs, "OUT",
+              "Write the curves; the file extension selects the format (" + allEndings() +
+                  "); .report.pdf and .report.html write a printable report; an existing file is replaced; "
+                  "may be repeated");
+  addRepeated(trace, "--import", a.imports, "FILE",
+              "Import lines from a file of curves or points (" + importEndings() + "); may be repeated");
+  trace
+      .add_option("--import-unit", a.importUnit,
+                  "Unit of the imported coordinates, overriding the files: mm, cm, m or in")
+      ->type_name("mm|cm|m|in");
+}
+
+// How the curves are written.
+void addFormatOptions(CLI::App& trace, TraceArguments& a) {
+  trace.add_option("--preset", a.preset, "Format options for a receiving program: " + presetNames())
+      ->type_name(presetWords());
+  trace.add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("a4|letter");
+  trace.add_option("--unit", a.unit, "Unit of DXF, IGES, STEP, 3DM and CSV: mm or in")->type_name("mm|in");
+  trace
+      .add_option_function<std::string>(
+          "--scale", [&a](const std::string& text) { a.scale = text; },
+          "Scale factor of the curves, above 0, up to 1000000")
+      ->type_name("N");
+  trace
+      .add_option_function<std::string>(
+          "--tolerance", [&a](const std::string& text) { a.tolerance = text; },
+          "Maximum deviation of approximated curves from the exact ones, from 0.000001 mm")
+      ->type_name("MM");
+  trace
+      .add_option_function<std::string>(
+          "--curves", [&a](const std::string& list) { a.curves = list; },
+          "Write only these curves, by their numbers in the report: 1,3-5")
+      ->type_name("LIST");
+  trace.add_option("--which", a.which, "Which curves to write: faired, sketched or both")
+      ->type_name("faired|sketched|both");
+  trace.add_flag("--joined", a.joined, "DXF, IGES, STEP, 3DM: join consecutive curves, as the other formats do");
+  trace.add_flag("--apart", a.apart,
+                 "SVG, PDF, JSON, CSV, DXF for cnc: write every curve separately, as the other formats do");
+  trace.add_flag("--splines-only", a.splinesOnly,
+                 "DXF, IGES, STEP, 3DM: write lines, arcs and circles as splines of their own degree");
+  trace
+      .add_option("--flavour", a.flavour,
+                  "IGES, STEP, 3DM: exact curves (exact), one Bézier curve per polynomial piece (bezier), or "
+                  "degree 3 within the tolerance (cubic)")
+      ->type_name("exact|bezier|cubic");
+  trace.add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
+  trace.add_flag("--width-outline", a.widthOutline,
+                 "SVG: write strokes also as filled outlines of their width, in a layer below the curves");
+}
+
+// Marks and directions on the drawing, and its size.
+void addMarks(CLI::App& trace, TraceArguments& a) {
+  addRepeated(trace, "--corner", a.corners, "X,Y[,MM|,rMM][,gN]",
+              "Corner near this point, px from the upper left; MM rounds it from that distance on, rMM "
+              "to that minimum radius; g1, g2 or g3: continuity of the rounding; may be repeated");
+  addRepeated(trace, "--segment-point", a.segmentPoints, "X,Y",
+              "Make typical curves meet near this point, px from the upper left; may be repeated");
+  trace
+      .add_option_function<std::string>(
+          "--dpi", [&a](const std::string& text) { a.dpi = text; },
+          "Resolution of the scan, 1 to 100000, overriding the file; for a PDF the rendering "
+          "resolution, 20 to 4800 (300)")
+      ->type_name("N");
+  trace
+      .add_option_function<std::string>(
+          "--known-length", [&a](const std::string& text) { a.knownLength = text; },
+          "Resolution from two points, px from the upper left, and their true distance: 100mm, "
+          "10cm or 4in")
+      ->type_name("X,Y,X,Y,LENGTH");
+  addRepeated(trace, "--direction", a.directions, "X,Y,X,Y",
+              "Direct the curve near the first point towards the second, px; may be repeated");
+  addRepeated(trace, "--start", a.starts, "X,Y", "Start the closed curve near this point there, px; may be repeated");
+}
+
+void addReports(CLI::App& trace, TraceArguments& a) {
+  trace.add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
+  trace.add_flag("--report-targets", a.reportTargets,
+                 "Add the result of each of the six targets for every curve to the report; much slower");
+  trace.add_flag("--report-series", a.reportSeries,
+                 "Add knots, polynomial coefficients, and radius, curvature and curvature slope along "
+                 "every curve to the report");
+  trace.add_flag("--explain", a.explain,
+                 "Print and report the share of the ink that the curves explain and the share of their "
+                 "length without ink; computed after writing");
+  addRepeated(trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
+  trace.add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
+      ->type_name("R.json");
+}
+
 void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
   trace->footer(
@@ -104,82 +195,10 @@ void addTrace(CLI::App& app, TraceArguments& a) {
               "Page of a TIFF or PDF, 1 to 100000; all: every page, with -p1, -p2 … appended to the output "
               "names",
               "N|all"});
-  addRepeated(*trace, "-o,--output", a.outputs, "OUT",
-              "Write the curves; the file extension selects the format (" + allEndings() +
-                  "); .report.pdf and .report.html write a printable report; an existing file is replaced; "
-                  "may be repeated");
-  addRepeated(*trace, "--import", a.imports, "FILE",
-              "Import lines from a file of curves or points (" + importEndings() + "); may be repeated");
-  trace
-      ->add_option("--import-unit", a.importUnit,
-                   "Unit of the imported coordinates, overriding the files: mm, cm, m or in")
-      ->type_name("mm|cm|m|in");
-  trace->add_option("--preset", a.preset, "Format options for a receiving program: " + presetNames())
-      ->type_name(presetWords());
-  trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("a4|letter");
-  trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP, 3DM and CSV: mm or in")->type_name("mm|in");
-  trace
-      ->add_option_function<std::string>(
-          "--scale", [&a](const std::string& text) { a.scale = text; },
-          "Scale factor of the curves, above 0, up to 1000000")
-      ->type_name("N");
-  trace
-      ->add_option_function<std::string>(
-          "--tolerance", [&a](const std::string& text) { a.tolerance = text; },
-          "Maximum deviation of approximated curves from the exact ones, from 0.000001 mm")
-      ->type_name("MM");
-  trace
-      ->add_option_function<std::string>(
-          "--curves", [&a](const std::string& list) { a.curves = list; },
-          "Write only these curves, by their numbers in the report: 1,3-5")
-      ->type_name("LIST");
-  trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")
-      ->type_name("faired|sketched|both");
-  trace->add_flag("--joined", a.joined, "DXF, IGES, STEP, 3DM: join consecutive curves, as the other formats do");
-  trace->add_flag("--apart", a.apart,
-                  "SVG, PDF, JSON, CSV, DXF for cnc: write every curve separately, as the other formats do");
-  trace->add_flag("--splines-only", a.splinesOnly,
-                  "DXF, IGES, STEP, 3DM: write lines, arcs and circles as splines of their own degree");
-  trace
-      ->add_option("--flavour", a.flavour,
-                   "IGES, STEP, 3DM: exact curves (exact), one Bézier curve per polynomial piece (bezier), or "
-                   "degree 3 within the tolerance (cubic)")
-      ->type_name("exact|bezier|cubic");
-  trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
-  trace->add_flag("--width-outline", a.widthOutline,
-                  "SVG: write strokes also as filled outlines of their width, in a layer below the curves");
-  addRepeated(*trace, "--corner", a.corners, "X,Y[,MM|,rMM][,gN]",
-              "Corner near this point, px from the upper left; MM rounds it from that distance on, rMM "
-              "to that minimum radius; g1, g2 or g3: continuity of the rounding; may be repeated");
-  addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
-              "Make typical curves meet near this point, px from the upper left; may be repeated");
-  trace
-      ->add_option_function<std::string>(
-          "--dpi", [&a](const std::string& text) { a.dpi = text; },
-          "Resolution of the scan, 1 to 100000, overriding the file; for a PDF the rendering "
-          "resolution, 20 to 4800 (300)")
-      ->type_name("N");
-  trace
-      ->add_option_function<std::string>(
-          "--known-length", [&a](const std::string& text) { a.knownLength = text; },
-          "Resolution from two points, px from the upper left, and their true distance: 100mm, "
-          "10cm or 4in")
-      ->type_name("X,Y,X,Y,LENGTH");
-  addRepeated(*trace, "--direction", a.directions, "X,Y,X,Y",
-              "Direct the curve near the first point towards the second, px; may be repeated");
-  addRepeated(*trace, "--start", a.starts, "X,Y", "Start the closed curve near this point there, px; may be repeated");
-  trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
-  trace->add_flag("--report-targets", a.reportTargets,
-                  "Add the result of each of the six targets for every curve to the report; much slower");
-  trace->add_flag("--report-series", a.reportSeries,
-                  "Add knots, polynomial coefficients, and radius, curvature and curvature slope along "
-                  "every curve to the report");
-  trace->add_flag("--explain", a.explain,
-                  "Print and report the share of the ink that the curves explain and the share of their "
-                  "length without ink; computed after writing");
-  addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
-  trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
-      ->type_name("R.json");
+  addFiles(*trace, a);
+  addFormatOptions(*trace, a);
+  addMarks(*trace, a);
+  addReports(*trace, a);
 }
 
 CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {

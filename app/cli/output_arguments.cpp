@@ -32,7 +32,7 @@ std::string endingsFor(const ExportPreset& preset) {
 }
 
 /// The settings of an output: those of the preset if it is for this format, then what is said beside it.
-Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments& arguments) {
+Result<OutputPlan::Output> outputOf(const std::string& path, const TraceArguments& arguments) {
   const auto format = formatOf(path);
   if (!format) {
     return wrong("The output " + path + " must end in one of " + allEndings() + ", .report.pdf, .report.html.");
@@ -65,11 +65,12 @@ Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments
   if (arguments.chords) settings.arcs = false;
   settings.widthOutlines = arguments.widthOutline;
   if (auto problem = validate(settings)) return fail(std::move(*problem));
-  return TracePlan::Output{path, settings};
+  return OutputPlan::Output{path, settings};
 }
 
 /// A preset that none of the outputs is for is a mistake, as is an unknown word.
-Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
+Result<OutputPlan> planExport(const TraceArguments& arguments) {
+  OutputPlan plan;
   if (!arguments.unit.empty() && arguments.unit != "mm" && arguments.unit != "in")
     return wrong("--unit takes mm or in, not \"" + arguments.unit + "\".");
   if (arguments.which == "sketched") plan.which = ExportedCurves::Sketched;
@@ -100,11 +101,11 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
     return wrong("The preset " + arguments.preset + " is for files that end in " + endingsFor(*preset) +
                  ", and no output does. Other presets: batten-cli trace --help.");
   }
-  return {};
+  return plan;
 }
 
 /// An option that changes none of the outputs is a mistake of the user's, who would not see that it was passed over.
-Result<void> checkOptions(const TraceArguments& arguments, const TracePlan& plan) {
+Result<void> checkOptions(const TraceArguments& arguments, const OutputPlan& plan) {
   struct Given {
     const char* word;
     bool isGiven;
@@ -142,7 +143,7 @@ Result<void> checkOptions(const TraceArguments& arguments, const TracePlan& plan
   return {};
 }
 
-Result<TracePlan::Dump> dumpOf(const std::string& dump) {
+Result<OutputPlan::Dump> dumpOf(const std::string& dump) {
   const auto equals = dump.find('=');
   const std::string stage = dump.substr(0, equals);
   const std::vector<std::string> names = dumpNames();
@@ -153,11 +154,11 @@ Result<TracePlan::Dump> dumpOf(const std::string& dump) {
   }
   const std::string path = dump.substr(equals + 1);
   if (endingOf(path) != ".png") return wrong("The dump " + path + " must end in .png.");
-  return TracePlan::Dump{stage, path};
+  return OutputPlan::Dump{stage, path};
 }
 
 /// No file is written over what is read, nor twice. Only the recipe may be saved where it was.
-Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan) {
+Result<void> checkTargets(const TraceArguments& arguments, const OutputPlan& plan) {
   std::vector<fs::path> targets;
   for (const auto& output : plan.outputs) targets.push_back(output.path);
   for (const auto& report : plan.reports) targets.push_back(report.path);
@@ -189,15 +190,17 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
 
 }  // namespace
 
-Result<void> planOutputs(const TraceArguments& arguments, TracePlan& plan) {
-  if (auto planned = planExport(arguments, plan); !planned) return planned;
+Result<OutputPlan> planOutputs(const TraceArguments& arguments) {
+  auto plan = planExport(arguments);
+  if (!plan) return plan;
   for (const std::string& dump : arguments.dumps) {
     auto parsed = dumpOf(dump);
     if (!parsed) return fail(parsed.error());
-    plan.dumps.push_back(std::move(*parsed));
+    plan->dumps.push_back(std::move(*parsed));
   }
-  if (auto checked = checkTargets(arguments, plan); !checked) return checked;
-  return checkOptions(arguments, plan);
+  if (auto checked = checkTargets(arguments, *plan); !checked) return fail(checked.error());
+  if (auto checked = checkOptions(arguments, *plan); !checked) return fail(checked.error());
+  return plan;
 }
 
 std::string presetNames() {

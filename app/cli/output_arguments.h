@@ -10,7 +10,7 @@ namespace batten::cli {
 /// What is to be written, from the words: outputs, reports, dumps, preset and options.
 /// @return BadParameter with what to do: an unknown word, an option or a preset without effect on any output, an output
 ///         over an input or over another output.
-Result<void> planOutputs(const TraceArguments&, TracePlan&);
+Result<OutputPlan> planOutputs(const TraceArguments&);
 
 /// The words --preset takes, in one line.
 std::string presetNames();

@@ -8,7 +8,7 @@
 
 namespace batten::cli {
 
-Result<void> writeReportPages(const std::vector<TracePlan::ReportPages>& reports, const Scan& scan,
+Result<void> writeReportPages(const std::vector<OutputPlan::ReportPages>& reports, const Scan& scan,
                               const Recipe& recipe, const PipelineOutput& output, const RunContext& context) {
   if (reports.empty()) return {};
   // Qt lays out text only for a program with a window system; this one of Qt's own shows nothing.

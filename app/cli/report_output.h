@@ -10,7 +10,7 @@
 namespace batten::cli {
 
 /// Writes the reports to print of a finished run. Needs no display.
-Result<void> writeReportPages(const std::vector<TracePlan::ReportPages>&, const Scan&, const Recipe&,
+Result<void> writeReportPages(const std::vector<OutputPlan::ReportPages>&, const Scan&, const Recipe&,
                               const PipelineOutput&, const RunContext&);
 
 }  // namespace batten::cli

@@ -19,6 +19,7 @@
 #include "core/base/name_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "core/base/shown_text.h"
 #include "core/document/explain/explanation.h"
 #include "core/document/export_builder.h"
@@ -63,7 +64,9 @@ class Trace {
     readMilliseconds_ = millisecondsSince(begin_);
     if (!arguments_.scan.empty()) {
       const PageFrame frame = frameFor(scan_, plan_.recipe);
-      if (auto imported = importInto(arguments_, &frame, plan_); !imported) return imported;
+      auto imported = withImports(arguments_, &frame, std::move(plan_));
+      if (!imported) return fail(imported.error());
+      plan_ = std::move(*imported);
     }
 
     PipelineRequest request;
@@ -102,7 +105,7 @@ class Trace {
     json["doubtful_junctions"] = doubtfulCount(*out_.contours);
     json["milliseconds"] = withDecimals(millisecondsSince(begin_), kDecimalsOfMs);
     json["processor_milliseconds"] = withDecimals(1000.0 * processorSeconds(), kDecimalsOfMs);
-    json["peak_memory_bytes"] = peakMemoryBytes();
+    json["peak_memory_bytes"] = peakMemoryBytes().value_or(0);
     json["files"] = files_;
     json["checks"] = checks_;
     if (explanation_) json["explanation"] = explanationFigures(*explanation_);

@@ -65,7 +65,7 @@ Result<int> threadsOf(const TraceArguments& arguments) {
   return wrong("--threads takes a whole number from 0 to 1024, not \"" + *arguments.threads + "\".");
 }
 
-Result<void> importInto(const TraceArguments& arguments, const PageFrame* frame, TracePlan& plan) {
+Result<TracePlan> withImports(const TraceArguments& arguments, const PageFrame* frame, TracePlan plan) {
   std::optional<double> unit;
   if (!arguments.importUnit.empty()) {
     unit = millimetresOfUnit(arguments.importUnit);
@@ -91,7 +91,7 @@ Result<void> importInto(const TraceArguments& arguments, const PageFrame* frame,
       plan.notes.push_back("The lines of " + name + " were outside the page and have been centred on it.");
   }
   if (auto problem = validate(plan.recipe)) return fail(std::move(*problem));
-  return {};
+  return plan;
 }
 
 Result<TracePlan> planTrace(const TraceArguments& arguments) {
@@ -103,7 +103,9 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
     return wrong("--report-targets needs a report to write to: add --report REPORT.json.");
   if (arguments.reportSeries && arguments.report.empty())
     return wrong("--report-series needs a report to write to: add --report REPORT.json.");
-  if (auto planned = planOutputs(arguments, plan); !planned) return fail(planned.error());
+  auto outputs = planOutputs(arguments);
+  if (!outputs) return fail(outputs.error());
+  static_cast<OutputPlan&>(plan) = std::move(*outputs);
   if (auto checked = checkScanName(arguments); !checked) return fail(checked.error());
   auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
@@ -111,9 +113,7 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   if (const PaperPreset* paper = findPaperPreset(arguments.asIn); paper != nullptr && !paper->cost.empty())
     plan.notes.push_back("As in paper " + paper->id + ", " + paper->title + ": " + paper->cost);
   // Beside a scan they wait for its page.
-  if (arguments.scan.empty()) {
-    if (auto imported = importInto(arguments, nullptr, plan); !imported) return fail(imported.error());
-  }
+  if (arguments.scan.empty()) return withImports(arguments, nullptr, std::move(plan));
   return plan;
 }
 

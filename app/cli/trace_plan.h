@@ -14,8 +14,8 @@
 
 namespace batten::cli {
 
-/// A checked request: everything that can be wrong in the words alone has been refused before any work is done.
-struct TracePlan {
+/// What is to be written.
+struct OutputPlan {
   struct Output {
     std::filesystem::path path;
     ExportSettings settings;
@@ -29,12 +29,16 @@ struct TracePlan {
     std::string stage;
     std::filesystem::path path;
   };
-  Recipe recipe;
   std::vector<Output> outputs;
   std::vector<ReportPages> reports;
   std::string curves;  ///< Numbers of the curves to write; empty: all.
   ExportedCurves which = ExportedCurves::Faired;
   std::vector<Dump> dumps;
+};
+
+/// A checked request: everything that can be wrong in the words alone has been refused before any work is done.
+struct TracePlan : OutputPlan {
+  Recipe recipe;
   int threads = 0;                 ///< At most; 0 = all.
   std::vector<std::string> notes;  ///< What to know of what was imported.
 };
@@ -51,9 +55,9 @@ Result<int> threadsOf(const TraceArguments&);
 /// The words for one page of a file of which all pages are asked for: the names of what is written get "-p1" ….
 TraceArguments argumentsForPage(TraceArguments, int page);
 
-/// Puts the lines of --import into the recipe of the plan: on the page of a scan, or null: on a page of their own.
+/// The plan with the lines of --import in its recipe: on the page of a scan, or null: on a page of their own.
 /// @return BadParameter with what to do.
-Result<void> importInto(const TraceArguments&, const PageFrame* frame, TracePlan&);
+Result<TracePlan> withImports(const TraceArguments&, const PageFrame* frame, TracePlan);
 
 /// The recipe and what is to be written. @return BadParameter with what to do.
 Result<TracePlan> planTrace(const TraceArguments&);

@@ -15,29 +15,13 @@
 
 namespace batten {
 
-/// What only the operating system knows or does. platform.cpp does it by POSIX, platform_windows.cpp by Windows; no
-/// other file of core, ui and app calls a system by anything but standard C++ and Qt, so that another system is a
-/// matter of one file. Where a system has no answer, there is none.
-
-/// [bytes] Memory that can be taken without swapping: what the machine has free, and no more than the control group of
-/// the process (a container, a Slurm job) leaves.
-std::optional<std::uint64_t> availableMemoryBytes();
-
-/// [bytes] The most memory that this process has held at any time; 0 if unknown.
-std::uint64_t peakMemoryBytes();
-
-/// [bytes] The memory that a process holds now; 0 if unknown.
-std::uint64_t residentMemoryBytes(std::int64_t processId);
-
-/// Gives memory that was freed back to the system, where the C library would keep it: some milliseconds, for the end of
-/// work that took a lot of it.
-void returnFreeMemory();
+/// What only the operating system does, and in platform_memory.h what only it knows. platform.cpp and
+/// platform_memory.cpp do it by POSIX, platform_windows.cpp by Windows; no other file of core, ui and app calls a
+/// system by anything but standard C++ and Qt, so that another system is a matter of one file. Where a system has no
+/// answer, there is none.
 
 /// Whether there is a process of this number, whoever's it is.
 bool isProcessRunning(std::int64_t processId);
-
-/// [s] Processor time that this process has used so far, all threads together; 0 if unknown.
-double processorSeconds();
 
 /// Whether a person looks at what goes to stderr.
 bool stderrIsTerminal();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Windows side of platform.h. MinGW-w64 reads it (packaging/check windows); it has not been run on Windows by us.
+// The Windows side of platform.h and platform_memory.h. MinGW-w64 reads it (packaging/check windows); it has not been
+// run on Windows by us.
 #include "core/base/platform.h"
 
 #if defined(_WIN32)
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "core/base/loaded_module.h"
+#include "core/base/platform_memory.h"
 
 namespace batten {
 
@@ -95,17 +97,18 @@ std::optional<std::uint64_t> availableMemoryBytes() {
   return available;
 }
 
-std::uint64_t peakMemoryBytes() {
+std::optional<std::uint64_t> peakMemoryBytes() {
   PROCESS_MEMORY_COUNTERS counters{};
-  return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) != 0 ? counters.PeakWorkingSetSize : 0;
+  if (GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) == 0) return std::nullopt;
+  return counters.PeakWorkingSetSize;
 }
 
-std::uint64_t residentMemoryBytes(std::int64_t processId) {
-  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return 0;
+std::optional<std::uint64_t> residentMemoryBytes(std::int64_t processId) {
+  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return std::nullopt;
   const OpenFile process = owned(OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(processId)));
   PROCESS_MEMORY_COUNTERS counters{};
   const bool isKnown = process && GetProcessMemoryInfo(process->handle, &counters, sizeof counters) != 0;
-  return isKnown ? counters.WorkingSetSize : 0;
+  return isKnown ? std::optional<std::uint64_t>(counters.WorkingSetSize) : std::nullopt;
 }
 
 void returnFreeMemory() {}

@@ -52,7 +52,7 @@ struct Contour {
   bool closed = false;  ///< The last point is followed by the first; the first is not repeated at the end.
   bool hole = false;    ///< An inner border (outline mode with internal contours on).
   std::vector<ContourPoint> points;
-  double blurPx = 0.0;  ///< [px] standard deviation of the optical blur along an outline; 0: not measured.
+  std::optional<double> blurPx;  ///< [px] standard deviation of the optical blur along an outline, where measured.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   std::optional<EdgeChoice> traceMode;       ///< The user's choice for its ink, if there is one.
   std::vector<int> joints;                   ///< Imported: points that are corners whatever the user marks, ascending.
@@ -95,13 +95,13 @@ struct StrokeJunction {
 };
 
 struct ContourReport {
-  int found = 0;            ///< Before any was dropped.
-  int droppedShort = 0;     ///< Shorter than the smallest length.
-  int droppedHoles = 0;     ///< Inner borders, in outline mode without them.
-  int droppedMargins = 0;   ///< Lines along the border of the page: the margin of the scanner.
-  double refinedShare = 0;  ///< Part of the points that were placed on the grey values, 0..1.
-  double widthPx = 0.0;     ///< [px] Stroke width, the unit of EdgeParams::mergeWidths; 0: no strokes.
-  bool isGrouped = false;   ///< The lines are curves that were meant by lines drawn over more than once.
+  int found = 0;                  ///< Before any was dropped.
+  int droppedShort = 0;           ///< Shorter than the smallest length.
+  int droppedHoles = 0;           ///< Inner borders, in outline mode without them.
+  int droppedMargins = 0;         ///< Lines along the border of the page: the margin of the scanner.
+  double refinedShare = 0;        ///< Part of the points that were placed on the grey values, 0..1.
+  std::optional<double> widthPx;  ///< [px] Stroke width, the unit of EdgeParams::mergeWidths; absent: no strokes.
+  bool isGrouped = false;         ///< The lines are curves that were meant by lines drawn over more than once.
   std::string note;
 };
 

@@ -17,8 +17,8 @@ struct ReportExtras {
   double readMilliseconds = 0.0;                ///< Reading the scan.
   std::vector<Result<TargetOutcomes>> targets;  ///< One per faired curve; empty = not asked for.
   bool series = false;  ///< Knots, polynomials and series along every curve (curveSeriesToJson), sketched and faired.
-  std::optional<Explanation> explanation;  ///< Absent = not asked for.
-  std::uint64_t peakMemoryBytes = 0;       ///< 0 = unknown.
+  std::optional<Explanation> explanation;        ///< Absent = not asked for.
+  std::optional<std::uint64_t> peakMemoryBytes;  ///< Absent = unknown.
 };
 
 /// The report as JSON, "batten-report" version 1: image; per stage milliseconds and counts; per contour length, area,

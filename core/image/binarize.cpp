@@ -31,10 +31,10 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     BitImage ink = std::move(masks.ink);
     if (params.speckArea > 0) {
       const double diagonal = kDiagonalPerRootArea * std::sqrt(static_cast<double>(params.speckArea));
-      ink = keepPieces(ink, {.minArea = params.speckArea, .minDiagonal = diagonal, .seeds = &masks.certain}, context);
+      ink = keepPieces(ink, {.minArea = params.speckArea, .minDiagonal = diagonal, .seeds = &*masks.certain}, context);
     }
     if (context.isCancelled()) return cancelled();
-    if (params.reach < 1.0) ink = addFaintLines({ink, masks.certain, masks.faint}, context);
+    if (params.reach < 1.0) ink = addFaintLines({ink, *masks.certain, *masks.faint}, context);
     if (context.isCancelled()) return cancelled();
     if (!thresholds.holesArePaper) fillHoles(ink, params.holeArea, context);
     if (context.isCancelled()) return cancelled();

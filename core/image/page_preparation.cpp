@@ -19,10 +19,10 @@ namespace batten {
 namespace {
 
 void takeColouredInk(const Scan& scan, PreparedPage& page, const RunContext& context) {
-  ColouredInk ink = darkenColouredInk(scan.grey, scan.colour, context);
-  if (ink.pixels == 0) return;
-  page.colouredShare = static_cast<double>(ink.pixels) / static_cast<double>(scan.grey.pixels.size());
-  page.grey = std::move(ink.grey);
+  std::optional<ColouredInk> ink = darkenColouredInk(scan.grey, scan.colour, context);
+  if (!ink) return;
+  page.colouredShare = static_cast<double>(ink->pixels) / static_cast<double>(scan.grey.pixels.size());
+  page.grey = std::move(ink->grey);
 }
 
 std::string rulingNote(const std::vector<RulingFamily>& families) {
@@ -45,9 +45,7 @@ constexpr const char* kNothingButRulings =
 constexpr const char* kNoMemory = "Not enough memory to prepare the page; scan at a lower resolution or crop.";
 constexpr int kRulingRounds = 3;  // the ruling of the back may shine through beside that of the front
 
-const GreyImage& greyOf(const Scan& scan, const PreparedPage& page) {
-  return page.isUntouched() ? scan.grey : page.grey;
-}
+const GreyImage& greyOf(const Scan& scan, const PreparedPage& page) { return page.grey ? *page.grey : scan.grey; }
 
 /// Whether dark lines at even distances are all that is on the page: then they were drawn. What the eraser leaves where
 /// two of them cross, and at the border of the page, is nothing.
@@ -86,7 +84,7 @@ bool isNothingButRulings(const GreyImage& with, const GreyImage& without, const 
 }
 
 void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& context) {
-  GreyImage before;  // empty: the scan's own
+  std::optional<GreyImage> before;  // absent: the scan's own
   for (int round = 0; round < kRulingRounds; ++round) {
     const std::vector<RulingFamily> found = findRulings(greyOf(scan, page), context);
     if (context.isCancelled() || found.empty()) break;
@@ -97,7 +95,7 @@ void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& con
     page.rulings.insert(page.rulings.end(), found.begin(), found.end());
   }
   if (page.rulings.empty() || context.isCancelled()) return;
-  if (isNothingButRulings(before.width > 0 ? before : scan.grey, page.grey, page.rulings, context)) {
+  if (isNothingButRulings(before ? *before : scan.grey, *page.grey, page.rulings, context)) {
     page.grey = std::move(before);
     page.rulings.clear();
     page.notes.emplace_back(kNothingButRulings);
@@ -118,10 +116,10 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
 void takeInks(const Scan& scan, const InkChoice& choice, PreparedPage& page, const RunContext& context) {
   page.inks = findInks(scan.grey, scan.colour, context);
   if (context.isCancelled() || choice.isAll()) return;
-  DroppedInk dropped = dropInks(greyOf(scan, page), scan.grey, scan.colour, choice, context);
-  if (context.isCancelled() || dropped.pixels == 0) return;
-  page.grey = std::move(dropped.grey);
-  page.droppedShare = static_cast<double>(dropped.pixels) / static_cast<double>(scan.grey.pixels.size());
+  std::optional<DroppedInk> dropped = dropInks(greyOf(scan, page), scan.grey, scan.colour, choice, context);
+  if (context.isCancelled() || !dropped) return;
+  page.grey = std::move(dropped->grey);
+  page.droppedShare = static_cast<double>(dropped->pixels) / static_cast<double>(scan.grey.pixels.size());
 }
 
 }  // namespace

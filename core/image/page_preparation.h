@@ -44,14 +44,14 @@ struct PreparationParams {
 
 /// The page as it is traced.
 struct PreparedPage {
-  GreyImage grey;                     ///< Of the scan's size; empty: the scan's own grey, untouched.
+  std::optional<GreyImage> grey;      ///< Of the scan's size; absent: the scan's own grey, untouched.
   double colouredShare = 0.0;         ///< 0..1 of the page, taken by its darkest channel.
   std::vector<RulingFamily> rulings;  ///< What was taken out of it.
   std::optional<PaperSheet> sheet;    ///< What lies beside it was painted over.
   std::vector<FoundInk> inks;         ///< Of a colour scan: all of them, also those that were dropped.
   double droppedShare = 0.0;          ///< 0..1 of the page: inks painted over.
   std::vector<std::string> notes;     ///< What the user should know, one line each.
-  bool isUntouched() const { return grey.pixels.empty(); }
+  bool isUntouched() const { return !grey; }
 };
 
 std::optional<Error> validate(const PreparationParams&);

@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/dense_page.h"

@@ -70,7 +70,7 @@ std::optional<int> groupOf(const std::vector<int>& pieces, const StrokePieceSet&
 std::vector<Example> examplesOf(const LearningPage& page, const IntentWeights& weights, int round, bool isSide) {
   std::vector<SeenPair> pairs;
   StrokePieceSet set;
-  intendedLines(page.lines, page.widthPx, 0.0, {}, {weights, &pairs, &set});
+  intendedLines(page.lines, page.widthPx, {}, {}, {weights, &pairs, &set});
   const auto groups = groupsOf(set, page);
   std::vector<Example> examples;
   for (const SeenPair& pair : pairs) {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/content_hash.h"
-#include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "core/contour/centreline/skeleton.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/large_page.h"

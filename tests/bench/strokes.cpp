@@ -172,10 +172,10 @@ void printCrossValidated(const std::vector<test::StrokeDrawing>& drawings, const
     pages.push_back({&drawings[i], {}, 1.0});
     if (!output.contours) continue;
     pages.back().lines = output.contours->contours;
-    pages.back().widthPx = std::max(1.0, output.contours->report.widthPx);
+    pages.back().widthPx = std::max(1.0, output.contours->report.widthPx.value_or(0.0));
   }
   const auto linesWith = [&](std::size_t i, const IntentWeights& weights) {
-    const auto meant = intendedLines(pages[i].lines, pages[i].widthPx, 0.0, {}, {weights});
+    const auto meant = intendedLines(pages[i].lines, pages[i].widthPx, {}, {}, {weights});
     std::vector<std::vector<Vec2>> lines;
     for (const Contour& c : meant ? *meant : pages[i].lines) {
       lines.push_back(positionsOf(c.points));

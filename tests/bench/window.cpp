@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "tests/support/large_page.h"
 #include "ui/main_window.h"
 
@@ -26,10 +26,12 @@ void turnUntil(const std::function<bool()>& done) {
 }
 
 /// [MB] Memory that the program has held at most.
-double peakMb() { return static_cast<double>(peakMemoryBytes()) / 1e6; }
+double peakMb() { return static_cast<double>(peakMemoryBytes().value_or(0)) / 1e6; }
 
 /// [MB] Memory that it holds now.
-double nowMb() { return static_cast<double>(residentMemoryBytes(QCoreApplication::applicationPid())) / 1e6; }
+double nowMb() {
+  return static_cast<double>(residentMemoryBytes(QCoreApplication::applicationPid()).value_or(0)) / 1e6;
+}
 
 bool writePage(const QString& path, int width, int height) {
   const Scan scan = test::largePage(width, height, 72, 1);

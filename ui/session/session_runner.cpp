@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/conventions.h"
-#include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "core/pipeline/run/stage_keys.h"
 #include "ui/session/guarded.h"
 #include "ui/session/merge_outputs.h"

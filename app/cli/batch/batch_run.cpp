@@ -11,6 +11,7 @@
 #include "app/cli/exit_codes.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "core/exchange/save_atomically.h"
 #include "core/image/file/scan_reader.h"
 
@@ -199,7 +200,7 @@ bool BatchRun::isRoomFor(const BatchPage& page) const {
   if (!available) return true;
   std::uint64_t needed = memoryNeeded(page);
   for (const auto& one : running_) {
-    const std::uint64_t holds = one->call->memoryBytes();
+    const std::uint64_t holds = one->call->memoryBytes().value_or(0);
     needed += one->needs - std::min(one->needs, holds);
   }
   return needed <= *available;

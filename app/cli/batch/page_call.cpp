@@ -8,6 +8,7 @@
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 
 namespace batten::cli {
 namespace {
@@ -64,7 +65,7 @@ PageCall::~PageCall() {
   process_.waitForFinished();
 }
 
-std::uint64_t PageCall::memoryBytes() const { return residentMemoryBytes(process_.processId()); }
+std::optional<std::uint64_t> PageCall::memoryBytes() const { return residentMemoryBytes(process_.processId()); }
 
 void PageCall::finish() {
   if (hasEnded_) return;

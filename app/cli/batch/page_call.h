@@ -26,7 +26,7 @@ class PageCall {
   ~PageCall();
 
   /// [bytes] What the call holds now; 0 if unknown.
-  std::uint64_t memoryBytes() const;
+  std::optional<std::uint64_t> memoryBytes() const;
 
  private:
   void finish();

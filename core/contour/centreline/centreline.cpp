@@ -229,7 +229,8 @@ void askHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
 // The curves that were meant, in place of the lines, where the page shows lines drawn over more than once.
 void groupByIntent(ContourSet& set, const EdgeParams& params, double width, double minWidths,
                    const RunContext& context) {
-  auto meant = intendedLines(set.contours, width, params.mergeWidths, context);
+  const std::optional<double> given = params.mergeWidths > 0.0 ? std::optional(params.mergeWidths) : std::nullopt;
+  auto meant = intendedLines(set.contours, width, given, context);
   if (!meant) return;
   set.contours = std::move(*meant);
   set.report.isGrouped = true;
@@ -237,37 +238,59 @@ void groupByIntent(ContourSet& set, const EdgeParams& params, double width, doub
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return c.lengthPx < minWidths * width; }));
 }
 
-Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
-                                const RunContext& context, const CentrelineOptions& options) {
+struct PathsFound {
+  StrokeNet net;
+  std::optional<BitImage> bodies;  ///< What the strokes became where some are of a pencil.
+  double widthPx = 0.0;            ///< Median of the strokes as they were thresholded.
+};
+
+// The stroke paths, with the gaps between them bridged. Unfinished when cancelled.
+PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
+                     const CentrelineOptions& options, const RunContext& context) {
   const BitImage* shapes = options.shapes;
-  StrokeNet net = centrelinesOf(strokes, options, params, context);
-  std::vector<StrokePath>& paths = net.paths;
-  if (context.isCancelled()) return cancelled();
-  const double width = medianWidth(paths, [](int) { return true; });
+  PathsFound found;
+  found.net = centrelinesOf(strokes, options, params, context);
+  std::vector<StrokePath>& paths = found.net.paths;
+  if (context.isCancelled()) return found;
+  found.widthPx = medianWidth(paths, [](int) { return true; });
   const bool isKnown = shapes == nullptr && options.known != nullptr && options.known->ink == strokes;
   const GraininessMap grain = isKnown ? std::move(options.known->grain) : GraininessMap(paths, grey, context);
   if (options.known != nullptr) options.known->ink = options.known->skeleton = BitImage();
-  BitImage bodies;
-  const BitImage* ink = &strokes;
+  const auto isPencil = [&](int i) { return grain.isPencil(i); };
   bool anyPencil = false;
-  for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || grain.isPencil(i);
-  if (anyPencil) {
-    bodies = bodiesOf(strokes, grey, paths, grain, context);
-    const BitImage all = shapes != nullptr ? either(bodies, *shapes) : bodies;
-    const auto isPencil = [&](int i) { return grain.isPencil(i); };
-    bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context));
-    if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
-    ink = &bodies;
-    if (context.isCancelled()) return cancelled();
-    net = centrelinesOf(bodies, options, params, context);
-  }
+  for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || isPencil(i);
   std::vector<bool> pencil;
   if (anyPencil) {
-    const GraininessMap found(paths, grey, context);
-    for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(found.isPencil(i));
+    BitImage bodies = bodiesOf(strokes, grey, paths, grain, context);
+    const BitImage all = shapes != nullptr ? either(bodies, *shapes) : bodies;
+    bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context));
+    if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
+    if (context.isCancelled()) return found;
+    found.net = centrelinesOf(bodies, options, params, context);
+    found.bodies = std::move(bodies);
+    const GraininessMap ofBodies(paths, grey, context);
+    for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));
   }
-  bridgeGaps(paths, pencil, *ink, grey, params, context);
+  bridgeGaps(paths, pencil, found.bodies ? *found.bodies : strokes, grey, params, context);
+  return found;
+}
+
+// One line of several strokes, by whichever of the two ways is asked for.
+void joinStrokes(ContourSet& set, const EdgeParams& params, double width, double minWidths, const RunContext& context) {
+  if (params.intent) {
+    groupByIntent(set, params, width, minWidths, context);
+  } else if (params.mergeWidths * width >= 1.0) {
+    // Between middles: the paper between two strokes is a width less.
+    set.contours = cutAtTurns(mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context), width, context);
+  }
+}
+
+Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
+                                const RunContext& context, const CentrelineOptions& options) {
+  PathsFound found = findPaths(strokes, grey, params, options, context);
   if (context.isCancelled()) return cancelled();
+  std::vector<StrokePath>& paths = found.net.paths;
+  const bool anyPencil = found.bodies.has_value();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
   dropShort(paths, grey, options.minWidths, anyPencil, context);
@@ -278,26 +301,20 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     ofKept.emplace(paths, grey, context);
     askHidden(paths, *ofKept);
   }
-  RefinedStrokes placedStrokes = placeStrokePaths(paths, ofKept ? &*ofKept : nullptr, grey, params.subpixel, context);
-  set.contours = std::move(placedStrokes.contours);
+  RefinedStrokes placed = placeStrokePaths(paths, ofKept ? &*ofKept : nullptr, grey, params.subpixel, context);
+  set.contours = std::move(placed.contours);
   if (context.isCancelled()) return cancelled();
-  const std::size_t placed = set.contours.size();
-  std::erase_if(set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); });
-  set.report.droppedShort += static_cast<int>(placed - set.contours.size());
-  BitImage seen = shapes != nullptr ? either(*ink, *shapes) : *ink;
-  for (const Vec2& at : placedStrokes.faint) setDisc(seen, at, 1.0);
+  set.report.droppedShort += static_cast<int>(std::erase_if(
+      set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); }));
+  const BitImage& ink = found.bodies ? *found.bodies : strokes;
+  BitImage seen = options.shapes != nullptr ? either(ink, *options.shapes) : ink;
+  for (const Vec2& at : placed.faint) setDisc(seen, at, 1.0);
   set.contours = keepOnInk(std::move(set.contours), seen);
-  if (!set.contours.empty()) set.report.widthPx = width;
-  if (params.intent) {
-    groupByIntent(set, params, width, options.minWidths, context);
-    if (context.isCancelled()) return cancelled();
-  } else if (params.mergeWidths * width >= 1.0) {
-    // Between middles: the paper between two strokes is a width less.
-    set.contours = cutAtTurns(mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context), width, context);
-    if (context.isCancelled()) return cancelled();
-  }
+  if (!set.contours.empty()) set.report.widthPx = found.widthPx;
+  joinStrokes(set, params, found.widthPx, options.minWidths, context);
   if (!params.intent && params.mergeWidths <= 0.0)
-    set.junctions = junctionsOfLines(std::move(net.junctions), set.contours);
+    set.junctions = junctionsOfLines(std::move(found.net.junctions), set.contours);
+  if (context.isCancelled()) return cancelled();
   set.report.droppedMargins =
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey); }));
   return set;

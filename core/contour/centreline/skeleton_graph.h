@@ -37,37 +37,38 @@ struct SkeletonNode {
   std::vector<int> ends;
 };
 
-/// The skeleton as a graph that gets simpler: junctions of several pixels are one node, spurs go, short links vanish.
+/// [px]
+double strokePathLength(const std::vector<StrokePathPoint>& points, bool closed);
+
+/// Unit direction in which an edge leaves `from`, where its end `side` is: of the chord of about `reach` px from there.
+Vec2 leavingDirection(const SkeletonEdge& edge, int side, const Vec2& from, double reach);
+
+/// The skeleton as a graph: junctions of several pixels are one node. It gets simpler by pruneSpurs() and
+/// mergeJunctions().
 class SkeletonGraph {
  public:
   SkeletonGraph(const std::vector<SkeletonChain>& chains, const BitImage& ink);
 
-  /// Drops side branches that only a bump or a corner of the border caused. `factor` in stroke widths.
-  void pruneSpurs(double factor);
-  /// Makes one node of junctions that are nearer than their discs allow to tell apart (a crossing at a shallow angle).
-  /// `ofBundles`: all the crossings of overdrawn strokes with others too.
-  void mergeJunctions(bool ofBundles);
-
   const std::vector<SkeletonEdge>& edges() const { return edges_; }
   const std::vector<SkeletonNode>& nodes() const { return nodes_; }
-  /// [px] median radius of the ink along the skeleton.
-  double medianRadius() const { return medianRadius_; }
-
- private:
   int edgeCount() const { return static_cast<int>(edges_.size()); }
   int nodeCount() const { return static_cast<int>(nodes_.size()); }
-  std::optional<int> spurTip(int edge, double factor) const;
-  bool closesCorner(int edge, int node) const;
-  double sharedLength(int link) const;
-  bool isOneCrossing(const std::vector<int>& nodes) const;
+  const SkeletonEdge& edge(int i) const { return edges_[i]; }
+  const SkeletonNode& node(int i) const { return nodes_[i]; }
+  /// [px] median radius of the ink along the skeleton.
+  double medianRadius() const { return medianRadius_; }
+  /// [px] of the ink along one edge.
   double meanRadius(int edge) const;
+
+  SkeletonEdge& edge(int i) { return edges_[i]; }
+  SkeletonNode& node(int i) { return nodes_[i]; }
   void removeEdge(int edge);
+  /// Makes one edge of two, if these are all that meet at the node.
   void splice(int node);
+
+ private:
   void appendEdge(int into, int from);
   void reverse(int edge);
-  void markCorner(int edge, int side, const Vec2& centre, double reach);
-  void leadToTip(int edge, int side, const Vec2& tip, double reach);
-  Vec2 turningPoint(int spur, int tipSide) const;
 
   std::vector<SkeletonEdge> edges_;
   std::vector<SkeletonNode> nodes_;

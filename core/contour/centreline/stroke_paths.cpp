@@ -10,6 +10,8 @@
 #include "core/contour/centreline/junction_pairing.h"
 #include "core/contour/centreline/junction_ways.h"
 #include "core/contour/centreline/skeleton_graph.h"
+#include "core/contour/centreline/skeleton_junctions.h"
+#include "core/contour/centreline/skeleton_spurs.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -233,8 +235,8 @@ StrokeNet findStrokeNet(const BitImage& skeleton, const BitImage& ink, const Edg
                         const RunContext& context) {
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
-  graph.pruneSpurs(params.spurFactor);
-  graph.mergeJunctions(params.mergeWidths > 0.0 && !params.intent);
+  pruneSpurs(graph, params.spurFactor);
+  mergeJunctions(graph, params.mergeWidths > 0.0 && !params.intent);
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params).make();
 }

@@ -17,11 +17,11 @@ constexpr double kOutlineZonePx = 4.0;
 constexpr double kFarthestMeetPx = 6.0;        // of the meeting point from the contour
 constexpr double kFarthestStrokeMeetPx = 9.0;  // of thin strokes; beyond, sides that nearly touch meet off the ink
 constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
-constexpr double kFilledHalfPx = 3.0;   // half of a gap between two legs of a stroke that blur and the mask may fill
+constexpr double kFilledHalfPx = 3.0;   // half of a gap between two sides of a stroke that blur and the mask may fill
 constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
 constexpr int kCornerNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
-constexpr double kFreeLegsPx = 6.0;  // legs nearer to each other than this share their blur
+constexpr double kFreeSidesPx = 6.0;  // sides nearer to each other than this share their blur
 constexpr double kFarthestPixelMovePx = 3.0;
 constexpr double kFarthestScales = 2.0;  // of what is looked at: a side extended farther says nothing
 constexpr double kSettled = 1e-9;        // of that
@@ -68,30 +68,27 @@ std::optional<Meeting> meet(const CornerSide& a, const CornerSide& b, double sca
 
 double turningAngle(const Vec2& in, const Vec2& out) { return -std::atan2(cross(in, out), in.dot(out)); }
 
-// The two sides of a corner as curves.
-struct CornerLegs {
-  CornerSide before, after;
-};
-
 // [px of arc] What of a line is looked at on either side of a corner.
-struct LegReach {
+struct SideReach {
   double inner = 0.0, before = 0.0, after = 0.0;
 };
 
-std::optional<CornerLegs> fitLegs(const Contour& contour, int at, const LegReach& reach) {
+std::optional<CornerSides> fitSides(const Contour& contour, int at, const SideReach& reach) {
   auto before = fitCornerSide(contour, at, -1, reach.inner, reach.before);
   auto after = fitCornerSide(contour, at, 1, reach.inner, reach.after);
   if (!before || !after) return std::nullopt;
-  return CornerLegs{*before, *after};
+  return CornerSides{*before, *after};
 }
 
 // Lets the pixels have their say, within reason.
-void askPixels(const GreyImage& grey, double blurPx, CornerLegs legs, CornerFix& fix) {
-  if (!fitCornerToPixels(grey, fix.position, blurPx, legs.before, legs.after)) return;
-  const auto m = meet(legs.before, legs.after, fix.zonePx + kExtensions * kFarthestTipPx);
-  if (!m || (m->position - fix.position).norm() > kFarthestPixelMovePx) return;
+CornerFix askPixels(const GreyImage& grey, double blurPx, const CornerSides& sides, CornerFix fix) {
+  const auto fitted = fitCornerToPixels(grey, fix.position, blurPx, sides);
+  if (!fitted) return fix;
+  const auto m = meet(fitted->before, fitted->after, fix.zonePx + kExtensions * kFarthestTipPx);
+  if (!m || (m->position - fix.position).norm() > kFarthestPixelMovePx) return fix;
   fix.position = m->position;
   fix.angleRad = -m->angle;
+  return fix;
 }
 
 struct NearestPoint {
@@ -167,22 +164,22 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   result.position = contour.points[index].at;
   result.zonePx = inner;
   // Several times: the meeting point says which contour point is really nearest and so where the rounded zone lies, and
-  // the angle says how far the legs are near enough to blur into each other.
+  // the angle says how far the sides are near enough to blur into each other.
   int at = index;
   double zone = inner;
-  // Two legs of a stroke have one middle until they are a stroke's width apart.
+  // Two sides of a stroke have one middle until they are a stroke's width apart.
   const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + kFilledHalfPx;
-  const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
+  const double blending = contour.kind == ContourKind::Outline ? kFreeSidesPx : inner + kFreeSidesPx;
   // The middle of a stroke is led to the tip of a corner; that of a bundle of strokes is not.
   const bool reachesTip = contour.kind == ContourKind::Centreline && !contour.points[index].bundle;
-  std::optional<CornerLegs> legs;
+  std::optional<CornerSides> sides;
   for (int round = 0; round < kLocateRounds; ++round) {
     const double shorter = std::min(outerBefore, outerAfter);
     const double from = std::clamp(zone, inner, std::max(inner, 0.5 * shorter));
-    legs = fitLegs(contour, at, {from, outerBefore, outerAfter});
-    if (!legs) return result;
-    result.angleRad = turningAngle(-legs->before.derivative(0.0), legs->after.derivative(0.0));
-    const auto m = meet(legs->before, legs->after, from + kExtensions * kFarthestTipPx);
+    sides = fitSides(contour, at, {from, outerBefore, outerAfter});
+    if (!sides) return result;
+    result.angleRad = turningAngle(-sides->before.derivative(0.0), sides->after.derivative(0.0));
+    const auto m = meet(sides->before, sides->after, from + kExtensions * kFarthestTipPx);
     if (!m) return result;
     const double halfTip = std::max(kSharpestHalfTipRad, 0.5 * (std::numbers::pi - std::abs(m->angle)));
     const double most = reachesTip ? std::max(kFarthestStrokeMeetPx, inner) : kFarthestTipPx;
@@ -201,7 +198,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     at = nearest.index;
     zone = wanted;
   }
-  if (grey != nullptr && contour.blurPx > 0.0) askPixels(*grey, contour.blurPx, *legs, result);
+  if (grey != nullptr && contour.blurPx) return askPixels(*grey, *contour.blurPx, *sides, result);
   return result;
 }
 

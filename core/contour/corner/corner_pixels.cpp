@@ -177,12 +177,12 @@ double bothBelow(double h, double k, double correlation) {
   return std::clamp(below(h) * below(k) + 0.25 * end * sum / (2.0 * std::numbers::pi), 0.0, 1.0);
 }
 
-bool fitCornerToPixels(const GreyImage& grey, const Vec2& corner, double blurPx, CornerSide& before,
-                       CornerSide& after) {
-  const Wedge wedge(before, after, blurPx);
+std::optional<CornerSides> fitCornerToPixels(const GreyImage& grey, const Vec2& corner, double blurPx,
+                                             CornerSides sides) {
+  const Wedge wedge(sides.before, sides.after, blurPx);
   const std::optional<CornerScene> scene = readScene(grey, corner, wedge);
-  if (!scene) return false;
-  const SidesSpread known = knownBefore(before, after);
+  if (!scene) return std::nullopt;
+  const SidesSpread known = knownBefore(sides.before, sides.after);
   Sides change = Sides::Zero();
   for (int round = 0; round < kCornerRounds; ++round) {
     Sides state = Sides::Zero();
@@ -200,12 +200,12 @@ bool fitCornerToPixels(const GreyImage& grey, const Vec2& corner, double blurPx,
       spread -= gain * (row.transpose() * spread);
     }
     const bool described = surprise < kMostSurprise * scene->variance * static_cast<double>(scene->pixels.size());
-    if (!state.allFinite() || (round + 1 == kCornerRounds && !described)) return false;
+    if (!state.allFinite() || (round + 1 == kCornerRounds && !described)) return std::nullopt;
     change = state;
   }
-  addCubic(before, change.head<4>());
-  addCubic(after, change.tail<4>());
-  return true;
+  addCubic(sides.before, change.head<4>());
+  addCubic(sides.after, change.tail<4>());
+  return sides;
 }
 
 }  // namespace batten

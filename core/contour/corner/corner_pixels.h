@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "core/base/vec2.h"
 #include "core/contour/corner/corner_sides.h"
 #include "core/image/grey_image.h"
@@ -14,9 +16,10 @@ double bothBelow(double h, double k, double correlation);
 /// Lets the raw pixels around the corner of an outline, whose points are of no use there because the edge of one side
 /// is blurred into the other's, correct the two sides that lead to it: a wedge of ink or of paper, blurred, fitted by
 /// most likely position with what the sides know of themselves beforehand (iterated Kalman filter).
-/// @param before,after sides against and along the contour; ink lies to the left normal of travel (y down).
+/// @param sides against and along the contour; ink lies to the left normal of travel (y down).
 /// @param blurPx standard deviation of the light's blur, without the pixels' own.
-/// @return false, and nothing changed, where there are no two tones or where the pixels show something else.
-bool fitCornerToPixels(const GreyImage& grey, const Vec2& corner, double blurPx, CornerSide& before, CornerSide& after);
+/// @return the corrected sides; absent where there are no two tones or where the pixels show something else.
+std::optional<CornerSides> fitCornerToPixels(const GreyImage& grey, const Vec2& corner, double blurPx,
+                                             CornerSides sides);
 
 }  // namespace batten

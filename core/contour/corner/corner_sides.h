@@ -26,6 +26,10 @@ struct CornerSide {
   Vec2 derivative(double x) const;
 };
 
+struct CornerSides {
+  CornerSide before, after;  ///< Against and along the contour.
+};
+
 /// Fits the side +1 (along the contour) or -1 (against it) of a point to the points `inner`..`outer` [px of arc] away
 /// and extends it to the corner. The candidates are a line, an arc, and curves whose fourth derivative is white noise
 /// of some density (a spline, as in the fair fit), each over stretches of several lengths from the corner on. The

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/base/angle.h"
 #include "core/contour/intent/merge_shares.h"
@@ -73,13 +74,13 @@ double missDeg(const EndPair& p, const EndView& v) {
 
 // Counts the links of the trace between members that lie at both ends.
 void setLinks(std::vector<EndPair>& pairs, const EndView& v) {
-  std::vector<int> stripOfPiece(v.pieces.pieces.size(), -1);
+  std::vector<std::optional<int>> stripOfPiece(v.pieces.pieces.size());
   for (int s = 0; s < std::ssize(v.view.strips); ++s)
     for (const int piece : v.view.strips[s].members) stripOfPiece[piece] = s;
   std::map<std::pair<int, int>, std::vector<const TraceLink*>> between;
   for (const TraceLink& link : v.pieces.links) {
-    const int a = stripOfPiece[link.from / 2], b = stripOfPiece[link.to / 2];
-    if (a != b) between[std::minmax(a, b)].push_back(&link);
+    const std::optional<int> a = stripOfPiece[link.from / 2], b = stripOfPiece[link.to / 2];
+    if (a && b && *a != *b) between[std::minmax(*a, *b)].push_back(&link);
   }
   for (EndPair& p : pairs) {
     const auto found = between.find(std::minmax(p.a / 2, p.b / 2));

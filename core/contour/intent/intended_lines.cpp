@@ -71,8 +71,9 @@ void setMerged(StrokePieceSet& set, const std::vector<Contour>& lines, double wi
 
 }  // namespace
 
-std::optional<std::vector<Contour>> intendedLines(const std::vector<Contour>& lines, double widthPx, double scaleWidths,
-                                                  const RunContext& context, const GroupingProbe& probe) {
+std::optional<std::vector<Contour>> intendedLines(const std::vector<Contour>& lines, double widthPx,
+                                                  std::optional<double> scaleWidths, const RunContext& context,
+                                                  const GroupingProbe& probe) {
   const std::vector<Contour> strokes = withoutBridges(lines, kShortestStroke * widthPx);
   if (strokes.empty()) return std::nullopt;
   StrokePieceSet set = cutIntoPieces(strokes, widthPx, context);
@@ -81,7 +82,7 @@ std::optional<std::vector<Contour>> intendedLines(const std::vector<Contour>& li
   for (const StrokePiece& p : set.pieces) strips.push_back(p.strip);
   const std::vector<StripPair> seen = findStripPairs(strips, kSideReach, false, context);
   const std::vector<StripPair> all = findStripPairs(strips, kSideReach, true, context);
-  const std::optional<double> found = scaleWidths > 0.0 ? scaleWidths : scaleOf(lines, widthPx, context);
+  const std::optional<double> found = scaleWidths ? scaleWidths : scaleOf(lines, widthPx, context);
   if (context.isCancelled() || (!found && overdrawnPlaces(set, seen) < kLeastPlaces)) return std::nullopt;
   const double scale = std::max(kLeastScale, found.value_or(0.0));
   setMerged(set, lines, widthPx, scale, context);

@@ -17,10 +17,11 @@ namespace batten {
 /// line between others that already explain it is dropped.
 /// @param lines centre lines that were not merged; bridged gaps are opened first. Others are ignored.
 /// @param widthPx > 0, of the pen.
-/// @param scaleWidths [stroke widths] >= 0, the distance for merging that suits the page as a whole; 0: found.
+/// @param scaleWidths [stroke widths] > 0, the distance for merging that suits the page as a whole; absent: found.
 /// @param probe for learning weights (stroke_groups.h).
 /// @return nothing where the page shows no overdrawn lines, or when cancelled. Same result with any number of threads.
-std::optional<std::vector<Contour>> intendedLines(const std::vector<Contour>& lines, double widthPx, double scaleWidths,
-                                                  const RunContext& context, const GroupingProbe& probe = {});
+std::optional<std::vector<Contour>> intendedLines(const std::vector<Contour>& lines, double widthPx,
+                                                  std::optional<double> scaleWidths, const RunContext& context,
+                                                  const GroupingProbe& probe = {});
 
 }  // namespace batten

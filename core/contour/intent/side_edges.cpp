@@ -121,6 +121,27 @@ std::array<bool, 2> endsBeside(const Strip& strip, const Strip& other, const std
   return beside;
 }
 
+// What is known of two strips only once bundles were formed. `d` is the logarithm of their distance.
+std::vector<double> laterFeatures(const SideMeasures& m, const Strip& shorter, const Strip& longer, double d) {
+  const double w = shorter.spread + longer.spread + kPenOfBundle, alone = shorter.members.size() == 1 ? 1.0 : 0.0;
+  const double within = m.isWithin ? 1.0 : 0.0;
+  int freeOfShorter = 0;
+  for (const bool isFree : shorter.isFree) freeOfShorter += isFree ? 1 : 0;
+  return {d - std::log(w),
+          std::max(0.0, m.middle - kBesideBundles * w) / w,
+          std::log(w),
+          std::log(static_cast<double>(shorter.members.size())),
+          std::log(static_cast<double>(longer.members.size())),
+          alone,
+          std::log(shorter.inkPerLength),
+          std::log(longer.inkPerLength),
+          within,
+          within * d,
+          static_cast<double>(freeOfShorter),
+          alone * d,
+          std::log(longer.spread + kNoDistance) - std::log(shorter.spread + kNoDistance)};
+}
+
 }  // namespace
 
 std::vector<StripPair> findStripPairs(const std::vector<Strip>& strips, double reach, bool all,
@@ -230,23 +251,7 @@ std::vector<double> sideFeatures(const SideMeasures& m, const StripPair& pair, c
   const std::vector<double> merged = mergeFeatures(a.merged, b.merged, d);
   f.insert(f.end(), merged.begin(), merged.end());
   if (!view.isLater) return f;
-  const double w = shorter.spread + longer.spread + kPenOfBundle, alone = shorter.members.size() == 1 ? 1.0 : 0.0;
-  const double within = m.isWithin ? 1.0 : 0.0;
-  int freeOfShorter = 0;
-  for (const bool isFree : shorter.isFree) freeOfShorter += isFree ? 1 : 0;
-  const std::vector<double> later = {d - std::log(w),
-                                     std::max(0.0, m.middle - kBesideBundles * w) / w,
-                                     std::log(w),
-                                     std::log(static_cast<double>(shorter.members.size())),
-                                     std::log(static_cast<double>(longer.members.size())),
-                                     alone,
-                                     std::log(shorter.inkPerLength),
-                                     std::log(longer.inkPerLength),
-                                     within,
-                                     within * d,
-                                     static_cast<double>(freeOfShorter),
-                                     alone * d,
-                                     std::log(longer.spread + kNoDistance) - std::log(shorter.spread + kNoDistance)};
+  const std::vector<double> later = laterFeatures(m, shorter, longer, d);
   f.insert(f.end(), later.begin(), later.end());
   return f;
 }

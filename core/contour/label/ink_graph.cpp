@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <unordered_map>
 
 #include "core/base/angle.h"
 #include "core/base/statistics.h"
+#include "core/contour/centreline/skeleton_nodes.h"
 
 namespace batten {
 namespace {
@@ -27,50 +26,6 @@ constexpr double kPathCoreWidths = 2.5;
 InkPixel measured(const SkeletonPixel& p, const BitImage& ink) {
   return {p.x, p.y, static_cast<float>(inkRadius(ink, p.x, p.y))};
 }
-
-// Numbers for the pixels at the ends of chains; those joined by a chain of two pixels, both no free ends, are one node.
-class InkNodes {
- public:
-  explicit InkNodes(const std::vector<SkeletonChain>& chains) {
-    for (const SkeletonChain& c : chains) {
-      if (c.closed) continue;
-      add(c.pixels.front());
-      add(c.pixels.back());
-    }
-    parent_.resize(pixels_.size());
-    std::iota(parent_.begin(), parent_.end(), 0);
-    for (const SkeletonChain& c : chains) {
-      if (!isLink(c)) continue;
-      const int a = root(number_.at(keyOf(c.pixels.front()))), b = root(number_.at(keyOf(c.pixels.back())));
-      parent_[std::max(a, b)] = std::min(a, b);
-    }
-    node_.assign(pixels_.size(), -1);
-    for (int i = 0; i < static_cast<int>(pixels_.size()); ++i) {
-      const int r = root(i);
-      node_[i] = r == i ? count_++ : node_[r];
-    }
-  }
-  static bool isLink(const SkeletonChain& c) { return !c.closed && c.pixels.size() == 2 && !c.freeStart && !c.freeEnd; }
-  int count() const { return count_; }
-  int nodeOf(const SkeletonPixel& p) const { return node_[number_.at(keyOf(p))]; }
-  const std::vector<SkeletonPixel>& pixels() const { return pixels_; }
-
- private:
-  static std::int64_t keyOf(const SkeletonPixel& p) {
-    return (static_cast<std::int64_t>(p.y) << 32) | static_cast<std::int64_t>(p.x);
-  }
-  void add(const SkeletonPixel& p) {
-    if (number_.try_emplace(keyOf(p), static_cast<int>(pixels_.size())).second) pixels_.push_back(p);
-  }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::unordered_map<std::int64_t, int> number_;
-  std::vector<SkeletonPixel> pixels_;
-  std::vector<int> parent_, node_;
-  int count_ = 0;
-};
 
 double stepLength(const InkPixel& a, const InkPixel& b) { return (a.centre() - b.centre()).norm(); }
 
@@ -160,7 +115,7 @@ InkGraph::InkGraph(const BitImage& skeleton, const BitImage& ink, const RunConte
 }
 
 void InkGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage& ink) {
-  const InkNodes numbers(found);
+  const SkeletonNodes numbers(found);
   nodes_.resize(numbers.count());
   for (const SkeletonPixel& p : numbers.pixels()) {
     InkNode& node = nodes_[numbers.nodeOf(p)];
@@ -170,7 +125,7 @@ void InkGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage
   }
   for (InkNode& node : nodes_) node.centre /= static_cast<double>(node.pixels.size());
   for (const SkeletonChain& c : found) {
-    if (InkNodes::isLink(c)) continue;
+    if (SkeletonNodes::isLink(c)) continue;
     InkChain chain;
     chain.isRing = c.closed;
     if (!c.closed) chain.node = {numbers.nodeOf(c.pixels.front()), numbers.nodeOf(c.pixels.back())};
@@ -187,7 +142,7 @@ void InkGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage
 void InkGraph::makeChains(const std::vector<SkeletonChain>& found, const BitImage& ink, const RunContext& context) {
   std::size_t number = 0;
   for (const SkeletonChain& c : found) {
-    if (InkNodes::isLink(c)) continue;
+    if (SkeletonNodes::isLink(c)) continue;
     if (context.isCancelled()) return;
     InkChain& chain = chains_[number++];
     for (const SkeletonPixel& p : c.pixels) chain.pixels.push_back(measured(p, ink));

@@ -194,8 +194,8 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
   }
 }
 
-// [px] median width of the strokes, weighed by their lengths in widths; 0 = there is none.
-double penOfStrokes(const InkGraph& graph) {
+// [px] median width of the strokes, weighed by their lengths in widths; absent: there is none.
+std::optional<double> penOfStrokes(const InkGraph& graph) {
   std::vector<std::pair<double, double>> widths;
   for (const InkPath& s : graph.paths()) {
     if (s.label == InkLabel::Stroke && s.elongation() >= kStrokeWidths) widths.emplace_back(*s.widthPx, s.elongation());
@@ -212,7 +212,7 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContex
   PiecesOfPage page = measurePieces(graph, runs);
   page.widestPenPx = kWidestPen * std::sqrt(static_cast<double>(ink.width) * ink.height);
   labelPaths(graph, page);
-  if (const double pen = penOfStrokes(graph); pen > 0.0) labels.penPx = pen;
+  labels.penPx = penOfStrokes(graph);
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);
   releaseBundles(graph, page, mergeWidths, labels, context);

@@ -41,16 +41,16 @@ std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int
 
 enum class PenWeight { Length, Elongation };
 
-double penOf(const LabelledPiece& piece, const InkGraph& graph, double pagePen, PenWeight weight) {
+double penOf(const LabelledPiece& piece, const InkGraph& graph, std::optional<double> pagePen, PenWeight weight) {
   std::vector<std::pair<double, double>> own;
   for (const int number : piece.paths) {
     const InkPath& s = graph.paths()[number];
     if (s.elongation() < kStrokeWidths) continue;
     own.emplace_back(*s.widthPx, weight == PenWeight::Length ? s.lengthPx : s.elongation());
   }
-  const double pen = weightedMedian(own);
-  if (pen <= 0.0) return std::max(1.0, pagePen);
-  return piece.strokesPx >= kOwnPen * pen || pagePen <= 0.0 ? pen : std::min(pen, pagePen);
+  const std::optional<double> pen = weightedMedian(own);
+  if (!pen) return std::max(1.0, pagePen.value_or(1.0));
+  return piece.strokesPx >= kOwnPen * *pen || !pagePen ? *pen : std::min(*pen, *pagePen);
 }
 
 // Labels in one pass over the paths of a page; see labelPaths.
@@ -220,7 +220,7 @@ class Labeller {
 
 }  // namespace
 
-double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight) {
+std::optional<double> weightedMedian(std::vector<std::pair<double, double>> valueAndWeight) {
   std::sort(valueAndWeight.begin(), valueAndWeight.end());
   double all = 0.0, sum = 0.0;
   for (const auto& [value, weight] : valueAndWeight) all += weight;
@@ -228,7 +228,7 @@ double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight) {
     sum += weight;
     if (2.0 * sum >= all) return value;
   }
-  return 0.0;
+  return std::nullopt;
 }
 
 PiecesOfPage measurePieces(const InkGraph& graph, const RunPieces& runs) {
@@ -252,7 +252,7 @@ PiecesOfPage measurePieces(const InkGraph& graph, const RunPieces& runs) {
     byElongation.emplace_back(*s.widthPx, s.elongation());
   }
   page.pagePenPx = weightedMedian(std::move(byElongation));
-  const double mainPen = weightedMedian(std::move(byLength));
+  const std::optional<double> mainPen = weightedMedian(std::move(byLength));
   for (LabelledPiece& piece : page.pieces) {
     piece.isBlot = piece.strokesPx <= 0.0;
     piece.penPx = penOf(piece, graph, page.pagePenPx, PenWeight::Elongation);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,14 +29,14 @@ struct LabelledPiece {
 inline constexpr double kStrokeWidths = 3.0;
 
 /// The pieces of ink with their paths and pens. `pagePenPx`: median width of all paths long enough, weighed by
-/// their lengths in widths; 0 = there is none.
+/// their lengths in widths; absent: there is none.
 struct PiecesOfPage {
   std::vector<LabelledPiece> pieces;
-  double pagePenPx = 0.0;
+  std::optional<double> pagePenPx;
   double widestPenPx = std::numeric_limits<double>::infinity();  ///< Wider ink was not drawn with a pen.
 };
-/// The least value that half of the weight lies at or below; 0 for none.
-double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight);
+/// The least value that half of the weight lies at or below; absent: there is no value.
+std::optional<double> weightedMedian(std::vector<std::pair<double, double>> valueAndWeight);
 
 PiecesOfPage measurePieces(const InkGraph&, const RunPieces&);
 

@@ -104,7 +104,8 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
   // A pixel of every width counts as even (unevennessOf).
   const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
   const bool mayBeLetters = t.oneLine < kOneLineShare * t.voters;
-  if (mayBeLetters && weightedMedian(t.uneven) >= limit && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
+  if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && t.pen >= kLeastBroadPx * t.area)
+    return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   if (t.shape < kFewShapes * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
   return {};

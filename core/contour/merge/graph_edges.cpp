@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -18,12 +18,10 @@ constexpr double kLeastSnap = 6.0;  // points: an attachment as near to the end 
 // Attachments that are one node.
 class NodeNumbers {
  public:
-  explicit NodeNumbers(std::ptrdiff_t attachments) : parent_(attachments), number_(attachments) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  void join(int a, int b) { parent_[root(a)] = root(b); }
+  explicit NodeNumbers(std::ptrdiff_t attachments) : sets_(static_cast<int>(attachments)), number_(attachments) {}
+  void join(int a, int b) { sets_.join(a, b); }
   int of(int attachment, MeanGraph& graph) {
-    std::optional<int>& number = number_[root(attachment)];
+    std::optional<int>& number = number_[sets_.root(attachment)];
     if (!number) {
       number = static_cast<int>(graph.nodes.size());
       graph.nodes.emplace_back();
@@ -32,11 +30,7 @@ class NodeNumbers {
   }
 
  private:
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<int> parent_;
+  DisjointSets sets_;
   std::vector<std::optional<int>> number_;
 };
 

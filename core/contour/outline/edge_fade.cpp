@@ -117,8 +117,8 @@ std::vector<std::optional<float>> measureFade(const Contour& c, const GreyImage&
 
 void undoFade(Contour& c, const GreyImage& grey, const RunContext& context) {
   const int n = static_cast<int>(c.points.size());
-  if (n < 2 || !(c.blurPx > 0.0)) return;
-  const double blur = std::sqrt(c.blurPx * c.blurPx + kPixelVariance + PixelWindow::kVariance);
+  if (n < 2 || !c.blurPx) return;
+  const double blur = std::sqrt(*c.blurPx * *c.blurPx + kPixelVariance + PixelWindow::kVariance);
   const std::vector<std::optional<float>> measured = measureFade(c, grey, blur, context);
   if (context.isCancelled()) return;
   std::vector<float> fade, weight;

@@ -101,7 +101,7 @@ void enlarge(Contour& contour, const Contour& small, int scale, const std::vecto
       contour.points[i].refined = false;
     }
   }
-  contour.blurPx = scale * small.blurPx;
+  contour.blurPx = scale * small.blurPx.value_or(0.0);
   measureContour(contour);
 }
 
@@ -116,19 +116,20 @@ bool refineOn(Contour& contour, const GreyImage& scan, const GreyImage& grey, in
   Contour small = shrunk(contour, scale);
   refineOutline(small, grey, context);
   if (context.isCancelled() || !small.points.front().sigmaPx) return false;
-  if (small.blurPx < kLeastBlurPx) return false;
+  if (!small.blurPx || *small.blurPx < kLeastBlurPx) return false;
   if (refinedShare(small) < kLeastRefined * refinedShare(contour)) return false;
   undoFade(small, grey, context);
-  const std::vector<float> soft = softness(contour, scan, scale * small.blurPx, context);
+  const std::vector<float> soft = softness(contour, scan, scale * *small.blurPx, context);
   if (context.isCancelled()) return false;
   enlarge(contour, small, scale, soft);
-  return small.blurPx >= kSoftBlurPx;
+  return *small.blurPx >= kSoftBlurPx;
 }
 
 /// Cheap against placing it once more: most scans are a little blurred, few are soft.
 bool isSoftSomewhere(const Contour& contour, const GreyImage& grey, const RunContext& context) {
-  if (contour.blurPx < kSoftBlurPx || contour.points.empty() || !contour.points.front().sigmaPx) return false;
-  const std::vector<float> soft = softness(contour, grey, contour.blurPx, context);
+  if (!contour.blurPx || *contour.blurPx < kSoftBlurPx || contour.points.empty() || !contour.points.front().sigmaPx)
+    return false;
+  const std::vector<float> soft = softness(contour, grey, *contour.blurPx, context);
   return std::count_if(soft.begin(), soft.end(), [](float s) { return s > 0.5f; }) >= kFewestPoints;
 }
 

@@ -101,14 +101,21 @@ bool isFaintlySeen(const RedrawnCurve& c, std::size_t first, std::size_t last, c
   return depth / count > std::max(kClear * sigma, kFaintShare * contrast / count);
 }
 
-// Adds what of a curve lies on paper.
-void findInventions(const RedrawnCurve& c, const Reference& reference, Explanation& result, double& inventedPx) {
+// How much of a curve lies on paper.
+struct CurveOnPage {
+  double lengthPx = 0.0;
+  double inventedPx = 0.0;
+  std::vector<InventedStretch> inventions;
+};
+
+CurveOnPage findInventions(const RedrawnCurve& c, const Reference& reference) {
+  CurveOnPage found;
   std::optional<std::size_t> first;
   double lengthPx = 0.0;
   const auto close = [&](std::size_t last) {
     if (first && !isFaintlySeen(c, *first, last, reference)) {
-      result.inventions.push_back({c.curve, c.points[*first].at, c.points[last].at, lengthPx});
-      inventedPx += lengthPx;
+      found.inventions.push_back({c.curve, c.points[*first].at, c.points[last].at, lengthPx});
+      found.inventedPx += lengthPx;
     }
     first.reset();
     lengthPx = 0.0;
@@ -116,7 +123,7 @@ void findInventions(const RedrawnCurve& c, const Reference& reference, Explanati
   for (std::size_t i = 0; i + 1 < c.points.size(); ++i) {
     const RedrawnPoint& p = c.points[i];
     const double step = (c.points[i + 1].at - p.at).norm();
-    result.curvesPx += step;
+    found.lengthPx += step;
     if (p.isBridge || anyInDisc(reference.ink, p.at, explainingReach(p) + kPixelPx)) {
       close(i);
       continue;
@@ -125,6 +132,7 @@ void findInventions(const RedrawnCurve& c, const Reference& reference, Explanati
     lengthPx += step;
   }
   if (!c.points.empty()) close(c.points.size() - 1);
+  return found;
 }
 
 std::string percent(double share) {
@@ -168,7 +176,11 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   double inventedPx = 0.0;
   for (const RedrawnCurve& c : curves) {
     if (context.isCancelled()) return cancelled();
-    if (c.kind != ContourKind::Pen) findInventions(c, *reference, result, inventedPx);
+    if (c.kind == ContourKind::Pen) continue;
+    const CurveOnPage found = findInventions(c, *reference);
+    result.curvesPx += found.lengthPx;
+    inventedPx += found.inventedPx;
+    result.inventions.insert(result.inventions.end(), found.inventions.begin(), found.inventions.end());
   }
   if (result.curvesPx > 0.0) result.invented = inventedPx / result.curvesPx;
   std::stable_sort(result.inventions.begin(), result.inventions.end(),

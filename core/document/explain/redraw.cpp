@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
@@ -33,7 +34,7 @@ class LineWidths {
   }
 
   RedrawnPoint at(const Vec2& px) const {
-    int nearest = -1;
+    std::optional<int> nearest;
     double least = kCellPx * kCellPx;
     grid_.around(px, [&](int i) {
       const double distance = (line_.points[i].at - px).squaredNorm();
@@ -42,9 +43,9 @@ class LineWidths {
         nearest = i;
       }
     });
-    if (nearest < 0) return {px, usual_, false};
-    const auto& width = line_.points[nearest].widthPx;
-    return {px, width ? 0.5 * static_cast<double>(*width) : usual_, bridged_[nearest]};
+    if (!nearest) return {px, usual_, false};
+    const auto& width = line_.points[*nearest].widthPx;
+    return {px, width ? 0.5 * static_cast<double>(*width) : usual_, bridged_[*nearest]};
   }
 
  private:

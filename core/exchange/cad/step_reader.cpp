@@ -8,11 +8,11 @@
 #include <set>
 
 #include "core/base/angle.h"
-#include "core/base/conventions.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/cad/step_data.h"
 #include "core/exchange/cad/step_records.h"
+#include "core/exchange/cad/step_units.h"
 
 namespace batten {
 namespace {
@@ -44,7 +44,9 @@ class StepReader {
       : data_(records), records_(records), context_(context) {}
 
   Result<CadDrawing> read() {
-    readUnits();
+    const StepUnits units = readStepUnits(data_);
+    drawing_.mmPerUnit = units.mmPerUnit;
+    radiansPerUnit_ = units.radiansPerUnit;
     const std::vector<std::uint64_t> roots = findRoots();
     for (std::size_t i = 0; i < roots.size(); ++i) {
       constexpr std::size_t kEvery = 256;
@@ -68,40 +70,6 @@ class StepReader {
   }
 
  private:
-  void readUnits() {
-    for (const std::uint64_t id : records_.order) {
-      const auto assigned = data_.record(id, "GLOBAL_UNIT_ASSIGNED_CONTEXT");
-      if (!assigned || assigned->empty()) continue;
-      for (const StepValue& unit : data_.valuesOf((*assigned)[0])) {
-        const auto unitId = StepData::idOf(unit);
-        if (!unitId) continue;
-        if (data_.record(*unitId, "LENGTH_UNIT") && !drawing_.mmPerUnit) drawing_.mmPerUnit = millimetresOf(*unitId, 0);
-        if (data_.record(*unitId, "PLANE_ANGLE_UNIT") && data_.record(*unitId, "CONVERSION_BASED_UNIT"))
-          radiansPerUnit_ = kRadPerDeg;  // what is no radian is a degree
-      }
-    }
-  }
-
-  std::optional<double> millimetresOf(std::uint64_t unit, int depth) const {
-    if (depth > kDeepestCurve) return std::nullopt;
-    if (const auto si = data_.record(unit, "SI_UNIT"); si && si->size() == 2) {
-      if ((*si)[1].text != "METRE") return std::nullopt;
-      static const std::map<std::string_view, double> kPrefixes = {{"KILO", 1e6},  {"DECI", 100.0}, {"CENTI", 10.0},
-                                                                   {"MILLI", 1.0}, {"MICRO", 1e-3}, {"", 1000.0}};
-      const auto prefix = kPrefixes.find((*si)[0].text);
-      return prefix == kPrefixes.end() ? std::nullopt : std::optional(prefix->second);
-    }
-    const auto conversion = data_.record(unit, "CONVERSION_BASED_UNIT");
-    if (!conversion || conversion->size() < 2) return std::nullopt;
-    auto measure = data_.record((*conversion)[1], "LENGTH_MEASURE_WITH_UNIT");
-    if (!measure) measure = data_.record((*conversion)[1], "MEASURE_WITH_UNIT");
-    if (!measure || measure->size() < 2) return std::nullopt;
-    const auto times = data_.measure((*measure)[0]);
-    const auto base = StepData::idOf((*measure)[1]);
-    const auto of = base ? millimetresOf(*base, depth + 1) : std::nullopt;
-    return times && of ? std::optional(*times * *of) : std::nullopt;
-  }
-
   static bool isCurve(std::string_view type) {
     static const std::set<std::string_view> kCurves = {"B_SPLINE_CURVE_WITH_KNOTS",
                                                        "BOUNDED_CURVE",

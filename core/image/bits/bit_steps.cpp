@@ -134,4 +134,14 @@ BitImage either(BitImage a, const BitImage& b) {
   return a;
 }
 
+BitImage paperOf(const BitImage& ink) {
+  BitImage paper(ink.width, ink.height);
+  if (ink.wordsPerRow == 0) return paper;
+  for (int y = 0; y < ink.height; ++y) {
+    for (int i = 0; i < ink.wordsPerRow; ++i) paper.row(y)[i] = ~ink.row(y)[i];
+    paper.row(y)[ink.wordsPerRow - 1] &= ink.lastWordMask();
+  }
+  return paper;
+}
+
 }  // namespace batten

@@ -16,5 +16,7 @@ BitImage shrunken(const BitImage& image, int steps, const RunContext& context);
 BitImage both(BitImage a, const BitImage& b);
 BitImage without(BitImage a, const BitImage& b);
 BitImage either(BitImage a, const BitImage& b);
+/// The pixels that are not ink.
+BitImage paperOf(const BitImage& ink);
 
 }  // namespace batten

@@ -19,12 +19,6 @@ int smallerPieces(const BitImage& image, Connectivity connectivity, double areaP
                                         [&](std::int64_t a) { return a > 0 && static_cast<double>(a) < areaPx; }));
 }
 
-BitImage paperOf(const BitImage& ink) {
-  BitImage all(ink.width, ink.height);
-  for (int y = 0; y < ink.height; ++y) setBits(all, {y, 0, ink.width});
-  return without(std::move(all), ink);
-}
-
 }  // namespace
 
 InkGrain measureGrain(const BitImage& ink, const RunContext& context) {

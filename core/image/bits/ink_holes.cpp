@@ -12,15 +12,6 @@ namespace {
 
 constexpr int kRunsPerLook = 256;  // between two looks at the cancel token
 
-BitImage paperOf(const BitImage& ink) {
-  BitImage paper(ink.width, ink.height);
-  for (int y = 0; y < ink.height; ++y) {
-    for (int i = 0; i < ink.wordsPerRow; ++i) paper.row(y)[i] = ~ink.row(y)[i];
-    paper.row(y)[ink.wordsPerRow - 1] &= ink.lastWordMask();
-  }
-  return paper;
-}
-
 bool isAtBorder(const InkRun& run, const BitImage& page) {
   return run.y == 0 || run.y == page.height - 1 || run.x0 == 0 || run.x1 == page.width;
 }

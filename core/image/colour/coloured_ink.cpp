@@ -124,19 +124,20 @@ cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv:
 
 }  // namespace
 
-ColouredInk darkenColouredInk(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
-  ColouredInk result;
-  if (colour.isEmpty()) return result;
+std::optional<ColouredInk> darkenColouredInk(const GreyImage& grey, const ColourImage& colour,
+                                             const RunContext& context) {
+  if (colour.isEmpty()) return std::nullopt;
   const PaperColour paper = measurePaperColour(grey, colour, context);
-  if (context.isCancelled()) return result;
+  if (context.isCancelled()) return std::nullopt;
   cv::Mat1b smoothed;
   cv::blur(gainPicture(grey, colour, paper, context), smoothed, {3, 3});
-  if (context.isCancelled()) return result;
+  if (context.isCancelled()) return std::nullopt;
   const cv::Mat1b mask = smoothed > gainLimit(grey, smoothed, paper);
-  if (context.isCancelled() || cv::countNonZero(mask) == 0) return result;
+  if (context.isCancelled() || cv::countNonZero(mask) == 0) return std::nullopt;
   cv::Mat1b taken = gainingPieces(grey, smoothed, mask, paper);
-  if (context.isCancelled() || cv::countNonZero(taken) == 0) return result;
+  if (context.isCancelled() || cv::countNonZero(taken) == 0) return std::nullopt;
   cv::dilate(taken, taken, cv::Mat(), {-1, -1}, kRimPx);
+  ColouredInk result;
   result.pixels = cv::countNonZero(taken);
   result.grey = grey;
   parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/base/run_context.h"
 #include "core/image/colour_image.h"
@@ -10,7 +11,7 @@
 namespace batten {
 
 struct ColouredInk {
-  GreyImage grey;           ///< Empty: no coloured ink gains, the grey stays as it is.
+  GreyImage grey;
   std::int64_t pixels = 0;  ///< Made darker, a rim of 2 px around the ink among them.
 };
 
@@ -19,6 +20,7 @@ struct ColouredInk {
 /// contrast or more. Not for areas coloured in within dark lines, which would swallow the lines, nor for the coloured
 /// fringes of dark lines: both lie against dark ink along a quarter of their border or more. Everything else keeps its
 /// grey, bit by bit.
-ColouredInk darkenColouredInk(const GreyImage&, const ColourImage&, const RunContext&);
+/// @return absent: no coloured ink gains, the grey stays as it is; or the run was cancelled.
+std::optional<ColouredInk> darkenColouredInk(const GreyImage&, const ColourImage&, const RunContext&);
 
 }  // namespace batten

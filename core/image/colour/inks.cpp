@@ -197,12 +197,11 @@ std::vector<FoundInk> findInks(const GreyImage& grey, const ColourImage& colour,
   return inks;
 }
 
-DroppedInk dropInks(const GreyImage& page, const GreyImage& scan, const ColourImage& colour, const InkChoice& choice,
-                    const RunContext& context) {
-  DroppedInk result;
-  if (colour.isEmpty() || choice.isAll()) return result;
+std::optional<DroppedInk> dropInks(const GreyImage& page, const GreyImage& scan, const ColourImage& colour,
+                                   const InkChoice& choice, const RunContext& context) {
+  if (colour.isEmpty() || choice.isAll()) return std::nullopt;
   const PaperColour paper = measurePaperColour(scan, colour, context);
-  if (context.isCancelled()) return result;
+  if (context.isCancelled()) return std::nullopt;
   // Noise of the colours is evened out; the header only lends the pixels.
   const cv::Mat3b pixels(colour.height, colour.width,
                          reinterpret_cast<cv::Vec3b*>(const_cast<Rgb8*>(colour.pixels.data())));
@@ -224,24 +223,25 @@ DroppedInk dropInks(const GreyImage& page, const GreyImage& scan, const ColourIm
       }
     }
   });
-  if (context.isCancelled()) return result;
+  if (context.isCancelled()) return std::nullopt;
   // Single pixels of the wrong colour along a stroke are noise of the colours.
   cv::Mat1i labels, stats;
   cv::Mat1d centres;
   for (cv::Mat1b* mask : {&dropped, &kept}) {
     cv::connectedComponentsWithStats(*mask, labels, stats, centres, 8, CV_32S);
-    if (context.isCancelled()) return result;
+    if (context.isCancelled()) return std::nullopt;
     for (int y = 0; y < mask->rows; ++y) {
       for (int x = 0; x < mask->cols; ++x) {
         if ((*mask)(y, x) != 0 && stats(labels(y, x), cv::CC_STAT_AREA) < kLeastPiecePx) (*mask)(y, x) = 0;
       }
     }
-    if (context.isCancelled()) return result;
+    if (context.isCancelled()) return std::nullopt;
   }
   cv::dilate(dropped, dropped, cv::Mat(), {-1, -1}, kInkRimPx);
   dropped.setTo(0, kept);
+  DroppedInk result;
   result.pixels = cv::countNonZero(dropped);
-  if (result.pixels == 0) return result;
+  if (result.pixels == 0) return std::nullopt;
   result.grey = page;
   parallelFor(context, page.height, kRowsPerBlock, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {

@@ -47,13 +47,14 @@ struct FoundInk {
 std::vector<FoundInk> findInks(const GreyImage&, const ColourImage&, const RunContext&);
 
 struct DroppedInk {
-  GreyImage grey;           ///< Empty: nothing to drop.
+  GreyImage grey;
   std::int64_t pixels = 0;  ///< Painted over.
 };
 /// `page` with the inks that are not wanted painted over with the paper around. Where a dropped stroke is crossed by a
 /// kept one, the kept one stays whole.
 /// @param scan its own grey, which the colours were measured with.
-DroppedInk dropInks(const GreyImage& page, const GreyImage& scan, const ColourImage&, const InkChoice&,
-                    const RunContext&);
+/// @return absent: there is nothing to drop, or the run was cancelled.
+std::optional<DroppedInk> dropInks(const GreyImage& page, const GreyImage& scan, const ColourImage&, const InkChoice&,
+                                   const RunContext&);
 
 }  // namespace batten

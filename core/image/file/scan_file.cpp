@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/file/scan_file.h"
 
-#include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "core/base/shown_text.h"
 
 namespace batten {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/image/file/scan_header_exif.h"
 #include "core/image/file/scan_header_jp2.h"
@@ -97,9 +98,8 @@ ScanHeader readPngHeader(const ByteReader& file) {
       header.meaning.transparent = static_cast<std::uint16_t>(file.u16(at + 8));
     } else if (file.matches(at + 4, "eXIf")) {
       const bool big = file.matches(at + 8, "MM");
-      ScanHeader exif;
-      readTiffTags(file.part(at + 8, length, big), exif);
-      header.info.exifOrientation = exif.info.exifOrientation;
+      const TiffTags tags = readTiffTags(file.part(at + 8, length, big));
+      header.info.exifOrientation = tags.orientation ? tags.orientation->value : 1;
     }
     ended = file.matches(at + 4, "IEND");
     at += length + 12;
@@ -148,7 +148,9 @@ ScanHeader readWebpHeader(const ByteReader& bytes) {
       if (!file.matches(at, "EXIF")) continue;
       const std::uint64_t skip = file.matches(at + 8, "Exif") ? 6 : 0;
       const std::uint64_t count = file.u32(at + 4);
-      if (count > skip) readTiffTags(file.part(at + 8 + skip, count - skip, file.matches(at + 8 + skip, "MM")), header);
+      if (count <= skip) continue;
+      const bool big = file.matches(at + 8 + skip, "MM");
+      header = readTiffTags(file.part(at + 8 + skip, count - skip, big)).in(std::move(header));
     }
   } else if (file.matches(12, "VP8L")) {
     const std::uint32_t bits = file.u32(21);

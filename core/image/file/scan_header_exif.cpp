@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/base/conventions.h"
@@ -105,7 +106,7 @@ void readJpegSegment(const ByteReader& file, std::uint32_t marker, std::uint64_t
     const double perInch = file.u8(at + 7) == 2 ? kMillimetresPerInch / 10.0 : 1.0;
     if (file.u8(at + 7) != 0) jfifDpi = plausibleDpi(file.u16(at + 8) * perInch, file.u16(at + 10) * perInch);
   } else if (marker == 0xe1 && file.matches(at, "Exif") && length > 6) {
-    readTiffTags(file.part(at + 6, length - 6, file.matches(at + 6, "MM")), header);
+    header = readTiffTags(file.part(at + 6, length - 6, file.matches(at + 6, "MM"))).in(std::move(header));
   } else if (isFrame(marker)) {
     header.info.bitsPerChannel = static_cast<int>(file.u8(at));
     header.info.height = static_cast<int>(file.u16(at + 1));
@@ -115,11 +116,94 @@ void readJpegSegment(const ByteReader& file, std::uint32_t marker, std::uint64_t
   }
 }
 
+/// What one directory of a TIFF says of its picture.
+class TiffDirectory {
+ public:
+  TiffDirectory(const ByteReader& tiff, std::uint64_t at, ScanHeader header) : tiff_(tiff), header_(std::move(header)) {
+    const std::uint64_t entries = tiff.u16(at);
+    header_.directoryAt = at;
+    header_.info.bitsPerChannel = 1;
+    header_.meaning.isTiff = true;
+    header_.complete = at >= 8 && tiff.has(at, 2 + entries * 12);
+    for (std::uint64_t i = 0; i < entries && header_.complete; ++i) {
+      const std::uint64_t entry = at + 2 + i * 12;
+      readField(tiff.u16(entry), readTag(tiff, entry));
+    }
+    header_.tilePixels = tileWidth_ * tileHeight_;  // 32 bit each
+    header_ = readTiffTags(tiff, at).in(std::move(header_));
+    if (hasAlpha_ && header_.info.channels == 2) header_.supported = false;  // the decoder would drop the alpha
+    header_.complete = header_.complete && blocksInside(tiff, offsets_, sizes_);
+  }
+  ScanHeader header() && { return std::move(header_); }
+
+ private:
+  void readField(std::uint32_t number, const Tag& tag) {
+    const auto value = static_cast<int>(std::min<std::uint64_t>(valueOf(tiff_, tag), INT32_MAX));
+    switch (number) {
+      case 256:
+        header_.info.width = value;
+        break;
+      case 257:
+        header_.info.height = value;
+        break;
+      case 258:
+        header_.info.bitsPerChannel = value;
+        break;
+      case 262:
+        if (value == 3) header_.info.channels = 3;
+        header_.meaning.minIsWhite = value == 0;
+        break;
+      case 277:
+        header_.info.channels = std::max(header_.info.channels, value);
+        break;
+      case 322:
+        tileWidth_ = valueOf(tiff_, tag);
+        break;
+      case 323:
+        tileHeight_ = valueOf(tiff_, tag);
+        break;
+      case 273:
+      case 324:
+        offsets_ = tag;
+        break;
+      case 279:
+      case 325:
+        sizes_ = tag;
+        break;
+      case 338:
+        header_.meaning.alphaAssociated = value == 1;
+        hasAlpha_ = value == 1 || value == 2;
+        break;
+      case 339:
+        header_.supported = value == 1;
+        break;
+      default:
+        break;
+    }
+  }
+
+  const ByteReader& tiff_;
+  ScanHeader header_;
+  Tag offsets_, sizes_;
+  std::uint64_t tileWidth_ = 0, tileHeight_ = 0;
+  bool hasAlpha_ = false;
+};
+
 }  // namespace
 
-void readTiffTags(const ByteReader& tiff, ScanHeader& header) { readTiffTags(tiff, tiff.u32(4), header); }
+ScanHeader TiffTags::in(ScanHeader header) const {
+  if (dpi) header.info.dpi = dpi;
+  if (orientation) {
+    header.info.exifOrientation = orientation->value;
+    header.orientationAt = orientation->at;
+  }
+  return header;
+}
 
-void readTiffTags(const ByteReader& tiff, std::uint64_t directory, ScanHeader& header) {
+TiffTags readTiffTags(const ByteReader& tiff) { return readTiffTags(tiff, tiff.u32(4)); }
+
+TiffTags readTiffTags(const ByteReader& tiff, std::uint64_t directory) {
+  TiffTags tags;
   const std::uint64_t entries = tiff.u16(directory);
   double xResolution = 0.0, yResolution = 0.0, perInch = 1.0;
   for (std::uint64_t i = 0; i < entries && tiff.has(directory + 2 + i * 12, 12); ++i) {
@@ -128,10 +212,7 @@ void readTiffTags(const ByteReader& tiff, std::uint64_t directory, ScanHeader& h
     switch (tiff.u16(entry)) {
       case 274: {
         const std::uint64_t value = valueOf(tiff, tag);
-        if (value >= 1 && value <= 8) {
-          header.info.exifOrientation = static_cast<int>(value);
-          header.orientationAt = tag.at;
-        }
+        if (value >= 1 && value <= 8) tags.orientation = {static_cast<int>(value), tag.at};
         break;
       }
       case 282:
@@ -147,7 +228,8 @@ void readTiffTags(const ByteReader& tiff, std::uint64_t directory, ScanHeader& h
         break;
     }
   }
-  if (const auto dpi = plausibleDpi(xResolution * perInch, yResolution * perInch)) header.info.dpi = dpi;
+  tags.dpi = plausibleDpi(xResolution * perInch, yResolution * perInch);
+  return tags;
 }
 
 ScanHeader readTiffHeader(const ByteReader& file, int page) {
@@ -158,66 +240,7 @@ ScanHeader readTiffHeader(const ByteReader& file, int page) {
   const std::vector<std::uint64_t> pages = tiffPages(tiff);
   header.pages = static_cast<int>(pages.size());
   if (page < 1 || page > header.pages) return header;
-  const std::uint64_t directory = pages[page - 1];
-  header.directoryAt = directory;
-  const std::uint64_t entries = tiff.u16(directory);
-  header.info.bitsPerChannel = 1;
-  header.meaning.isTiff = true;
-  Tag offsets, sizes;
-  std::uint64_t tileWidth = 0, tileHeight = 0;
-  bool hasAlpha = false;
-  header.complete = directory >= 8 && tiff.has(directory, 2 + entries * 12);
-  for (std::uint64_t i = 0; i < entries && header.complete; ++i) {
-    const std::uint64_t entry = directory + 2 + i * 12;
-    const Tag tag = readTag(tiff, entry);
-    const auto value = static_cast<int>(std::min<std::uint64_t>(valueOf(tiff, tag), INT32_MAX));
-    switch (tiff.u16(entry)) {
-      case 256:
-        header.info.width = value;
-        break;
-      case 257:
-        header.info.height = value;
-        break;
-      case 258:
-        header.info.bitsPerChannel = value;
-        break;
-      case 262:
-        if (value == 3) header.info.channels = 3;
-        header.meaning.minIsWhite = value == 0;
-        break;
-      case 277:
-        header.info.channels = std::max(header.info.channels, value);
-        break;
-      case 322:
-        tileWidth = valueOf(tiff, tag);
-        break;
-      case 323:
-        tileHeight = valueOf(tiff, tag);
-        break;
-      case 273:
-      case 324:
-        offsets = tag;
-        break;
-      case 279:
-      case 325:
-        sizes = tag;
-        break;
-      case 338:
-        header.meaning.alphaAssociated = value == 1;
-        hasAlpha = value == 1 || value == 2;
-        break;
-      case 339:
-        header.supported = value == 1;
-        break;
-      default:
-        break;
-    }
-  }
-  header.tilePixels = tileWidth * tileHeight;  // 32 bit each
-  readTiffTags(tiff, directory, header);
-  if (hasAlpha && header.info.channels == 2) header.supported = false;  // the decoder would drop the alpha
-  header.complete = header.complete && blocksInside(tiff, offsets, sizes);
-  return header;
+  return TiffDirectory(tiff, pages[page - 1], std::move(header)).header();
 }
 
 ScanHeader readJpegHeader(const ByteReader& file) {

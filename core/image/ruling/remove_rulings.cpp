@@ -177,13 +177,14 @@ class RulingEraser {
       const auto bin = std::lround((offset + reach_) * kBinsPerPx);
       light[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));
     });
-    std::vector<double> profile;
+    std::vector<std::optional<double>> known;
     // A line without slope meets every second place only, but for a few pixels, which say nothing of the whole.
     const auto least = static_cast<std::size_t>(kLeastOfColumns * (end(toBlock - 1) - begin(fromBlock)));
     for (auto& values : light)
-      profile.push_back(values.size() <= least ? -1.0
-                                               : std::min(1.0, static_cast<double>(lowerQuantile(values, kPaperRank))));
-    fillGaps(profile);
+      known.push_back(values.size() <= least
+                          ? std::nullopt
+                          : std::optional(std::min(1.0, static_cast<double>(lowerQuantile(values, kPaperRank)))));
+    std::vector<double> profile = withoutGaps(known);
     // Beside the line there is paper, whatever the noise and the slope of its grey.
     std::vector<double> beside;
     for (int i = 0; i < bins(); ++i) {
@@ -196,18 +197,21 @@ class RulingEraser {
   }
 
   /// Places of the profile that are not known lie between their neighbours.
-  static void fillGaps(std::vector<double>& profile) {
-    const auto isKnown = [&](std::ptrdiff_t i) { return profile[i] >= 0.0; };
-    std::ptrdiff_t before = -1;
-    for (std::ptrdiff_t i = 0; i < std::ssize(profile); ++i) {
-      if (!isKnown(i)) continue;
-      for (std::ptrdiff_t k = before + 1; k < i; ++k) {
-        const double share = static_cast<double>(k - before) / static_cast<double>(i - before);
-        profile[k] = before < 0 ? profile[i] : profile[before] + share * (profile[i] - profile[before]);
+  static std::vector<double> withoutGaps(const std::vector<std::optional<double>>& known) {
+    std::vector<double> profile;
+    for (int i = 0; i < std::ssize(known); ++i) {
+      if (!known[i]) continue;
+      // The places since the last known one.
+      const int from = static_cast<int>(profile.size());
+      const double before = from > 0 ? profile.back() : *known[i];
+      for (int k = from; k < i; ++k) {
+        const double share = static_cast<double>(k - from + 1) / static_cast<double>(i - from + 1);
+        profile.push_back(before + share * (*known[i] - before));
       }
-      before = i;
+      profile.push_back(*known[i]);
     }
-    for (std::ptrdiff_t k = before + 1; k < std::ssize(profile); ++k) profile[k] = before < 0 ? 1.0 : profile[before];
+    profile.resize(known.size(), profile.empty() ? 1.0 : profile.back());
+    return profile;
   }
 
   double at(const std::vector<double>& profile, double offset) const {

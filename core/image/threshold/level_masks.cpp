@@ -71,7 +71,7 @@ void packWords(const std::uint8_t* flags, int words, std::uint64_t* out) {
 }
 
 /// Pixels [x0, x1) of rows.
-struct Stretch {
+struct RowStretch {
   int x0, x1;
   int count() const { return x1 - x0; }
 };
@@ -82,7 +82,7 @@ class PaperRows {
   PaperRows(const PaperBackground& paper, int width) : paper_(paper), width_(width) {}
 
   /// At the pixel centres of a stretch of row y.
-  void fill(int y, Stretch at, float* out) {
+  void fill(int y, RowStretch at, float* out) {
     if (paper_.isEmpty()) {
       std::fill_n(out, at.count(), 255.0f);
       return;
@@ -229,7 +229,7 @@ class BlockOfRows {
   }
 
   void compare(int y0, int y1, int firstWord, int pastWord) {
-    const Stretch at{64 * firstWord, std::min(64 * pastWord, c_.image.width)};
+    const RowStretch at{64 * firstWord, std::min(64 * pastWord, c_.image.width)};
     const int radius = c_.radius(), words = pastWord - firstWord;
     makeRoom(static_cast<std::size_t>(words) * 64);
     for (int i = 0; i < y1 - y0 + 2 * radius; ++i) {
@@ -249,13 +249,13 @@ class BlockOfRows {
         packWords(flags_.data(), words, mask.row(y) + firstWord);
       };
       pack(contrastRow_, c_.masks.ink);
-      if (c_.masks.faint.width > 0) {
+      if (c_.masks.faint) {
         weakenRow(contrastRow_.data(), c_.faint.reach, c_.faint.limit, levelRow_.data(), at.count());
-        pack(levelRow_, c_.masks.faint);
+        pack(levelRow_, *c_.masks.faint);
       }
-      if (c_.masks.certain.width > 0) {
+      if (c_.masks.certain) {
         c_.certain.fillRow(y, at.x0, at.x1, levelRow_.data());
-        pack(levelRow_, c_.masks.certain);
+        pack(levelRow_, *c_.masks.certain);
       }
     }
   }
@@ -270,7 +270,7 @@ class BlockOfRows {
   }
 
   /// The row as grey levels, with `radius` pixels at either side; beyond the page its ends are repeated.
-  void loadGrey(const std::uint16_t* in, Stretch at) {
+  void loadGrey(const std::uint16_t* in, RowStretch at) {
     const int radius = c_.radius(), width = c_.image.width;
     const int left = std::max(0, radius - at.x0), right = std::max(0, at.x1 + radius - width);
     const int begin = at.x0 - radius + left, end = at.x1 + radius - right;
@@ -295,7 +295,9 @@ LevelMasks compareWithLevels(const GreyImage& image, const RegionThresholds& t, 
                              const RunContext& context) {
   const bool wantFaint = params.reach < 1.0, wantCertain = wantFaint || params.speckArea > 0;
   const BitImage blank(image.width, image.height);
-  LevelMasks masks{blank, wantCertain ? blank : BitImage(), wantFaint ? blank : BitImage()};
+  LevelMasks masks{blank, std::nullopt, std::nullopt};
+  if (wantCertain) masks.certain = blank;
+  if (wantFaint) masks.faint = blank;
   const double variance = params.smooth ? t.smoothingPx * t.smoothingPx : 0.0;
   const Comparison comparison{
       image,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "core/base/run_context.h"
 #include "core/image/bits/bit_image.h"
 #include "core/image/grey_image.h"
@@ -10,9 +12,9 @@ namespace batten {
 
 /// The smoothed page compared with three levels: paper plus the contrast of the regions, made deeper or weaker.
 struct LevelMasks {
-  BitImage ink;      ///< Darker than the level of its region.
-  BitImage certain;  ///< Darker than the deeper level; empty if not requested.
-  BitImage faint;    ///< Darker than the weaker level; empty if not requested.
+  BitImage ink;                     ///< Darker than the level of its region.
+  std::optional<BitImage> certain;  ///< Darker than the deeper level, where requested.
+  std::optional<BitImage> faint;    ///< Darker than the weaker level, where requested.
 };
 
 /// Smooths the page by the thresholds' Gaussian and compares it with its levels, in float. A place whose darkest

@@ -24,19 +24,20 @@ struct Split {
 
 Split otsu(const GreyCounts& counts) {
   double total = 0.0, sum = 0.0, squares = 0.0;
-  for (std::size_t g = 0; g < 256; ++g) {
-    const auto grey = static_cast<double>(g);
-    total += counts[g];
-    sum += counts[g] * grey;
-    squares += counts[g] * grey * grey;
+  for (int grey = 0; grey < 256; ++grey) {
+    const double weight = counts[grey];
+    total += weight;
+    sum += weight * grey;
+    squares += weight * grey * grey;
   }
   Split best;
   const double variance = total > 0.0 ? squares / total - (sum / total) * (sum / total) : 0.0;
   if (!(variance > 0.0)) return best;
   double below = 0.0, belowSum = 0.0, largest = 0.0;
-  for (std::size_t g = 0; g + 1 < 256; ++g) {
-    below += counts[g];
-    belowSum += counts[g] * static_cast<double>(g);
+  for (int grey = 0; grey < 255; ++grey) {
+    const double weight = counts[grey];
+    below += weight;
+    belowSum += weight * grey;
     if (below <= 0.0 || below >= total) continue;
     const double dark = belowSum / below, bright = (sum - belowSum) / (total - below);
     const double between = below * (total - below) / (total * total) * (bright - dark) * (bright - dark);
@@ -56,8 +57,8 @@ void addCounts(const Plane& plane, const RegionBounds& b, GreyCounts& counts) {
 
 /// @param countsOf the greys of a region
 template <class CountsOf>
-OtsuRegions splitRegions(const CountsOf& countsOf, double minSeparation, double strength, RegionThresholds& out,
-                         const RunContext& context) {
+OtsuThresholds splitRegions(const CountsOf& countsOf, double minSeparation, double strength,
+                            const RunContext& context) {
   std::vector<float> value(kRegions, 0.0f), weight(kRegions, 0.0f), darkShare(kRegions, 0.0f);
   std::vector<double> separation(kRegions, 0.0);
   parallelFor(context, kRegions, 1, [&](int region, int) {
@@ -69,8 +70,9 @@ OtsuRegions splitRegions(const CountsOf& countsOf, double minSeparation, double 
     separation[region] = split.separation;
   });
   const std::vector<float> filled = pushPull(value, weight, kRegionsPerSide, kRegionsPerSide);
-  OtsuRegions regions;
-  for (std::size_t r = 0; r < kRegions; ++r) {
+  OtsuThresholds regions;
+  RegionThresholds& out = regions.thresholds;
+  for (int r = 0; r < kRegions; ++r) {
     out.measured[r] = weight[r] > 0.0f;
     if (out.measured[r]) ++regions.split;
     regions.separation += separation[r];
@@ -84,18 +86,18 @@ OtsuRegions splitRegions(const CountsOf& countsOf, double minSeparation, double 
 
 }  // namespace
 
-OtsuRegions otsuThresholds(const Plane& smoothed, double strength, RegionThresholds& out, const RunContext& context) {
+OtsuThresholds otsuThresholds(const Plane& smoothed, double smoothingPx, double strength, const RunContext& context) {
   const auto countsOf = [&](int region) {
     GreyCounts counts{};
     addCounts(smoothed, regionBounds(smoothed.width, smoothed.height, region), counts);
     return counts;
   };
-  return splitRegions(countsOf, kMinSeparation, strength, out, context);
+  OtsuThresholds found = splitRegions(countsOf, kMinSeparation, strength, context);
+  found.thresholds.smoothingPx = smoothingPx;
+  return found;
 }
 
-OtsuRegions fineOtsuThresholds(const GreyImage& image, double strength, RegionThresholds& out,
-                               const RunContext& context) {
-  out.smoothingPx = kFineSmoothingPx;
+OtsuThresholds fineOtsuThresholds(const GreyImage& image, double strength, const RunContext& context) {
   const std::vector<float> kernel = gaussianKernel(kFineSmoothingPx * kFineSmoothingPx);
   const auto countsOf = [&](int region) {
     const RegionBounds b = regionBounds(image.width, image.height, region);
@@ -110,7 +112,9 @@ OtsuRegions fineOtsuThresholds(const GreyImage& image, double strength, RegionTh
     addCounts(smooth(part, kernel, alone), {0, 0, part.width, part.height}, counts);
     return counts;
   };
-  return splitRegions(countsOf, kMinFineSeparation, strength, out, context);
+  OtsuThresholds found = splitRegions(countsOf, kMinFineSeparation, strength, context);
+  found.thresholds.smoothingPx = kFineSmoothingPx;
+  return found;
 }
 
 }  // namespace batten

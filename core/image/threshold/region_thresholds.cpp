@@ -118,9 +118,14 @@ Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstim
   return depths;
 }
 
+struct Contrasts {
+  std::array<bool, kRegions> measured{};
+  RegionValues contrast{};  ///< [grey]
+};
+
 /// Half level of every region from its own crests; regions without are filled from those that have some.
-void fillContrast(const Plane& grey, const PageEdges& edges, const Depths& depths, double strength,
-                  RegionThresholds& out) {
+Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& depths, double strength) {
+  Contrasts out;
   std::array<double, kRegions> sum{}, weight{};
   std::array<int, kRegions> votes{};
   for (std::size_t i = 0; i < edges.crests.size(); ++i) {
@@ -143,6 +148,7 @@ void fillContrast(const Plane& grey, const PageEdges& edges, const Depths& depth
     const double level = std::min(static_cast<double>(filled[r]), kDustShare * depths.mean) * strength;
     out.contrast[r] = std::min(level, least);
   }
+  return out;
 }
 
 /// The ink of a shrunken page.
@@ -166,8 +172,10 @@ BitImage inkOf(const Plane& grey, const PaperBackground& paper, const RegionValu
   return ink;
 }
 
-void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength, RegionThresholds& out,
-                         const RunContext& context) {
+RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
+                                     const RunContext& context) {
+  RegionThresholds out;
+  Contrasts found;
   const int cellPx = kCellPx * std::max(1, shrink / 2);
   PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
   Depths depths;
@@ -179,8 +187,8 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
     depths = measureDepths(grey, edges, estimate, shrink, kernel, context);
     out.smoothingPx = q;
     if (std::fabs(depths.mean) < kContrastPerNoise * depths.noise) continue;
-    fillContrast(grey, edges, depths, 1.0, out);
-    const InkGrain grain = measureGrain(inkOf(grey, estimate.paper, out.contrast, shrink, kernel, context), context);
+    found = contrastsOf(grey, edges, depths, 1.0);
+    const InkGrain grain = measureGrain(inkOf(grey, estimate.paper, found.contrast, shrink, kernel, context), context);
     if (grain.perWidth <= kTorn) break;
     if (std::exchange(isFirst, false)) out.halfLevelShare = kTornShare;
     roomPx = std::min(roomPx, kSmoothingPerWidth * grain.widthPx * shrink);
@@ -191,11 +199,14 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
   const bool enough = edges.crests.size() >= kMinVotes;
   out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, 2.5 * depths.noise);
   if (out.foundLine) {
-    fillContrast(grey, edges, depths, strength * out.halfLevelShare, out);
+    found = contrastsOf(grey, edges, depths, strength * out.halfLevelShare);
   } else {
     out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "No ink contrast was found.";
-    out.contrast.fill(kNever);
+    found.contrast.fill(kNever);
   }
+  out.measured = found.measured;
+  out.contrast = found.contrast;
+  return out;
 }
 
 /// Where lines stand so close all over the page that hardly any paper shows between them, neither the paper nor its
@@ -203,29 +214,29 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
 /// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions. Bright lines on
 /// dark paper are told by the greys, too: most of such a page is dark, and the bright part is no net's meshes. Of two
 /// smoothings the lesser counts if it parts the greys more clearly, so that it is not noise, and shows more pieces.
-void thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, double strength, RegionThresholds& out,
-                            const RunContext& context) {
-  RegionThresholds coarse, fine;
-  coarse.smoothingPx = kSmoothings.front();
-  const OtsuRegions coarsely = otsuThresholds(smoothed, strength, coarse, context);
-  const OtsuRegions finely = fineOtsuThresholds(image, strength, fine, context);
-  const auto isSplit = [](const OtsuRegions& regions) { return 2 * regions.split >= kRegions; };
-  if (context.isCancelled() || (!isSplit(coarsely) && !isSplit(finely))) return;
-  const GreyParts coarseParts = greyPartsOf(image, coarse, context), fineParts = greyPartsOf(image, fine, context);
-  if (context.isCancelled()) return;
-  const auto isHatched = [&](const OtsuRegions& regions, const GreyParts& parts) {
-    return isSplit(regions) &&
-           (out.note != kBrighterLines || 2 * regions.mostlyDark < regions.split || parts.hasMeshes);
+/// @return absent: the page is none of these, or the run was cancelled.
+std::optional<RegionThresholds> thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, double strength,
+                                                       bool areLinesBrighter, const RunContext& context) {
+  OtsuThresholds coarse = otsuThresholds(smoothed, kSmoothings.front(), strength, context);
+  OtsuThresholds fine = fineOtsuThresholds(image, strength, context);
+  const auto isSplit = [](const OtsuThresholds& regions) { return 2 * regions.split >= kRegions; };
+  if (context.isCancelled() || (!isSplit(coarse) && !isSplit(fine))) return std::nullopt;
+  const GreyParts coarseParts = greyPartsOf(image, coarse.thresholds, context),
+                  fineParts = greyPartsOf(image, fine.thresholds, context);
+  if (context.isCancelled()) return std::nullopt;
+  const auto isHatched = [&](const OtsuThresholds& regions, const GreyParts& parts) {
+    return isSplit(regions) && (!areLinesBrighter || 2 * regions.mostlyDark < regions.split || parts.hasMeshes);
   };
-  const bool isCoarse = isHatched(coarsely, coarseParts), isFine = isHatched(finely, fineParts);
-  if (!isCoarse && !isFine) return;
-  const bool isFiner = finely.separation > coarsely.separation &&
+  const bool isCoarse = isHatched(coarse, coarseParts), isFine = isHatched(fine, fineParts);
+  if (!isCoarse && !isFine) return std::nullopt;
+  const bool isFiner = fine.separation > coarse.separation &&
                        static_cast<double>(fineParts.pieces) > kMorePieces * static_cast<double>(coarseParts.pieces);
-  out = isFine && (!isCoarse || isFiner) ? std::move(fine) : std::move(coarse);
+  RegionThresholds out = std::move((isFine && (!isCoarse || isFiner) ? fine : coarse).thresholds);
   out.holesArePaper = true;
   out.note =
       "The lines are too close together to measure the paper between them; each region was "
       "thresholded between its two grey levels.";
+  return out;
 }
 
 Plane statisticsPlane(const Plane& grey, int shrink, const RunContext& context) {
@@ -238,38 +249,38 @@ struct PlaneScale {
   double strength = 1.0;
 };
 
-/// The folds are taken out of the picture, and the thresholds found on what is left.
-void thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds, int shrink, double strength,
-                           RegionThresholds& out, const RunContext& context) {
+/// The folds are taken out of the picture, and the thresholds found on what is left. Unfinished when cancelled.
+RegionThresholds thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds, int shrink,
+                                       double strength, const RunContext& context) {
   const Plane grey = shrinkGrey(withoutFolds(image, folds, context), shrink, context);
-  if (context.isCancelled()) return;
+  if (context.isCancelled()) return {};
   const PageEdges edges = findPageEdges(statisticsPlane(grey, shrink, context), context);
-  if (context.isCancelled()) return;
-  flattenedThresholds(grey, edges, shrink, strength, out, context);
+  if (context.isCancelled()) return {};
+  RegionThresholds out = flattenedThresholds(grey, edges, shrink, strength, context);
   if (out.note.empty())
     out.note = folds.size() == 1 ? "A fold or shadow edge across the page was removed."
                                  : "Folds or shadow edges across the page were removed.";
   out.paper.folds = std::move(folds);
+  return out;
 }
 
 /// With what was taken for folds taken out, unless that was ink: a wall that is drawn right across the page steps like
 /// a shadow. Paper on both sides of a fold is one paper once the fold is out, and lines stay darker than it; where they
 /// turn out brighter, the dark side was drawn, and stays as it is.
-void thresholdsByFolds(const GreyImage& image, const Plane& grey, const PageEdges& edges, std::vector<PaperFold> folds,
-                       const PlaneScale& scale, RegionThresholds& out, const RunContext& context) {
-  if (!folds.empty()) {
-    thresholdsBesideFolds(image, std::move(folds), scale.shrink, scale.strength, out, context);
-    if (context.isCancelled() || out.foundLine || out.note != kBrighterLines) return;
-    RegionThresholds kept;
-    flattenedThresholds(grey, edges, scale.shrink, scale.strength, kept, context);
-    if (kept.foundLine) out = std::move(kept);
-    return;
+RegionThresholds thresholdsByFolds(const GreyImage& image, const Plane& grey, const PageEdges& edges,
+                                   std::vector<PaperFold> folds, const PlaneScale& scale, const RunContext& context) {
+  const bool anyFold = !folds.empty();
+  RegionThresholds out;
+  if (anyFold) {
+    out = thresholdsBesideFolds(image, std::move(folds), scale.shrink, scale.strength, context);
+    if (context.isCancelled() || out.foundLine || out.note != kBrighterLines) return out;
   }
-  flattenedThresholds(grey, edges, scale.shrink, scale.strength, out, context);
+  RegionThresholds kept = flattenedThresholds(grey, edges, scale.shrink, scale.strength, context);
+  return anyFold && !kept.foundLine ? out : kept;
 }
 
-/// Puts the user's own values where set, and the acting contrast everywhere.
-void applyUser(const GreyImage& image, const ThresholdParams& params, RegionThresholds& out) {
+/// With the user's own values where set, and the acting contrast everywhere.
+RegionThresholds withOwnLevels(const GreyImage& image, const ThresholdParams& params, RegionThresholds out) {
   for (int region = 0; region < kRegions; ++region) {
     const double x = (region % kRegionsPerSide + 0.5) * image.width / kRegionsPerSide;
     const double y = (region / kRegionsPerSide + 0.5) * image.height / kRegionsPerSide;
@@ -289,6 +300,7 @@ void applyUser(const GreyImage& image, const ThresholdParams& params, RegionThre
       out.certain[region] = kCertainShare * out.contrast[region];
     }
   }
+  return out;
 }
 
 std::optional<Error> outOfRange(const char* message) { return Error{ErrorCode::BadParameter, message, {}}; }
@@ -339,16 +351,17 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
       std::vector<PaperFold> folds;
       if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);
       if (context.isCancelled()) return cancelled();
-      thresholdsByFolds(image, grey, edges, std::move(folds), {shrink, params.strength}, out, context);
-      if (!out.foundLine) thresholdsWithoutPaper(image, smoothed, params.strength, out, context);
+      out = thresholdsByFolds(image, grey, edges, std::move(folds), {shrink, params.strength}, context);
+      if (!out.foundLine) {
+        auto hatched = thresholdsWithoutPaper(image, smoothed, params.strength, out.note == kBrighterLines, context);
+        if (hatched) out = std::move(*hatched);
+      }
     } else {
-      out.smoothingPx = kSmoothings.front();
-      otsuThresholds(smoothed, params.strength, out, context);
+      out = otsuThresholds(smoothed, kSmoothings.front(), params.strength, context).thresholds;
       if (!out.foundLine) out.note = "No region holds two clearly different greys.";
     }
     if (context.isCancelled()) return cancelled();
-    applyUser(image, params, out);
-    return out;
+    return withOwnLevels(image, params, std::move(out));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the thresholds; scan at a lower resolution or crop.");
   } catch (const cv::Exception& exception) {

@@ -2,6 +2,7 @@
 #include "core/pipeline/recipe/parameter_table.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/base/edit_distance.h"
 #include "core/pipeline/recipe/parameter_builders.h"
@@ -15,10 +16,10 @@ namespace {
 
 std::vector<Parameter> buildTable() {
   std::vector<Parameter> table;
-  table::appendImageParameters(table);
-  table::appendContourParameters(table);
-  table::appendConstructParameters(table);
-  table::appendFairingParameters(table);
+  for (const auto part :
+       {table::imageParameters, table::contourParameters, table::constructParameters, table::fairingParameters}) {
+    std::ranges::move(part(), std::back_inserter(table));
+  }
   return table;
 }
 

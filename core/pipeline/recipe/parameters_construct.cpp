@@ -174,12 +174,14 @@ void appendFit(std::vector<Parameter>& table) {
 
 }  // namespace
 
-void appendConstructParameters(std::vector<Parameter>& table) {
+std::vector<Parameter> constructParameters() {
+  std::vector<Parameter> table;
   appendMethod(table);
   appendPathsOfThePapers(table);
   appendTypical(table);
   appendControlPolygon(table);
   appendFit(table);
+  return table;
 }
 
 }  // namespace batten::table

@@ -8,6 +8,6 @@
 namespace batten::table {
 
 /// The parameters of the stage Curves, as a part of the table.
-void appendConstructParameters(std::vector<Parameter>& table);
+std::vector<Parameter> constructParameters();
 
 }  // namespace batten::table

@@ -26,7 +26,7 @@ Parameter innerBordersParameter() {
   return inner;
 }
 
-void appendEdges(std::vector<Parameter>& table) {
+void appendTracing(std::vector<Parameter>& table) {
   constexpr StageId kContours = StageId::Contours;
   table.push_back(choice<EdgeMode>(
       kContours,
@@ -47,6 +47,10 @@ void appendEdges(std::vector<Parameter>& table) {
       kContours,
       {"edges.stroke_width", "Stroke limit", "", "No effect; kept so that older recipes remain valid.", true},
       {0.005, 0.1, 0.001, 3, true}, [](auto& r) -> auto& { return r.edges.strokeWidth; }));
+}
+
+void appendStrokes(std::vector<Parameter>& table) {
+  constexpr StageId kContours = StageId::Contours;
   table.push_back(real(
       kContours,
       {"edges.gap", "Bridge gaps", "stroke widths",
@@ -73,6 +77,10 @@ void appendEdges(std::vector<Parameter>& table) {
       {"edges.bend", "Continue through crossings", "°",
        "A stroke that bends by less than this continues through a crossing. Larger joins more.", true},
       {0.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.edges.maxBendDeg; }));
+}
+
+void appendLinesKept(std::vector<Parameter>& table) {
+  constexpr StageId kContours = StageId::Contours;
   table.push_back(real(
       kContours,
       {"contours.min_widths", "Shortest line", "stroke widths",
@@ -148,9 +156,13 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
 
 }  // namespace
 
-void appendContourParameters(std::vector<Parameter>& table) {
-  appendEdges(table);
+std::vector<Parameter> contourParameters() {
+  std::vector<Parameter> table;
+  appendTracing(table);
+  appendStrokes(table);
+  appendLinesKept(table);
   appendCornersAndSegments(table);
+  return table;
 }
 
 }  // namespace batten::table

@@ -8,6 +8,6 @@
 namespace batten::table {
 
 /// The parameters from the edges to the segments, as a part of the table.
-void appendContourParameters(std::vector<Parameter>& table);
+std::vector<Parameter> contourParameters();
 
 }  // namespace batten::table

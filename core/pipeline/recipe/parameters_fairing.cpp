@@ -173,10 +173,12 @@ void appendProfiles(std::vector<Parameter>& table) {
 
 }  // namespace
 
-void appendFairingParameters(std::vector<Parameter>& table) {
+std::vector<Parameter> fairingParameters() {
+  std::vector<Parameter> table;
   appendModeAndTarget(table);
   appendToleranceAndMeans(table);
   appendProfiles(table);
+  return table;
 }
 
 }  // namespace batten::table

@@ -8,6 +8,6 @@
 namespace batten::table {
 
 /// The parameters of fairing, as a part of the table.
-void appendFairingParameters(std::vector<Parameter>& table);
+std::vector<Parameter> fairingParameters();
 
 }  // namespace batten::table

@@ -142,8 +142,8 @@ void appendInks(std::vector<Parameter>& table) {
       {5.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.preparation.inks.rangeDeg; }));
 }
 
-void appendThresholds(std::vector<Parameter>& table) {
-  constexpr StageId kThresholds = StageId::Thresholds, kBinary = StageId::Binary;
+void appendLog(std::vector<Parameter>& table) {
+  constexpr StageId kThresholds = StageId::Thresholds;
   table.push_back(boolean(
       kThresholds,
       {"log.enabled", "Log picture", "",
@@ -158,6 +158,11 @@ void appendThresholds(std::vector<Parameter>& table) {
        "bright ones."},
       {10.0, 150.0, 1.0, 1, true}, [](auto& r) -> auto& { return r.log.factor; }));
   table.back().isForDisplay = true;
+}
+
+// What is kept of the page before thresholds are looked for.
+void appendPage(std::vector<Parameter>& table) {
+  constexpr StageId kThresholds = StageId::Thresholds;
   table.push_back(choice<ColourUse>(
       kThresholds,
       {"paper.colour", "Coloured ink", "",
@@ -189,6 +194,10 @@ void appendThresholds(std::vector<Parameter>& table) {
        "Also removes straight steps in paper brightness that run from border to border: folds "
        "and shadow edges."},
       [](auto& r) -> auto& { return r.paper.folds; }));
+}
+
+void appendThresholds(std::vector<Parameter>& table) {
+  constexpr StageId kThresholds = StageId::Thresholds;
   table.push_back(choice<ThresholdMode>(
       kThresholds,
       {"threshold.mode", "Thresholds", "",
@@ -207,6 +216,10 @@ void appendThresholds(std::vector<Parameter>& table) {
       {"threshold.strength", "Minimum ink contrast", "",
        "How much darker than paper ink must be in automatic mode. Larger keeps only the darker lines."},
       {0.2, 3.0, 0.05, 2, true}, [](auto& r) -> auto& { return r.threshold.strength; }));
+}
+
+void appendBinary(std::vector<Parameter>& table) {
+  constexpr StageId kBinary = StageId::Binary;
   table.push_back(boolean(
       kBinary,
       {"threshold.interpolate", "Blend regions", "",
@@ -270,9 +283,14 @@ void appendFilter(std::vector<Parameter>& table) {
 
 }  // namespace
 
-void appendImageParameters(std::vector<Parameter>& table) {
+std::vector<Parameter> imageParameters() {
+  std::vector<Parameter> table;
+  appendLog(table);
+  appendPage(table);
   appendThresholds(table);
+  appendBinary(table);
   appendFilter(table);
+  return table;
 }
 
 }  // namespace batten::table

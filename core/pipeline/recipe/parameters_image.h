@@ -8,6 +8,6 @@
 namespace batten::table {
 
 /// The parameters of thresholds and filter, as a part of the table.
-void appendImageParameters(std::vector<Parameter>& table);
+std::vector<Parameter> imageParameters();
 
 }  // namespace batten::table

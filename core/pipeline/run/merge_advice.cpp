@@ -57,8 +57,8 @@ Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCac
   if (!apart) return fail(apart.error());
   MergeAdvice advice;
   advice.strokes = advice.lines = centrelinesOf(**apart);
-  const double width = (*apart)->report.widthPx;
-  if (advice.strokes == 0 || !(width > 0.0)) return advice;
+  if (advice.strokes == 0 || !(*apart)->report.widthPx) return advice;
+  const double width = *(*apart)->report.widthPx;
   const auto meant = linesWith(grouped(recipe), scan, cache, context);
   if (!meant) return fail(meant.error());
   if ((*meant)->report.isGrouped) advice.meant = centrelinesOf(**meant);

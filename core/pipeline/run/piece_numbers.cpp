@@ -32,10 +32,10 @@ const std::string kCurveNameBegin = "Curve ";
 std::vector<Vec2> placesOf(const Piece& piece) {
   std::vector<Vec2> places;
   const auto count = std::ssize(piece.points);
-  std::ptrdiff_t last = -1;
+  std::optional<std::ptrdiff_t> last;
   for (int k = 0; k < kPlacesNoted; ++k) {
     const std::ptrdiff_t i = (2 * k + 1) * count / (2 * kPlacesNoted);
-    if (i == last || i >= count) continue;
+    if (last == i || i >= count) continue;
     last = i;
     const Vec2 p = piece.points[i].at / kPlaceRoundingPx;
     places.push_back(kPlaceRoundingPx * Vec2(std::round(p.x()), std::round(p.y())));

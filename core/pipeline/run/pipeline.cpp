@@ -21,7 +21,9 @@ std::size_t vectorBytes(const std::vector<T>& v) {
 }
 
 // Sizes for the cache's limit: large parts exactly, the rest approximately.
-std::size_t bytesOf(const PreparedPage& page) { return sizeof(page) + vectorBytes(page.grey.pixels); }
+std::size_t bytesOf(const PreparedPage& page) {
+  return sizeof(page) + (page.grey ? vectorBytes(page.grey->pixels) : 0);
+}
 std::size_t bytesOf(const RegionThresholds& t) {
   std::size_t bytes = sizeof(t) + vectorBytes(t.paper.grey);
   for (const PaperFold& fold : t.paper.folds)
@@ -196,7 +198,7 @@ class PipelineRun {
     }
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
     if (set) {
-      const double limit = recipe_.contours.minWidths * set->report.widthPx;
+      const double limit = recipe_.contours.minWidths * set->report.widthPx.value_or(0.0);
       set = keepInside(std::move(*set), recipe_.regions, std::max(limit, recipe_.contours.minLengthPx));
     }
     const bool isEmpty = set ? set->contours.empty() : set.error().code == ErrorCode::NoCurve;
@@ -306,7 +308,7 @@ PipelineOutput runPipeline(const Scan& scan, const Recipe& recipe, StageCache& c
 }
 
 const GreyImage& tracedGrey(const Scan& scan, const PipelineOutput& output) {
-  return output.page && !output.page->isUntouched() ? output.page->grey : scan.grey;
+  return output.page && output.page->grey ? *output.page->grey : scan.grey;
 }
 
 int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {

@@ -224,7 +224,7 @@ std::vector<Contour> narrowAndWideBundles() {
 }
 
 TEST(Intent, BundlesOfDifferentWidthsBecomeOneLineEach) {
-  const auto lines = intendedLines(narrowAndWideBundles(), kIntentPenPx, 0.0, {});
+  const auto lines = intendedLines(narrowAndWideBundles(), kIntentPenPx, {}, {});
   ASSERT_TRUE(lines);
   EXPECT_EQ(lines->size(), 2u);
   const auto narrow = test::cubicLine({60, 500}, {420, 560}, {200, 380}, {580, 420});
@@ -243,8 +243,7 @@ TEST(Intent, TheSameLinesWithAnyNumberOfThreads) {
   const std::vector<Contour> strokes = narrowAndWideBundles();
   RunContext one;
   one.threads = 1;
-  const auto alone = intendedLines(strokes, kIntentPenPx, 0.0, one),
-             all = intendedLines(strokes, kIntentPenPx, 0.0, {});
+  const auto alone = intendedLines(strokes, kIntentPenPx, {}, one), all = intendedLines(strokes, kIntentPenPx, {}, {});
   ASSERT_TRUE(alone && all);
   ASSERT_EQ(alone->size(), all->size());
   for (std::size_t i = 0; i < all->size(); ++i) EXPECT_EQ((*alone)[i].points, (*all)[i].points);
@@ -253,7 +252,7 @@ TEST(Intent, TheSameLinesWithAnyNumberOfThreads) {
 TEST(Intent, NothingWhenCancelled) {
   RunContext cancelledRun;
   cancelledRun.cancel.cancel();
-  EXPECT_FALSE(intendedLines(narrowAndWideBundles(), kIntentPenPx, 0.0, cancelledRun));
+  EXPECT_FALSE(intendedLines(narrowAndWideBundles(), kIntentPenPx, {}, cancelledRun));
 }
 
 TEST(Intent, CleanLinesHaveNoOtherMeaning) {
@@ -262,8 +261,8 @@ TEST(Intent, CleanLinesHaveNoOtherMeaning) {
   lines.push_back(penLine({{100, 250}, {500, 500}}));
   lines.push_back(penLine({{500, 250}, {100, 500}}));
   lines.push_back(penLine({{250, 250}, {350, 250}, {350, 350}, {250, 350}}, true));
-  EXPECT_FALSE(intendedLines(lines, kIntentPenPx, 0.0, {}));
-  EXPECT_FALSE(intendedLines({}, kIntentPenPx, 0.0, {}));
+  EXPECT_FALSE(intendedLines(lines, kIntentPenPx, {}, {}));
+  EXPECT_FALSE(intendedLines({}, kIntentPenPx, {}, {}));
 }
 
 }  // namespace

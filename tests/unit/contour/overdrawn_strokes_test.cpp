@@ -30,13 +30,13 @@ struct Suggested {
 Suggested suggested(const std::vector<PenPath>& strokes) {
   const ContourSet set = traceOverdrawn(strokes, 0.0);
   EXPECT_FALSE(set.contours.empty());
-  EXPECT_GT(set.report.widthPx, 1.0);
-  const auto overdrawn = findOverdrawnStrokes(set.contours, 21.0 * set.report.widthPx, {});
+  EXPECT_GT(set.report.widthPx.value_or(0.0), 1.0);
+  const auto overdrawn = findOverdrawnStrokes(set.contours, 21.0 * set.report.widthPx.value_or(0.0), {});
   const OverdrawnStrokes found = overdrawn.value_or(OverdrawnStrokes{});
   EXPECT_EQ(overdrawn.has_value(), found.distancePx > 0.0);
   EXPECT_EQ(overdrawn.has_value(), found.share > 0.0);
   EXPECT_LE(found.share, 1.0);
-  return {std::max(0.0, found.distancePx / set.report.widthPx - 1.0), found.share};
+  return {std::max(0.0, found.distancePx / *set.report.widthPx - 1.0), found.share};
 }
 
 double nearestTo(const Vec2& p, const std::vector<Vec2>& points) {

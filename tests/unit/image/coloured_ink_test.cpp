@@ -66,7 +66,7 @@ PreparedPage prepared(const Scan& scan, ColourUse use = ColourUse::Darkest, int 
 
 BitImage inkOf(const Scan& scan, ColourUse use) {
   const PreparedPage page = prepared(scan, use);
-  const GreyImage& grey = page.isUntouched() ? scan.grey : page.grey;
+  const GreyImage& grey = page.grey ? *page.grey : scan.grey;
   const auto thresholds = findThresholds(grey, {}, {}, {});
   return *binarize(grey, *thresholds, {}, {});
 }
@@ -122,7 +122,7 @@ TEST(ColouredInk, TouchesOnlyTheSurroundingsOfColouredInk) {
   for (int y = 0; y < kColourHeight; ++y) {
     for (int x = 0; x < kColourWidth; ++x) {
       if (around[std::ptrdiff_t{y} * kColourWidth + x] == 0.0f) {
-        ASSERT_EQ(result.grey.row(y)[x], scan.grey.row(y)[x]) << x << ", " << y;
+        ASSERT_EQ(result.grey->row(y)[x], scan.grey.row(y)[x]) << x << ", " << y;
       }
     }
   }

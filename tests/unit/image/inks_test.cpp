@@ -50,7 +50,7 @@ struct InkPage {
     PreparationParams params;
     params.inks = choice;
     const PreparedPage page = *preparePage(scan, params, {});
-    const GreyImage& grey = page.isUntouched() ? scan.grey : page.grey;
+    const GreyImage& grey = page.grey ? *page.grey : scan.grey;
     return *binarize(grey, *findThresholds(grey, {}, {}, {}), {}, {});
   }
 };
@@ -68,7 +68,7 @@ TEST(Inks, OfAGreyScanAreNone) {
   InkPage page;
   page.scan.colour = ColourImage();
   EXPECT_TRUE(findInks(page.scan.grey, page.scan.colour, {}).empty());
-  EXPECT_EQ(dropInks(page.scan.grey, page.scan.grey, page.scan.colour, dropping({0.0}), {}).pixels, 0);
+  EXPECT_FALSE(dropInks(page.scan.grey, page.scan.grey, page.scan.colour, dropping({0.0}), {}));
 }
 
 TEST(Inks, ADroppedInkGoesAndTheStrokesAcrossItStayWhole) {

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/skeleton_junctions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/base/disjoint_sets.h"
+#include "core/contour/centreline/skeleton_graph.h"
+
+namespace batten {
+namespace {
+
+constexpr double kSharedWidth = 1.1;      // of a single stroke
+constexpr double kTwoStrokesWidth = 1.4;  // of a single stroke: between 1 where two cross and 2 where they part
+constexpr double kTouchingShare = 1.5;    // how much longer than lines that cross do those that touch lie together
+constexpr double kCrossingLegs = 1.5;     // of what they share: shorter edges are those of a bundle
+constexpr double kLeavingWidths = 4.0;    // [stroke widths] over which the direction of an edge is taken
+constexpr double kOnwardCos = 0.7;        // 45 degrees: what turns more at a link does not go on through it
+constexpr double kOneJunction = 1.5;      // of the radii of two junctions: nearer ones are one crossing
+constexpr double kWithinDisc = 1.1;       // of its radius: what stays within is part of the junction
+
+class JunctionMerger {
+ public:
+  explicit JunctionMerger(SkeletonGraph& graph) : graph_(graph), sets_(graph.nodeCount()) {}
+  void merge(bool ofBundles);
+
+ private:
+  using Link = std::pair<double, int>;  // length [px], edge
+
+  double sharedLength(int link) const;
+  bool isOneCrossing(const std::vector<int>& nodes) const;
+  std::vector<Link> shortLinks() const;
+  std::vector<int> joinLinked(const std::vector<Link>& links, bool ofBundles);
+  void moveToDiscs();
+  void dropWithinDiscs();
+
+  SkeletonGraph& graph_;
+  DisjointSets sets_;  // of nodes that become one
+};
+
+// [px] How long two strokes that cross or touch at the angle seen at both ends of a link can share one skeleton; 0: the
+// link is no such place.
+double JunctionMerger::sharedLength(int link) const {
+  const SkeletonEdge& l = graph_.edge(link);
+  double angle = 0.0, others = 0.0;
+  bool isFree = true;
+  for (int side = 0; side < 2; ++side) {
+    const SkeletonNode& n = graph_.node(*l.node[side]);
+    if (n.ends.size() != 3) return 0.0;
+    for (const int end : n.ends) {
+      if (end / 2 == link) continue;
+      others += 0.25 * graph_.meanRadius(end / 2);
+      isFree = isFree && graph_.edge(end / 2).length >= kCrossingLegs * l.length;
+    }
+  }
+  // Of strokes that cross alone, from border to border: the middle of an even number of pixels lies half a pixel off.
+  const double width = isFree ? 2.0 * others + 1.0 : 2.0 * graph_.medianRadius();
+  for (int side = 0; side < 2; ++side) {
+    const SkeletonNode& n = graph_.node(*l.node[side]);
+    const double reach = kLeavingWidths * width + n.radius;
+    Vec2 inward = Vec2::Zero(), out[2];
+    int k = 0;
+    for (const int end : n.ends) {
+      const Vec2 d = leavingDirection(graph_.edge(end / 2), end % 2, n.centre, reach);
+      if (end == 2 * link + side) {
+        inward = d;
+      } else if (k < 2) {
+        out[k++] = d;
+      }
+    }
+    if (k != 2 || inward.dot(out[0]) > -kOnwardCos || inward.dot(out[1]) > -kOnwardCos) return 0.0;
+    angle += 0.5 * std::acos(std::clamp(out[0].dot(out[1]), -1.0, 1.0));
+  }
+  // Two strokes that part on either side are wider than one; a line between two things that hang on it is not.
+  if (graph_.meanRadius(link) < kSharedWidth * others) return 0.0;
+  constexpr double kLeast = 0.2, kMost = 1.05;  // 12 and 60 degrees
+  const double touching = isFree && graph_.meanRadius(link) >= kTwoStrokesWidth * others ? kTouchingShare : 1.0;
+  return angle > kMost ? 0.0 : touching * 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
+}
+
+// Whether one disc not much larger than theirs holds these nodes: else they are a small drawing and no crossing.
+bool JunctionMerger::isOneCrossing(const std::vector<int>& nodes) const {
+  constexpr double kMostReach = 2.5;  // of the largest radius
+  double largest = 0.0, reach = 0.0;
+  Vec2 centre = Vec2::Zero();
+  for (const int n : nodes) centre += graph_.node(n).centre / static_cast<double>(nodes.size());
+  for (const int n : nodes) {
+    largest = std::max(largest, graph_.node(n).radius);
+    reach = std::max(reach, (graph_.node(n).centre - centre).norm() + graph_.node(n).radius);
+  }
+  return reach <= kMostReach * largest + 1.0;
+}
+
+// Edges between junctions that may be one, the shortest first.
+std::vector<JunctionMerger::Link> JunctionMerger::shortLinks() const {
+  std::vector<Link> links;
+  for (int i = 0; i < graph_.edgeCount(); ++i) {
+    const SkeletonEdge& l = graph_.edge(i);
+    if (!l.alive || l.ring) continue;
+    const SkeletonNode &a = graph_.node(*l.node[0]), &b = graph_.node(*l.node[1]);
+    if (a.ends.size() < 3 || b.ends.size() < 3) continue;
+    if (l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i)))
+      links.emplace_back(l.length, i);
+  }
+  std::sort(links.begin(), links.end());
+  return links;
+}
+
+// Joins the nodes of these links as long as they are a crossing: all of a small drawing could be one.
+// @return the links that lie within one of the sets then.
+std::vector<int> JunctionMerger::joinLinked(const std::vector<Link>& links, bool ofBundles) {
+  // Of each set, at its root.
+  std::vector<std::vector<int>> members(graph_.nodeCount());
+  std::vector<int> inner, outerEnds;
+  for (int i = 0; i < graph_.nodeCount(); ++i) {
+    members[i] = {i};
+    outerEnds.push_back(static_cast<int>(graph_.node(i).ends.size()));
+  }
+  for (const auto& [length, link] : links) {
+    const int a = sets_.root(*graph_.edge(link).node[0]), b = sets_.root(*graph_.edge(link).node[1]);
+    if (a != b) {
+      // Where four strokes leave each of them they are two crossings of a hatching.
+      const bool areWhole = std::min(outerEnds[a], outerEnds[b]) >= 4;
+      if (!ofBundles && areWhole && length > std::max(graph_.node(a).radius, graph_.node(b).radius)) continue;
+      std::vector<int> all = members[a];
+      all.insert(all.end(), members[b].begin(), members[b].end());
+      if (!ofBundles && all.size() > 2 && !isOneCrossing(all)) continue;
+      sets_.join(a, b);
+      members[sets_.root(a)] = std::move(all);
+      outerEnds[sets_.root(a)] = outerEnds[a] + outerEnds[b];
+    }
+    outerEnds[sets_.root(a)] -= 2;
+    inner.push_back(link);
+  }
+  return inner;
+}
+
+// Each set becomes its root: at the mean of its nodes, with the disc that holds the discs of all of them.
+void JunctionMerger::moveToDiscs() {
+  const int count = graph_.nodeCount();
+  std::vector<Vec2> sum(count, Vec2::Zero());
+  std::vector<int> size(count, 0);
+  for (int i = 0; i < count; ++i) {
+    const int root = sets_.root(i);
+    sum[root] += graph_.node(i).centre;
+    ++size[root];
+  }
+  std::vector<double> disc(count, 0.0);
+  for (int i = 0; i < count; ++i) {
+    SkeletonNode& node = graph_.node(i);
+    const int root = sets_.root(i);
+    disc[root] = std::max(disc[root], (node.centre - sum[root] / size[root]).norm() + node.radius);
+    if (root == i) continue;
+    for (const int end : node.ends) {
+      graph_.edge(end / 2).node[end % 2] = root;
+      graph_.node(root).ends.push_back(end);
+    }
+    node.ends.clear();
+  }
+  for (int i = 0; i < count; ++i) {
+    if (size[i] == 0) continue;
+    SkeletonNode& node = graph_.node(i);
+    node.centre = sum[i] / size[i];
+    node.radius = disc[i];
+    std::sort(node.ends.begin(), node.ends.end());
+  }
+}
+
+// What lies wholly within one disc is no stroke.
+void JunctionMerger::dropWithinDiscs() {
+  for (int i = 0; i < graph_.edgeCount(); ++i) {
+    const SkeletonEdge& l = graph_.edge(i);
+    if (!l.alive || l.ring || l.node[0] != l.node[1]) continue;
+    const SkeletonNode& n = graph_.node(*l.node[0]);
+    const bool within = std::all_of(l.points.begin(), l.points.end(), [&](const StrokePathPoint& p) {
+      return (p.at - n.centre).norm() <= kWithinDisc * n.radius;
+    });
+    if (within) graph_.removeEdge(i);
+  }
+}
+
+void JunctionMerger::merge(bool ofBundles) {
+  for (const int edge : joinLinked(shortLinks(), ofBundles)) graph_.removeEdge(edge);
+  moveToDiscs();
+  dropWithinDiscs();
+  for (int i = 0; i < graph_.nodeCount(); ++i) graph_.splice(i);
+}
+
+}  // namespace
+
+void mergeJunctions(SkeletonGraph& graph, bool ofBundles) { JunctionMerger(graph).merge(ofBundles); }
+
+}  // namespace batten
