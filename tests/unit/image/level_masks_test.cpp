@@ -64,8 +64,8 @@ LevelMasks everyPixel(const GreyImage& image, const RegionThresholds& t, const T
       const float weaker = plain[x] < 0.0f ? reach * plain[x] : plain[x];
       const float faint = std::max(plain[x], std::min(weaker, static_cast<float>(t.faintLimit)));
       masks.ink.set(x, y, here < paper + plain[x]);
-      masks.certain.set(x, y, here < paper + deep[x]);
-      masks.faint.set(x, y, here < paper + faint);
+      masks.certain->set(x, y, here < paper + deep[x]);
+      masks.faint->set(x, y, here < paper + faint);
     }
   }
   return masks;
@@ -115,8 +115,8 @@ TEST(LevelMasks, AreLeftOutWhereNobodyAsksForThem) {
   params.speckArea = 0;
   const LevelMasks masks = compareWithLevels(grey, *findThresholds(grey, {}, params, {}), params, {});
   EXPECT_GT(masks.ink.count(), 0);
-  EXPECT_EQ(masks.certain.width, 0);
-  EXPECT_EQ(masks.faint.width, 0);
+  EXPECT_FALSE(masks.certain);
+  EXPECT_FALSE(masks.faint);
 }
 
 }  // namespace

@@ -44,10 +44,10 @@ void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& ses
   const bool hasDegree = isFollowed && isPolynomial(curve.fairingUsed.target);
   const auto degree = hasDegree ? shownDegree(session, curve) : std::nullopt;
   const TargetProfile* profile = targets && degree ? &targets->targets.profiles[*degree - 1] : nullptr;
-  const auto after = hasDegree ? curve.fairing.similarityAfter : std::nullopt;
+  const auto& after = curve.fairing.similarityAfter;
   rows.push_back({FairingPanel::tr("Similarity S"),
                   {profile ? Cell{similarityText(profile->similarity)} : noFigure(),
-                   after ? Cell{similarityText(*after)} : noFigure()},
+                   hasDegree && after ? Cell{similarityText(*after)} : noFigure()},
                   FairingPanel::tr("Similarity of the sketched profile to the target; 1 is identical. Faired: "
                                    "similarity of the faired to the sketched profile. Of radii, or where the line has "
                                    "inflections, of curvatures.")});
