@@ -52,6 +52,12 @@ struct ExtremumNote {
   std::optional<int> constraint = {};  ///< Id of the constraint that was attached to it.
 };
 
+/// Noise of a fit at one place.
+struct NoiseNote {
+  double s = 0.0;      ///< [mm] arc length in the piece.
+  double sigma = 0.0;  ///< [1/mm] standard deviation of the curvature there.
+};
+
 /// Why a segment of a chain is no typical curve.
 enum class SegmentCause {
   None,        ///< It is one.
@@ -104,8 +110,7 @@ struct ConstructReport {
   std::vector<ExtremumNote> extrema;    ///< Fair fit only.
   int extremaInSharpFeatures = 0;       ///< Fair fit: at sharp features, where significance is not tested.
   std::vector<int> unmetConstraints;    ///< Ids of constraints that found no extremum, or one that cannot go.
-  std::vector<double> noiseS;           ///< [mm] arc lengths at which the noise is given (fair fit only).
-  std::vector<double> noiseSigma;       ///< [1/mm] standard deviation of the curvature there.
+  std::vector<NoiseNote> noise;         ///< Ascending in s (fair fit only).
   std::vector<SegmentNote> segments;    ///< Typical curves only.
   double noisePx = 0.0;                 ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
   int stationsAdded = 0;                ///< Nurbs, Bezier: set where the line turns too quickly for those given.

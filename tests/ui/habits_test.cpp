@@ -131,6 +131,8 @@ TEST_F(Habits, TheFinderFindsSettingsAndLeadsToThem) {
   EXPECT_TRUE(waitUntil([&] { return !samples->visibleRegion().isEmpty(); }, 3000));
   ASSERT_NO_FATAL_FAILURE(findAndPress(QStringLiteral("resolution in dpi")));
   EXPECT_EQ(window_->focusWidget(), find<QLineEdit>("scan.dpi"));
+  ASSERT_NO_FATAL_FAILURE(findAndPress(QStringLiteral("axis of the radius plot (curves)")));
+  EXPECT_EQ(window_->focusWidget(), find<QAbstractButton>("view.radiusAxis.logarithmic"));
   // Of what does not apply now it says so.
   window_->action(ActionId::FindAction)->trigger();
   EXPECT_FALSE(window_->findChild<QAction*>(QStringLiteral("setting.construct.lowpass.field"))->isEnabled())

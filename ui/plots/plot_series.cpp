@@ -142,16 +142,16 @@ double linearLimit(const std::vector<CurveSample>& samples, double size) {
 }
 
 void addNoise(PlotData& data, const TracedCurve& curve, const std::vector<CurveSample>& sketched, double scale) {
-  const auto &s = curve.construct.noiseS, &sigma = curve.construct.noiseSigma;
-  if (s.size() < 2 || s.size() != sigma.size() || sketched.size() < 2) return;
+  const std::vector<NoiseNote>& noise = curve.construct.noise;
+  if (noise.size() < 2 || sketched.size() < 2) return;
   const double step = sketched.back().s / (static_cast<double>(sketched.size()) - 1.0);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const double at = step > 0 ? s[i] / step : 0.0;
+  for (const auto& [s, sigma] : noise) {
+    const double at = step > 0 ? s / step : 0.0;
     const auto k = static_cast<std::size_t>(std::clamp(std::lround(at), 0L, static_cast<long>(sketched.size()) - 1));
-    if (!std::isfinite(sigma[i]) || !std::isfinite(s[i])) continue;
-    data.noiseS.push_back(s[i] * scale);
-    data.noiseLow.push_back(sketched[k].kappa - 2 * sigma[i]);
-    data.noiseHigh.push_back(sketched[k].kappa + 2 * sigma[i]);
+    if (!std::isfinite(sigma) || !std::isfinite(s)) continue;
+    data.noiseS.push_back(s * scale);
+    data.noiseLow.push_back(sketched[k].kappa - 2 * sigma);
+    data.noiseHigh.push_back(sketched[k].kappa + 2 * sigma);
   }
 }
 

@@ -32,13 +32,14 @@ constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the c
 constexpr const char* kShortNote = "Too short for the fair fit; a low-degree curve was fitted to the points.";
 constexpr const char* kPlainNote = "The fair fit could not be solved; a smoothed curve was used.";
 
-/// Values of a piecewise linear table at ascending arguments; runs on linearly beyond the ends.
-double lookUp(const std::vector<double>& from, const std::vector<double>& to, double x) {
-  auto i = static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), x) - from.begin());
-  i = std::clamp<std::size_t>(i, 1, from.size() - 1);
-  const double width = from[i] - from[i - 1];
-  const double part = width > 0.0 ? (x - from[i - 1]) / width : 0.0;
-  return to[i - 1] + part * (to[i] - to[i - 1]);
+/// The parameter afterwards of one before; between the places of the table linear, and on beyond its ends.
+double lookUp(const std::vector<ParameterPair>& places, double before) {
+  const auto next = std::upper_bound(places.begin() + 1, places.end() - 1, before,
+                                     [](double x, const ParameterPair& place) { return x < place.before; });
+  const ParameterPair &low = *(next - 1), &high = *next;
+  const double width = high.before - low.before;
+  const double part = width > 0.0 ? (before - low.before) / width : 0.0;
+  return low.after + part * (high.after - low.after);
 }
 
 /// Back from px about the origin to mm, with the corner points to the last digit.
@@ -117,8 +118,8 @@ class FinishedFit {
     if (!moveFrame(found->c)) return false;
     const auto final = localPosterior(frame_, s0_, std::move(local->tau2), 1, options_.emWidthPx, context_);
     if (!final) return false;
-    for (FairExtremum& e : found->structure.extrema) e.u = lookUp(oldParameters_, arcLengths_, e.u);
-    for (FairExtremum& e : found->dropped) e.u = lookUp(oldParameters_, arcLengths_, e.u);
+    for (FairExtremum& e : found->structure.extrema) e.u = lookUp(places_, e.u);
+    for (FairExtremum& e : found->dropped) e.u = lookUp(places_, e.u);
     return finishCurve(*final, *found, circleCost);
   }
 
@@ -142,15 +143,14 @@ class FinishedFit {
     FairData& data = piece_.data;
     double from = 0.0, to = base.knots().length;
     if (!data.closed) {
-      from = base.footPoint(data.points.front(), 0.0, kCornerReachPx);
-      to = base.footPoint(data.points.back(), to, kCornerReachPx);
+      from = base.footPoint(data.points.front().at, 0.0, kCornerReachPx);
+      to = base.footPoint(data.points.back().at, to, kCornerReachPx);
     }
     if (!(to - from > 0.5 * base.knots().length)) return false;
     auto moved = reframe(base, d, from, to, context_);
     if (!moved) return false;
-    for (double& t : data.t) t = lookUp(moved->oldParameters, moved->arcLengths, t);
-    oldParameters_ = std::move(moved->oldParameters);
-    arcLengths_ = std::move(moved->arcLengths);
+    places_ = std::move(moved->places);
+    for (FairPoint& p : data.points) p.t = lookUp(places_, p.t);
     frame_ = assembleFrame(moved->curve, data, options_, kChecksPerSpan, context_);
     return !frame_.blocks.empty() && !context_.isCancelled();
   }
@@ -161,9 +161,9 @@ class FinishedFit {
     for (const ExtremumConstraint& constraint : in_.constraints) {
       const Vec2 p = constraint.point / pixelMm_ - piece_.origin;
       double least = std::numeric_limits<double>::infinity(), u = 0.0;
-      for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
-        const double distance = (piece_.data.points[i] - p).squaredNorm();
-        if (piece_.data.use[i] && distance < least) least = distance, u = piece_.data.t[i];
+      for (const FairPoint& point : piece_.data.points) {
+        const double distance = (point.at - p).squaredNorm();
+        if (point.use && distance < least) least = distance, u = point.t;
       }
       placed.push_back({u, constraint.keep, constraint.id});
     }
@@ -186,13 +186,10 @@ class FinishedFit {
     // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
     const double sigma = std::sqrt(s0_ / meanWeight() / frame_.base.knots().length) / (fit.radius * fit.radius);
     for (const double s : {0.0, curve.knots().length}) {
-      report_.noiseS.push_back(s * pixelMm_);
-      report_.noiseSigma.push_back(sigma / pixelMm_);
+      report_.noise.push_back({s * pixelMm_, sigma / pixelMm_});
     }
-    for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
-      if (!piece_.data.use[i]) continue;
-      const double e = (piece_.data.points[i] - fit.centre).norm() - fit.radius;
-      addResidual(e, piece_.data.weight[i]);
+    for (const FairPoint& p : piece_.data.points) {
+      if (p.use) addResidual((p.at - fit.centre).norm() - fit.radius, p.weight);
     }
     piece_.result = ConstructedPiece{*nurbs, report_};
     return true;
@@ -213,20 +210,19 @@ class FinishedFit {
   bool line(double objective) {
     const auto fit = fitLine(blockMeans(frame_));
     if (!fit || !(fit->squares / s0_ - objective < options_.extremumSignificance)) return false;
-    const auto& points = piece_.data.points;
-    auto curve = placed(lineCurve(*fit, points.front(), points.back(), piece_.pins, pixelMm_), piece_, in_, pixelMm_);
+    const Vec2 &first = piece_.data.points.front().at, &last = piece_.data.points.back().at;
+    auto curve = placed(lineCurve(*fit, first, last, piece_.pins, pixelMm_), piece_, in_, pixelMm_);
     if (!curve) return false;
     report_.why = Termination::Exact;
     report_.isLine = true;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (piece_.data.use[i]) addResidual(cross(fit->direction, points[i] - fit->point), piece_.data.weight[i]);
+    for (const FairPoint& p : piece_.data.points) {
+      if (p.use) addResidual(cross(fit->direction, p.at - fit->point), p.weight);
     }
     // A parabola's curvature from data of density S0 over the length L: variance 720 S0 / L^5.
-    const double length = (points.back() - points.front()).norm();
+    const double length = (last - first).norm();
     const double sigma = std::sqrt(720.0 * s0_ / meanWeight() / std::pow(length, 5));
     for (const double s : {0.0, length}) {
-      report_.noiseS.push_back(s * pixelMm_);
-      report_.noiseSigma.push_back(sigma / pixelMm_);
+      report_.noise.push_back({s * pixelMm_, sigma / pixelMm_});
     }
     piece_.result = ConstructedPiece{*curve, report_};
     return true;
@@ -328,19 +324,18 @@ class FinishedFit {
   std::optional<Result<NurbsCurve>> withFewerKnots(const FairPosterior& posterior, const UniformQuintic& curve,
                                                    const Vec2& start, const Vec2& end) {
     if (!(options_.knotRemovalTolerance > 0.0) || frame_.pointCount == 0 || context_.isCancelled()) return std::nullopt;
-    const auto stations = static_cast<std::size_t>(kChecksPerSpan * curve.knots().spans + (piece_.data.closed ? 0 : 1));
-    const std::size_t stride = std::max<std::size_t>(1, frame_.checks.size() / stations);
+    const int stations = kChecksPerSpan * curve.knots().spans + (piece_.data.closed ? 0 : 1);
+    const int stride = checkStride(stations);
     // By weight: the calm stretches of an uneven line say how far it may move.
     const double calm = std::max(kLeastNoisePx, std::sqrt(frame_.weightedSquares / frame_.weights));
-    std::vector<double> sigma, distance;
-    for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
+    std::vector<KnotRemovalLimit> stationLimits;
+    for (int i = 0; i < std::ssize(frame_.checks); i += stride) {
       const FrameStation& s = frame_.checks[i];
-      sigma.push_back(std::sqrt(std::max(0.0, BandedCholesky::quadratic(posterior.covariance, s.kappaRow))));
-      distance.push_back(options_.knotRemovalTolerance * std::max(calm, kMeanShare * spreadAt(s.u)));
+      stationLimits.push_back({options_.knotRemovalTolerance * std::max(calm, kMeanShare * spreadAt(s.u)),
+                               std::sqrt(std::max(0.0, BandedCholesky::quadratic(posterior.covariance, s.kappaRow)))});
     }
     KnotRemovalLimits limits;
-    limits.distancePx = distance;
-    limits.kappaSigma = sigma;
+    limits.stations = stationLimits;
     limits.perSpan = kChecksPerSpan;
     limits.kappaShare = kKappaShare * options_.knotRemovalTolerance;
     limits.startShift = start;
@@ -357,11 +352,14 @@ class FinishedFit {
     return nurbs;
   }
 
+  /// Every how many check stations leave about `count` of them.
+  int checkStride(int count) const { return std::max(1, static_cast<int>(frame_.checks.size()) / count); }
+
   /// Half the breadth of the strokes at a parameter. The points lie along the curve in order, nearly.
   double spreadAt(double u) const {
-    const auto& t = piece_.data.t;
-    const auto at = std::lower_bound(t.begin(), t.end(), u);
-    return piece_.data.spread[std::min(static_cast<std::size_t>(at - t.begin()), t.size() - 1)];
+    const auto& points = piece_.data.points;
+    const auto at = std::ranges::lower_bound(points, u, {}, &FairPoint::t);
+    return (at == points.end() ? points.back() : *at).spread;
   }
 
   void noteExtrema(const StructureResult& found, const UniformQuintic& curve, std::optional<double> circleCost) {
@@ -380,13 +378,11 @@ class FinishedFit {
   }
 
   void noteNoise(const FairPosterior& posterior, const UniformQuintic& curve) {
-    const auto stride = std::max<std::size_t>(
-        1, frame_.checks.size() / static_cast<std::size_t>(kChecksPerSpan * frame_.base.knots().spans));
-    for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
+    const int stride = checkStride(kChecksPerSpan * frame_.base.knots().spans);
+    for (int i = 0; i < std::ssize(frame_.checks); i += stride) {
       const FrameStation& s = frame_.checks[i];
       const double variance = BandedCholesky::quadratic(posterior.covariance, s.kappaRow);
-      report_.noiseS.push_back(curve.arcLength(s.u) * pixelMm_);
-      report_.noiseSigma.push_back(std::sqrt(std::max(0.0, variance)) / pixelMm_);
+      report_.noise.push_back({curve.arcLength(s.u) * pixelMm_, std::sqrt(std::max(0.0, variance)) / pixelMm_});
     }
   }
 
@@ -397,8 +393,8 @@ class FinishedFit {
   const FairFitOptions& options_;
   const RunContext& context_;
   FairFrame frame_;
-  std::vector<double> oldParameters_, arcLengths_;  ///< Of the last change of frame.
-  FairPosterior pinned_;                            ///< With the ends on the pins, and the last fit by it about frame_.
+  std::vector<ParameterPair> places_;  ///< Of the last change of frame.
+  FairPosterior pinned_;               ///< With the ends on the pins, and the last fit by it about frame_.
   std::optional<StructureFit> last_;
   ConstructReport report_;
 };

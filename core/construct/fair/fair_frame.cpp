@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 #include "core/base/statistics.h"
 #include "core/solve/gauss_legendre.h"
@@ -24,7 +25,7 @@ constexpr auto kTwoPoints = gaussLegendre<2>(-1.0, 0.0);  // of an interval that
 constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
 
 /// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place.
-std::vector<Vec2> smoothedByOrder(const std::vector<Vec2>& p, bool closed) {
+std::vector<Vec2> smoothedByOrder(std::span<const Vec2> p, bool closed) {
   const int n = static_cast<int>(p.size());
   const int radius = static_cast<int>(3.0 * kSmoothingSamples);
   std::vector<double> kernel;
@@ -65,8 +66,15 @@ FrameStation makeStation(const UniformQuintic& base, double u, bool bendOnly) {
   return s;
 }
 
-void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions& options, const std::vector<double>& e,
-                   double limit) {
+/// A used point and its signed distance from the curve.
+struct PointResidual {
+  const FairPoint& point;
+  double e = 0.0;  ///< [px]
+};
+
+/// @param limit [px] points farther off by their weight are left out.
+void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions& options,
+                   std::span<const PointResidual> residuals, double limit) {
   const double length = frame.base.knots().length;
   const double wanted = std::max(options.blockPx, kPointsPerBlock / data.density);
   const int count = std::max(1, static_cast<int>(std::lround(length / wanted)));
@@ -76,17 +84,17 @@ void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions&
     int n = 0;
   };
   std::vector<Sum> sums(count);
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const double w = data.weight[i];
-    if (!data.use[i] || std::abs(e[i]) * std::sqrt(w) > limit) continue;
-    auto& sum = sums[std::clamp(static_cast<int>(data.t[i] / frame.blockLength), 0, count - 1)];
-    sum.e += w * e[i];
-    sum.t += w * data.t[i];
+  for (const auto& [point, e] : residuals) {
+    const double w = point.weight;
+    if (std::abs(e) * std::sqrt(w) > limit) continue;
+    auto& sum = sums[std::clamp(static_cast<int>(point.t / frame.blockLength), 0, count - 1)];
+    sum.e += w * e;
+    sum.t += w * point.t;
     sum.w += w;
     ++sum.n;
-    frame.squares += e[i] * e[i];
+    frame.squares += e * e;
     ++frame.pointCount;
-    frame.weightedSquares += w * e[i] * e[i];
+    frame.weightedSquares += w * e * e;
     frame.weights += w;
   }
   const double expected = frame.blockLength * data.density;
@@ -132,44 +140,48 @@ UniformKnots fairKnots(double length, double spacingPx, bool closed) {
 }
 
 std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& options, CancelCheck check) {
-  const std::vector<Vec2> smooth = smoothedByOrder(data.points, data.closed);
-  const std::size_t n = smooth.size();
-  std::vector<double>& t = data.t;
-  t.assign(n, 0.0);
-  for (std::size_t i = 1; i < n; ++i) t[i] = t[i - 1] + (smooth[i] - smooth[i - 1]).norm();
+  std::vector<Vec2> points;
+  for (const FairPoint& p : data.points) points.push_back(p.at);
+  const std::vector<Vec2> smooth = smoothedByOrder(points, data.closed);
+  const int n = static_cast<int>(smooth.size());
+  std::vector<double> t(smooth.size(), 0.0);
+  for (int i = 1; i < n; ++i) t[i] = t[i - 1] + (smooth[i] - smooth[i - 1]).norm();
   double length = t.back() + (data.closed ? (smooth.front() - smooth.back()).norm() : 0.0);
   const double spacing = std::max(options.knotSpacingPx, 3.0 / data.density);
-  std::vector<double> weights(n), e(n);
-  for (std::size_t i = 0; i < n; ++i) weights[i] = data.use[i] ? data.weight[i] : 0.0;
+  std::vector<double> weights, e(smooth.size());
+  for (const FairPoint& p : data.points) weights.push_back(p.use ? p.weight : 0.0);
   std::optional<UniformQuintic> curve;
   for (int pass = 0; pass < 4; ++pass) {
     if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
     const double lambda = data.density * std::pow(kPilotCutoffPx / (2.0 * std::numbers::pi), 6);
-    curve = fitUniformQuintic(fairKnots(length, spacing, data.closed), t, data.points, weights, lambda);
+    curve = fitUniformQuintic(fairKnots(length, spacing, data.closed), t, points, weights, lambda);
     if (!curve) return std::nullopt;
     std::vector<double> used;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i) {
       if (check.isCancelled()) return std::nullopt;
-      t[i] = curve->footPoint(data.points[i], t[i], spacing);
+      const FairPoint& p = data.points[i];
+      t[i] = curve->footPoint(p.at, t[i], spacing);
       const PlaneDerivatives d = curve->at(t[i], 1);
-      e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
-      if (data.use[i]) used.push_back(e[i] * std::sqrt(data.weight[i]));
+      e[i] = (p.at - d[0]).dot(unitNormal(d[1]));
+      if (p.use) used.push_back(e[i] * std::sqrt(p.weight));
     }
     const double reach = kGateSigmas * std::max(robustSigma(used), kLeastSigmaPx);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double x = std::min(1.0, std::abs(e[i]) * std::sqrt(data.weight[i]) / reach);
-      weights[i] = data.use[i] ? data.weight[i] * (1.0 - x * x) * (1.0 - x * x) : 0.0;
+    for (int i = 0; i < n; ++i) {
+      const FairPoint& p = data.points[i];
+      const double x = std::min(1.0, std::abs(e[i]) * std::sqrt(p.weight) / reach);
+      weights[i] = p.use ? p.weight * (1.0 - x * x) * (1.0 - x * x) : 0.0;
     }
     if (pass == 3) break;
     for (double& u : t) {
       if (check.isCancelled()) return std::nullopt;
-      const double turns = data.closed ? std::floor(u / length) : 0.0;
-      u = curve->arcLength(u - turns * length) + turns * curve->length();
+      const double laps = data.closed ? std::floor(u / length) : 0.0;
+      u = curve->arcLength(u - laps * length) + laps * curve->length();
     }
     const double origin = data.closed ? 0.0 : t.front();
     length = data.closed ? curve->length() : t.back() - origin;
     for (double& u : t) u -= origin;
   }
+  for (int i = 0; i < n; ++i) data.points[i].t = t[i];
   return curve;
 }
 
@@ -178,18 +190,19 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
   FairFrame frame;
   frame.base = base;
   const UniformKnots& knots = base.knots();
-  std::vector<double> e(data.points.size()), used;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
+  std::vector<PointResidual> residuals;
+  std::vector<double> used;
+  for (FairPoint& p : data.points) {
     if (check.isCancelled()) return frame;
-    if (!data.use[i]) continue;
-    double u = base.footPoint(data.points[i], data.t[i], 0.0);
+    if (!p.use) continue;
+    double u = base.footPoint(p.at, p.t, 0.0);
     if (data.closed) u -= knots.length * std::floor(u / knots.length);
-    data.t[i] = u;
+    p.t = u;
     const PlaneDerivatives d = base.at(u, 1);
-    e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
-    used.push_back(e[i] * std::sqrt(data.weight[i]));
+    residuals.push_back({p, (p.at - d[0]).dot(unitNormal(d[1]))});
+    used.push_back(residuals.back().e * std::sqrt(p.weight));
   }
-  averageBlocks(frame, data, options, e, kGateSigmas * std::max(robustSigma(std::move(used)), kLeastSigmaPx));
+  averageBlocks(frame, data, options, residuals, kGateSigmas * std::max(robustSigma(std::move(used)), kLeastSigmaPx));
   frame.h = BandedMatrix(knots.coefficients(), BandRow::kHalfWidth, knots.closed);
   frame.g = Eigen::VectorXd::Zero(knots.coefficients());
   for (const FairBlock& block : frame.blocks) {
@@ -228,6 +241,7 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
   const UniformKnots& knots = base.knots();
   const int intervals = 8 * knots.spans;
   Reframed out;
+  std::vector<double> parameters, arcLengths;
   std::vector<Vec2> points;
   const double step = (to - from) / intervals;
   double length = 0.0;
@@ -239,21 +253,22 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
         length +=
             kTwoPoints.weight[g] * step * offsetPoint(base, d, from + (j + kTwoPoints.node[g]) * step).velocity.norm();
     }
-    out.oldParameters.push_back(from + j * step);
-    out.arcLengths.push_back(length);
+    parameters.push_back(from + j * step);
+    arcLengths.push_back(length);
     points.push_back(offsetPoint(base, d, from + j * step).point);
   }
   if (knots.closed) points.pop_back();
   for (int pass = 0; pass < 2; ++pass) {
     if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
-    const std::span<const double> s(out.arcLengths.data(), points.size());
+    const std::span<const double> s(arcLengths.data(), points.size());
     auto curve = fitUniformQuintic({length, knots.spans, knots.closed}, s, points, {}, 0.0);
     if (!curve) return std::nullopt;
     out.curve = std::move(*curve);
     if (pass == 1) break;
-    for (double& a : out.arcLengths) a = out.curve.arcLength(a);
+    for (double& a : arcLengths) a = out.curve.arcLength(a);
     length = out.curve.length();
   }
+  for (int j = 0; j <= intervals; ++j) out.places.push_back({parameters[j], arcLengths[j]});
   return out;
 }
 

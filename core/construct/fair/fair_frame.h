@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,13 +13,18 @@
 
 namespace batten {
 
-/// The points of one piece on their way through the fair fit; px, relative to their centroid.
+/// One point on its way through the fair fit.
+struct FairPoint {
+  Vec2 at = Vec2::Zero();  ///< [px]
+  bool use = true;         ///< False: gated out or too near a corner.
+  double weight = 1.0;     ///< 1 / variance, 1 being that of an ordinary point of the contour.
+  double spread = 0.0;     ///< [px] half-width of the bundle of merged strokes; 0: single stroke.
+  double t = 0.0;          ///< Parameter of the foot point on the current curve.
+};
+
+/// The points of one piece; px, relative to their centroid.
 struct FairData {
-  std::vector<Vec2> points;
-  std::vector<std::uint8_t> use;  ///< 0: gated out or too near a corner.
-  std::vector<double> weight;     ///< 1 / variance, 1 being that of an ordinary point of the contour; same size.
-  std::vector<double> spread;     ///< [px] half-width of the bundle of merged strokes; 0: single stroke; same size.
-  std::vector<double> t;          ///< Parameters of the foot points on the current curve.
+  std::vector<FairPoint> points;
   bool closed = false;
   double density = 1.0;  ///< [1/px] points per length, at most 1.
 };
@@ -61,10 +65,11 @@ struct FairFrame {
 UniformKnots fairKnots(double length, double spacingPx, bool closed);
 
 /// Rough curve through the points by their own order: penalised least squares with Tukey weights, four passes. Sets
-/// data.t.
+/// the feet of the points.
 std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions&, CancelCheck);
 
-/// Projects the points on the curve (updates data.t), averages them by their weights over blocks and sets up the rows.
+/// Projects the points on the curve (updates their feet), averages them by their weights over blocks and sets up the
+/// rows.
 /// @param checksPerSpan check stations a span; 0 leaves them out.
 FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions&, int checksPerSpan,
                         CancelCheck);
@@ -72,10 +77,15 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
 /// Stations at equal steps, `perSpan` a span; open: and the end.
 std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan, CancelCheck check = {});
 
+/// One place by the parameters of two curves.
+struct ParameterPair {
+  double before = 0.0, after = 0.0;
+};
+
 /// The curve base + d N from parameter `from` to `to` as a spline of its own arc length, with as many spans.
 struct Reframed {
   UniformQuintic curve;
-  std::vector<double> oldParameters, arcLengths;  ///< Corresponding, ascending.
+  std::vector<ParameterPair> places;  ///< On the base and on the curve, ascending.
 };
 std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to,
                                 CancelCheck);

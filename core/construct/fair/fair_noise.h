@@ -12,18 +12,25 @@ namespace batten {
 /// in units of what they are expected to be. A fit that misses a feature does so over many blocks and leaves second
 /// differences alone.
 struct NoiseTrace {
-  std::vector<double> u;       ///< Parameters, ascending.
-  std::vector<double> square;  ///< 1 where the noise is the pooled one.
-  double length = 0.0;         ///< [px] of the curve; closed ones go round.
+  struct Block {
+    double u = 0.0;       ///< Parameter.
+    double square = 0.0;  ///< 1 where the noise is the pooled one.
+  };
+  std::vector<Block> blocks;  ///< Ascending in u.
+  double length = 0.0;        ///< [px] of the curve; closed ones go round.
   bool closed = false;
   double blockLength = 8.0;  ///< [px]
 };
 /// @param c offsets of the fit. @param s0 pooled noise density of weight 1.
 NoiseTrace noiseTrace(const FairFrame&, const Eigen::VectorXd& c, double s0);
 
-/// Variance along a piece over what its weights say, at ascending parameters.
+/// Variance along a piece over what its weights say.
 struct LocalNoise {
-  std::vector<double> u, factor;
+  struct Place {
+    double u = 0.0;  ///< Parameter.
+    double factor = 1.0;
+  };
+  std::vector<Place> places;  ///< Ascending in u.
   double at(double u) const;  ///< 1 where nothing is known.
 };
 /// Local means of the traces (Gaussian, sigma 80 px, outliers held back), each shrunk towards what is usual on the

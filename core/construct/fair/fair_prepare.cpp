@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <ranges>
 
 #include "core/base/statistics.h"
 #include "core/construct/fair/fair_piece.h"
@@ -37,43 +39,36 @@ std::vector<float> smoothSpread(const std::vector<PiecePoint>& points, bool clos
 
 /// Points that differ from their predecessor, in px about their mean, and what they weigh.
 void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, double ordinarySigmaPx) {
-  std::vector<Vec2> px;
-  std::vector<double> weight, spread;
+  std::vector<FairPoint> px;
   const std::vector<float> beside = smoothSpread(in.points, in.closed);
   for (int i = 0; i < std::ssize(in.points); ++i) {
     if (!in.points[i].at.allFinite()) continue;
-    px.push_back(in.points[i].at / pixelMm);
     const double sigma = in.points[i].sigmaPx.value_or(0.0f);
     const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
-    weight.push_back(std::clamp(ratio * ratio, kLeastWeight, kMostWeight));
-    spread.push_back(static_cast<double>(beside[i]));
+    FairPoint& p = px.emplace_back();
+    p.at = in.points[i].at / pixelMm;
+    p.weight = std::clamp(ratio * ratio, kLeastWeight, kMostWeight);
+    p.spread = static_cast<double>(beside[i]);
   }
   if (px.empty()) return;
-  Vec2 low = px.front(), high = px.front(), sum = Vec2::Zero();
-  for (const Vec2& p : px) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-    sum += p;
+  Vec2 low = px.front().at, high = low, sum = Vec2::Zero();
+  for (const FairPoint& p : px) {
+    low = low.cwiseMin(p.at);
+    high = high.cwiseMax(p.at);
+    sum += p.at;
   }
   piece.origin = sum / static_cast<double>(px.size());
   const double same = 1e-9 * (high - low).norm();
   auto& points = piece.data.points;
-  for (std::size_t i = 0; i < px.size(); ++i) {
-    const Vec2 centred = px[i] - piece.origin;
-    if (!points.empty() && (centred - points.back()).norm() <= same) continue;
-    points.push_back(centred);
-    piece.data.weight.push_back(weight[i]);
-    piece.data.spread.push_back(spread[i]);
+  for (FairPoint p : px) {
+    p.at -= piece.origin;
+    if (!points.empty() && (p.at - points.back().at).norm() <= same) continue;
+    points.push_back(p);
   }
-  while (in.closed && points.size() > 1 && (points.front() - points.back()).norm() <= same) {
-    points.pop_back();
-    piece.data.weight.pop_back();
-    piece.data.spread.pop_back();
-  }
+  while (in.closed && points.size() > 1 && (points.front().at - points.back().at).norm() <= same) points.pop_back();
   piece.data.closed = in.closed;
-  piece.data.use.assign(points.size(), 1);
-  if (in.startIsCorner && !in.closed) piece.pins.start = points.front();
-  if (in.endIsCorner && !in.closed) piece.pins.end = points.back();
+  if (in.startIsCorner && !in.closed) piece.pins.start = points.front().at;
+  if (in.endIsCorner && !in.closed) piece.pins.end = points.back().at;
 }
 
 Vec2 median(const std::vector<Vec2>& p) {
@@ -87,40 +82,38 @@ Vec2 median(const std::vector<Vec2>& p) {
 
 /// Leaves out the points next to corners, where blur has rounded the line.
 void guardCorners(FairPiece& piece, double guardPx) {
-  auto& data = piece.data;
-  const auto n = data.points.size();
+  auto& points = piece.data.points;
+  const auto isNear = [&](const Vec2& corner) {
+    return [&, corner](const FairPoint& p) { return (p.at - corner).norm() < guardPx; };
+  };
   if (piece.pins.start) {
-    data.use.front() = 0;
-    for (std::size_t i = 1; i < n && (data.points[i] - data.points.front()).norm() < guardPx; ++i) data.use[i] = 0;
+    points.front().use = false;
+    for (FairPoint& p : points | std::views::drop(1) | std::views::take_while(isNear(points.front().at))) p.use = false;
   }
   if (piece.pins.end) {
-    data.use.back() = 0;
-    for (std::size_t i = n - 1; i-- > 0 && (data.points[i] - data.points.back()).norm() < guardPx;) data.use[i] = 0;
+    points.back().use = false;
+    for (FairPoint& p :
+         points | std::views::reverse | std::views::drop(1) | std::views::take_while(isNear(points.back().at)))
+      p.use = false;
   }
 }
 
 /// Free ends begin with good points: the curve ends where they do.
 void trimFreeEnds(FairPiece& piece) {
-  auto& data = piece.data;
-  if (data.closed) return;
-  std::size_t first = 0, last = data.points.size();
-  while (!piece.pins.start && first + 2 < last && !data.use[first]) ++first;
-  while (!piece.pins.end && first + 2 < last && !data.use[last - 1]) --last;
-  const auto cut = [&](auto& v) {
-    v.erase(v.begin() + static_cast<std::ptrdiff_t>(last), v.end());
-    v.erase(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(first));
-  };
-  cut(data.points);
-  cut(data.use);
-  cut(data.weight);
-  cut(data.spread);
+  if (piece.data.closed) return;
+  auto& points = piece.data.points;
+  auto first = points.begin(), last = points.end();
+  while (!piece.pins.start && last - first > 2 && !first->use) ++first;
+  while (!piece.pins.end && last - first > 2 && !std::prev(last)->use) --last;
+  points.erase(last, points.end());
+  points.erase(points.begin(), first);
 }
 
 }  // namespace
 
-double medianSpacing(const std::vector<Vec2>& points) {
+double medianSpacing(const FairData& data) {
   std::vector<double> gaps;
-  for (std::size_t i = 1; i < points.size(); ++i) gaps.push_back((points[i] - points[i - 1]).norm());
+  for (int i = 1; i < std::ssize(data.points); ++i) gaps.push_back((data.points[i].at - data.points[i - 1].at).norm());
   if (gaps.empty()) return 1.0;
   return upperMedian(gaps);
 }
@@ -130,24 +123,21 @@ void rejectOutliers(FairData& data, double gatePx, double spacing) {
   if (n < 2 * kGateReach + 1) return;
   // Half a window of points may lie round a bend that is as sharp as a line can be.
   const double limit = gatePx + 0.5 * kGateReach * spacing;
-  const std::vector<Vec2> p = data.points;
+  const auto at = [&](int i) -> const Vec2& { return data.points[i].at; };
   const auto around = [&](int from, int to) {
     std::vector<Vec2> some;
     for (int j = from; j <= to; ++j) {
-      if (data.closed || (j >= 0 && j < n)) some.push_back(p[((j % n) + n) % n]);
+      if (data.closed || (j >= 0 && j < n)) some.push_back(at(((j % n) + n) % n));
     }
     return some;
   };
   for (int i = 0; i < n; ++i) {
     if (i >= kGateReach && i + kGateReach < n) {  // the usual case, without medians
-      const auto at = static_cast<std::size_t>(i);
-      if (awayFromSegment(p[at], p[at - kGateReach], p[at + kGateReach]).norm() <= limit) continue;
+      if (awayFromSegment(at(i), at(i - kGateReach), at(i + kGateReach)).norm() <= limit) continue;
     }
     const auto before = around(i - kGateReach, i - 1), after = around(i + 1, i + kGateReach);
     if (before.size() < 3 || after.size() < 3) continue;
-    if (awayFromSegment(p[i], median(before), median(after)).norm() > limit) {
-      data.use[i] = 0;
-    }
+    if (awayFromSegment(at(i), median(before), median(after)).norm() > limit) data.points[i].use = false;
   }
 }
 
@@ -164,9 +154,9 @@ double ordinarySigma(const ConstructContour& contour) {
 
 void weighByNoise(FairData& data, const LocalNoise& noise, double measured, double floor) {
   const double s0 = std::max(measured, floor);
-  for (std::size_t i = 0; i < data.weight.size(); ++i) {
-    const double there = measured * noise.at(data.t[i]) / data.weight[i] + kWanderShare * std::pow(data.spread[i], 3);
-    data.weight[i] = s0 / std::max(there, floor);
+  for (FairPoint& p : data.points) {
+    const double there = measured * noise.at(p.t) / p.weight + kWanderShare * std::pow(p.spread, 3);
+    p.weight = s0 / std::max(there, floor);
   }
 }
 
@@ -177,15 +167,15 @@ FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixel
   FairData& data = piece.data;
   if (data.points.size() < 2) return piece;
   double length = 0.0;
-  const double spacing = medianSpacing(data.points);
+  const double spacing = medianSpacing(data);
   data.density = std::min(1.0, 1.0 / std::max(spacing, 1e-9));
   rejectOutliers(data, isStroke ? options.gateStrokePx : options.gateOutlinePx, spacing);
   trimFreeEnds(piece);
-  const Vec2* last = nullptr;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (!data.use[i]) continue;
-    if (last) length += (data.points[i] - *last).norm();
-    last = &data.points[i];
+  const FairPoint* last = nullptr;
+  for (const FairPoint& p : data.points) {
+    if (!p.use) continue;
+    if (last) length += (p.at - last->at).norm();
+    last = &p;
   }
   guardCorners(piece, std::min(isStroke ? kGuardStrokePx : kGuardOutlinePx, kGuardShare * length));
   if (length < kShortestFairPx) return piece;

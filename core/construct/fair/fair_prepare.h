@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
 #include "core/base/cancel_check.h"
 #include "core/construct/fair/fair_piece.h"
 
@@ -25,8 +23,8 @@ inline constexpr double kMeanShare = 0.07;
 /// density of max(measured, floor).
 void weighByNoise(FairData&, const LocalNoise&, double measured, double floor);
 
-/// Median distance of neighbours; 1 for a single point.
-double medianSpacing(const std::vector<Vec2>& points);
+/// [px] Median distance of neighbours; 1 for a single point.
+double medianSpacing(const FairData&);
 
 /// Marks points as not to be used that lie far from where their neighbours on both sides are (medians, so that outliers
 /// cannot vote).

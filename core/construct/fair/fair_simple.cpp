@@ -39,7 +39,7 @@ Result<NurbsCurve> bezier(std::vector<Vec2> points, double length, double scale)
 
 Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, double scale, const std::vector<double>& t) {
   const double length = t.back();
-  const int used = static_cast<int>(std::count(data.use.begin(), data.use.end(), 1));
+  const int used = static_cast<int>(std::ranges::count(data.points, true, &FairPoint::use));
   const bool straight = length < kStraightBelowPx || used < 4;
   const int degree = straight ? 1 : length < kQuadraticBelowPx || used < 8 ? 2 : 3;
   const int n = degree + 1;
@@ -51,11 +51,11 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, double 
     normal += w * b * b.transpose();
     right += w * b * p.transpose();
   };
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (data.use[i]) add(t[i] / length, data.points[i], 1.0);
+  for (int i = 0; i < std::ssize(data.points); ++i) {
+    if (data.points[i].use) add(t[i] / length, data.points[i].at, 1.0);
   }
   // A straight piece of few points joins its ends; otherwise only corners are exact.
-  const Vec2 first = pins.start.value_or(data.points.front()), last = pins.end.value_or(data.points.back());
+  const Vec2 first = pins.start.value_or(data.points.front().at), last = pins.end.value_or(data.points.back().at);
   if (pins.start || used < 4) add(0.0, first, kPinWeight);
   if (pins.end || used < 4) add(1.0, last, kPinWeight);
   const Eigen::MatrixXd solution = solveSymmetric(normal, right);
@@ -70,19 +70,24 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, double 
 
 }  // namespace
 
-WeightedPoints blockMeans(const FairFrame& frame) {
-  WeightedPoints means;
+std::vector<WeightedPoint> blockMeans(const FairFrame& frame) {
+  std::vector<WeightedPoint> means;
   for (const FairBlock& block : frame.blocks) {
     const PlaneDerivatives d = frame.base.at(block.u, 1);
-    means.points.push_back(d[0] + block.offset * leftNormal(d[1]).normalized());
-    means.weights.push_back(frame.blockLength * block.weight);
+    means.push_back({d[0] + block.offset * leftNormal(d[1]).normalized(), frame.blockLength * block.weight});
   }
   return means;
 }
 
-std::optional<CircleFit> fitCircle(const WeightedPoints& data) {
+std::optional<CircleFit> fitCircle(std::span<const WeightedPoint> data) {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+  for (const WeightedPoint& p : data) {
+    points.push_back(p.at);
+    weights.push_back(p.weight);
+  }
   // A good start, since the points surround the centre.
-  const auto start = algebraicCircle(data.points, data.weights);
+  const auto start = algebraicCircle(points, weights);
   if (!start) return std::nullopt;
   CircleFit fit{start->centre, start->radius, 0.0};
   Eigen::Matrix3d normal;
@@ -91,15 +96,15 @@ std::optional<CircleFit> fitCircle(const WeightedPoints& data) {
     normal.setZero();
     right.setZero();
     fit.squares = 0.0;
-    for (std::size_t i = 0; i < data.points.size(); ++i) {
-      const Vec2 d = data.points[i] - fit.centre;
+    for (const auto& [at, weight] : data) {
+      const Vec2 d = at - fit.centre;
       const double distance = d.norm();
       if (!(distance > 0.0)) return std::nullopt;
       const Eigen::Vector3d row(d.x() / distance, d.y() / distance, 1.0);
       const double e = distance - fit.radius;
-      normal += data.weights[i] * row * row.transpose();
-      right += data.weights[i] * row * e;
-      fit.squares += data.weights[i] * e * e;
+      normal += weight * row * row.transpose();
+      right += weight * row * e;
+      fit.squares += weight * e * e;
     }
     const Eigen::Vector3d step = normal.fullPivLu().solve(right);
     if (!step.allFinite()) return std::nullopt;
@@ -126,27 +131,27 @@ UniformQuintic circleCurve(const CircleFit& circle, const Vec2& first, bool left
   return UniformQuintic({length, spans, true}, std::move(coefficients));
 }
 
-std::optional<LineFit> fitLine(const WeightedPoints& data) {
+std::optional<LineFit> fitLine(std::span<const WeightedPoint> data) {
   LineFit fit;
   double total = 0.0;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    fit.point += data.weights[i] * data.points[i];
-    total += data.weights[i];
+  for (const auto& [at, weight] : data) {
+    fit.point += weight * at;
+    total += weight;
   }
   if (!(total > 0.0)) return std::nullopt;
   fit.point /= total;
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const Vec2 p = data.points[i] - fit.point;
-    spread += data.weights[i] * p * p.transpose();
+  for (const auto& [at, weight] : data) {
+    const Vec2 p = at - fit.point;
+    spread += weight * p * p.transpose();
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
   eigen.computeDirect(spread);
   if (!(eigen.eigenvalues()[1] > 0.0)) return std::nullopt;
   fit.direction = eigen.eigenvectors().col(1);
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const double e = cross(fit.direction, data.points[i] - fit.point);
-    fit.squares += data.weights[i] * e * e;
+  for (const auto& [at, weight] : data) {
+    const double e = cross(fit.direction, at - fit.point);
+    fit.squares += weight * e * e;
   }
   return fit;
 }
@@ -166,15 +171,18 @@ Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins, doubl
     return fail(ErrorCode::Numerical, "A line is too short for a curve; drop short lines or specks.");
   };
   if (data.points.size() < 2) return nothing();
-  std::vector<double> t(1, 0.0);
-  for (std::size_t i = 1; i < data.points.size(); ++i)
-    t.push_back(t.back() + (data.points[i] - data.points[i - 1]).norm());
+  std::vector<double> t, weights;
+  std::vector<Vec2> points;
+  for (const FairPoint& p : data.points) {
+    t.push_back(points.empty() ? 0.0 : t.back() + (p.at - points.back()).norm());
+    points.push_back(p.at);
+    weights.push_back(p.use ? 1.0 : 0.0);
+  }
   if (!(t.back() > 0.0) || !std::isfinite(t.back())) return nothing();
   if (!data.closed) return openCurve(data, pins, scale, t);
-  const double length = t.back() + (data.points.front() - data.points.back()).norm();
+  const double length = t.back() + (points.front() - points.back()).norm();
   const double lambda = data.density * std::pow(kLoopCutoffShare * length / (2.0 * std::numbers::pi), 6);
-  std::vector<double> weights(data.use.begin(), data.use.end());
-  const auto loop = fitUniformQuintic(fairKnots(length, kLoopSpacingPx, true), t, data.points, weights, lambda);
+  const auto loop = fitUniformQuintic(fairKnots(length, kLoopSpacingPx, true), t, points, weights, lambda);
   if (!loop) return nothing();
   return loop->toNurbs(scale, scale, Vec2::Zero(), Vec2::Zero());
 }

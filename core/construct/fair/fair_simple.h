@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
@@ -17,12 +18,12 @@ struct FairPins {
   std::optional<Vec2> start, end;
 };
 
-/// Block means as weighted points.
-struct WeightedPoints {
-  std::vector<Vec2> points;
-  std::vector<double> weights;
+struct WeightedPoint {
+  Vec2 at = Vec2::Zero();
+  double weight = 1.0;
 };
-WeightedPoints blockMeans(const FairFrame&);
+/// Block means.
+std::vector<WeightedPoint> blockMeans(const FairFrame&);
 
 struct CircleFit {
   Vec2 centre = Vec2::Zero();
@@ -30,7 +31,7 @@ struct CircleFit {
   double squares = 0.0;  ///< Weighted sum of squared distances.
 };
 /// Geometric least squares circle (Gauss-Newton from the algebraic one). Absent for points on a line.
-std::optional<CircleFit> fitCircle(const WeightedPoints&);
+std::optional<CircleFit> fitCircle(std::span<const WeightedPoint>);
 /// The circle as a periodic uniform quintic of 24 spans; radius exact to 1e-8, curvature to 1e-5. Starts next to
 /// `first`, turns left if `left`.
 UniformQuintic circleCurve(const CircleFit&, const Vec2& first, bool left);
@@ -40,7 +41,7 @@ struct LineFit {
   double squares = 0.0;
 };
 /// Total least squares line. Absent when all points are one.
-std::optional<LineFit> fitLine(const WeightedPoints&);
+std::optional<LineFit> fitLine(std::span<const WeightedPoint>);
 /// The straight piece from the first to the last point: on the line, but through the pins. px in, scaled by `scale`.
 Result<NurbsCurve> lineCurve(const LineFit&, const Vec2& first, const Vec2& last, const FairPins&, double scale);
 

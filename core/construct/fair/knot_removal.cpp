@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -48,8 +49,7 @@ class KnotPlacing {
     const auto jump = [&](int j) {
       if (closed) j = ((j % n) + n) % n;
       if (!closed) j = std::clamp(j, 1, std::max(1, n - 1));
-      const auto at = static_cast<std::size_t>(j), before = static_cast<std::size_t>((j + n - 1) % n);
-      return n > 1 ? (fifth[at] - fifth[before]).norm() : 0.0;
+      return n > 1 ? (fifth[j] - fifth[(j + n - 1) % n]).norm() : 0.0;
     };
     std::vector<double> density;
     double mean = 0.0;
@@ -83,33 +83,37 @@ class KnotRemoval {
       : full_(full), limits_(limits), check_(check), placing_(full), closed_(full.knots().closed) {
     const UniformKnots& knots = full.knots();
     const int count = limits.perSpan * knots.spans + (closed_ ? 0 : 1);
+    std::vector<double> kappas;
     for (int j = 0; j < count; ++j) {
       const double u = j * knots.length / (limits.perSpan * knots.spans);
       const PlaneDerivatives d = full.at(u, 2);
       const double share = u / knots.length;
-      parameters_.push_back(u);
-      targets_.push_back(d[0] + (1.0 - share) * limits.startShift + share * limits.endShift);
-      normals_.push_back(leftNormal(d[1]).normalized());
-      kappas_.push_back(kappaOf(d[1], d[2]));
-      bends_.push_back(d[2]);
+      Station& station = stations_.emplace_back();
+      station.u = u;
+      station.target = d[0] + (1.0 - share) * limits.startShift + share * limits.endShift;
+      station.normal = leftNormal(d[1]).normalized();
+      station.kappa = kappaOf(d[1], d[2]);
+      station.bend = d[2];
+      kappas.push_back(station.kappa);
     }
-    Vec2 low = targets_.front(), high = low;
-    for (const Vec2& p : targets_) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
+    Vec2 low = stations_.front().target, high = low;
+    for (const Station& station : stations_) {
+      low = low.cwiseMin(station.target);
+      high = high.cwiseMax(station.target);
     }
     least_ = kWrongWayKept / std::max((high - low).norm(), 1e-12);
-    extrema_ = countExtrema(kappas_, least_);
-    if (!limits.distancePx.empty()) nearest_ = *std::min_element(limits.distancePx.begin(), limits.distancePx.end());
-    findCourses();
+    const std::vector<int> extrema = extremaOfSamples(kappas, least_);
+    extrema_ = static_cast<int>(extrema.size());
+    if (!limits.stations.empty())
+      nearest_ = std::ranges::min(limits.stations, {}, &KnotRemovalLimit::distancePx).distancePx;
+    findDirections(extrema);
   }
 
   std::optional<KnotRemovalResult> run() {
     const int n = full_.knots().spans;
     const int most = static_cast<int>(kLeastGain * n);
     int low = closed_ ? kFewestClosed : 1, high = most;  // what is still to be tried
-    if (high < low || limits_.kappaSigma.size() != parameters_.size()) return std::nullopt;
-    if (limits_.distancePx.size() != parameters_.size()) return std::nullopt;
+    if (high < low || limits_.stations.size() != stations_.size()) return std::nullopt;
     std::optional<KnotRemovalResult> best;
     int spans = std::clamp(static_cast<int>(kFirstGuess * n), low, high);
     for (int trial = 0; trial < kTrials && low <= high; ++trial) {
@@ -131,6 +135,16 @@ class KnotRemoval {
   }
 
  private:
+  /// The full curve at one of the check stations.
+  struct Station {
+    double u = 0.0;
+    Vec2 target = Vec2::Zero();  ///< Its place, with the shifts of the ends.
+    Vec2 normal = Vec2::UnitY();
+    Vec2 bend = Vec2::Zero();  ///< Second derivative.
+    double kappa = 0.0;
+    int direction = 0;  ///< Whether its curvature rises (1) or falls (-1); 0 next to extrema.
+  };
+
   /// Knots of a curve of `spans` spans: clamped, or running on periodically.
   std::vector<double> knotsFor(int spans) const {
     const double length = full_.knots().length;
@@ -171,20 +185,19 @@ class KnotRemoval {
     Fit fit;
     fit.x = fit.y = Eigen::VectorXd::Zero(unknowns);
     std::vector<BasisRow> rows;
-    rows.reserve(parameters_.size());
+    rows.reserve(stations_.size());
     const auto add = [&](const BandRow& row, double weight, const Vec2& target) {
       normal.addOuter(row, weight);
       addTo(fit.x, row, weight * target.x());
       addTo(fit.y, row, weight * target.y());
     };
-    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    for (int i = 0; i < std::ssize(stations_); ++i) {
       if (check_.isCancelled()) return fit;
-      rows.push_back(basis(5, knots, points, parameters_[i], 2));
-      const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
-      const double place = nearest_ / limits_.distancePx[i];
-      add(rowOf(rows.back(), 0), end ? kHoldWeight : place * place, targets_[i]);
+      rows.push_back(basis(5, knots, points, stations_[i].u, 2));
+      const double place = nearest_ / limits_.stations[i].distancePx;
+      add(rowOf(rows.back(), 0), isEnd(i) ? kHoldWeight : place * place, stations_[i].target);
       const double share = nearest_ / std::max(kappaLimit(i), 1e-12);
-      add(rowOf(rows.back(), 2), share * share, bends_[i]);
+      add(rowOf(rows.back(), 2), share * share, stations_[i].bend);
     }
     BandedCholesky cholesky;
     if (!cholesky.factor(normal)) return fit;
@@ -206,15 +219,19 @@ class KnotRemoval {
   bool makeMonotone(Fit& fit, const std::vector<double>& knots) const {
     const int points = static_cast<int>(knots.size()) - 6, unknowns = static_cast<int>(fit.x.size());
     BandedProgram qp{BandedMatrix(unknowns, BandRow::kHalfWidth, closed_), Eigen::VectorXd::Zero(unknowns), {}, {}};
-    std::vector<PlaneDerivatives> curve;
-    std::vector<BandRow> places;
+    struct Place {
+      PlaneDerivatives d;
+      BandRow row;
+    };
+    std::vector<Place> places;
     const auto add = [&](const BandRow& row, double w, double target) {
       qp.a.addOuter(row, w);
       addTo(qp.b, row, w * target);
     };
-    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    for (int i = 0; i < std::ssize(stations_); ++i) {
       if (check_.isCancelled()) return false;
-      const BasisRow basisRow = basis(5, knots, points, parameters_[i], 4);
+      const Station& full = stations_[i];
+      const BasisRow basisRow = basis(5, knots, points, full.u, 4);
       std::array<BandRow, 5> rows;
       PlaneDerivatives d;
       for (std::size_t order = 0; order < 5; ++order) {
@@ -222,32 +239,29 @@ class KnotRemoval {
         d[order] = Vec2(dot(rows[order], fit.x), dot(rows[order], fit.y));
       }
       const FrameStation station = frameStation(d, rows);
-      const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
       const Vec2 normal = leftNormal(d[1]).normalized();
-      const double weight = 1.0 / (limits_.distancePx[i] * limits_.distancePx[i]);
-      add(rows[0], end ? kEndHold * weight : weight, (targets_[i] - d[0]).dot(normal));
+      const double distance = limits_.stations[i].distancePx, weight = 1.0 / (distance * distance);
+      add(rows[0], isEnd(i) ? kEndHold * weight : weight, (full.target - d[0]).dot(normal));
       const double limit = std::max(kappaLimit(i), 1e-12);
-      add(station.kappaRow, 1.0 / (limit * limit), kappas_[i] - station.kappa);
-      curve.push_back(d);
-      places.push_back(rows[0]);
-      if (courses_[i] == 0) continue;
+      add(station.kappaRow, 1.0 / (limit * limit), full.kappa - station.kappa);
+      places.push_back({d, rows[0]});
+      if (full.direction == 0) continue;
       BandRow row = station.slopeRow;
-      for (double& v : row.v) v *= courses_[i];
+      for (double& v : row.v) v *= full.direction;
       qp.rows.push_back(row);
-      qp.bounds.push_back(-courses_[i] * station.slope);
+      qp.bounds.push_back(-full.direction * station.slope);
     }
     const InteriorPointResult solved = solveProgram(qp, {}, check_);
     if (check_.isCancelled() || solved.why == Termination::Degenerate || !solved.x.allFinite()) return false;
     BandedMatrix normal(unknowns, BandRow::kHalfWidth, closed_);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns), y = x;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const bool end = !closed_ && (i == 0 || i + 1 == places.size());
-      const double w = end ? kHoldWeight : 1.0;
-      const Vec2 p =
-          end ? targets_[i] : Vec2(curve[i][0] + dot(places[i], solved.x) * leftNormal(curve[i][1]).normalized());
-      normal.addOuter(places[i], w);
-      addTo(x, places[i], w * p.x());
-      addTo(y, places[i], w * p.y());
+    for (int i = 0; i < std::ssize(places); ++i) {
+      const auto& [d, row] = places[i];
+      const double w = isEnd(i) ? kHoldWeight : 1.0;
+      const Vec2 p = isEnd(i) ? stations_[i].target : Vec2(d[0] + dot(row, solved.x) * leftNormal(d[1]).normalized());
+      normal.addOuter(row, w);
+      addTo(x, row, w * p.x());
+      addTo(y, row, w * p.y());
     }
     BandedCholesky cholesky;
     if (!cholesky.factor(normal)) return false;
@@ -259,43 +273,44 @@ class KnotRemoval {
     return true;
   }
 
-  /// Whether the curvature of the full curve rises (1) or falls (-1) at each station; 0 next to its extrema.
-  void findCourses() {
-    const int count = static_cast<int>(kappas_.size());
-    const std::vector<int> extrema = extremaOfSamples(kappas_, least_);
-    courses_.assign(kappas_.size(), 0);
+  /// Sets the directions of the stations.
+  void findDirections(const std::vector<int>& extrema) {
+    const int count = static_cast<int>(stations_.size());
     const auto stretch = [&](int from, int to, bool isFirst, bool isLast) {
-      const auto &a = kappas_[from], &b = kappas_[to];
+      const double a = stations_[from].kappa, b = stations_[to].kappa;
       const int low = isFirst ? from : from + kFreeSpans * limits_.perSpan;
       const int high = isLast ? to : to - kFreeSpans * limits_.perSpan;
-      for (int i = low; i <= high; ++i) courses_[i] = b > a ? 1 : -1;
+      for (int i = low; i <= high; ++i) stations_[i].direction = b > a ? 1 : -1;
     };
     int from = 0;
-    for (std::size_t k = 0; k <= extrema.size(); ++k) {
-      const int to = k < extrema.size() ? extrema[k] : count - 1;
+    const int last = static_cast<int>(extrema.size());
+    for (int k = 0; k <= last; ++k) {
+      const int to = k < last ? extrema[k] : count - 1;
       // Where a closed curve begins there may be an extremum as well: its first and last stretch are left alone.
-      if (!closed_ || (k > 0 && k < extrema.size())) stretch(from, to, k == 0, k == extrema.size());
+      if (!closed_ || (k > 0 && k < last)) stretch(from, to, k == 0, k == last);
       from = to;
     }
   }
 
-  double kappaLimit(std::size_t i) const { return limits_.kappaShare * limits_.kappaSigma[i]; }
+  double kappaLimit(int i) const { return limits_.kappaShare * limits_.stations[i].kappaSigma; }
+  bool isEnd(int i) const { return !closed_ && (i == 0 || i + 1 == std::ssize(stations_)); }
 
   void measure(Fit& fit, const std::vector<BasisRow>& rows) const {
     fit.moved = 0.0;
     std::vector<double> kappa;
     double excess = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (int i = 0; i < std::ssize(rows); ++i) {
+      const Station& full = stations_[i];
       std::array<Vec2, 3> d;
       for (std::size_t order = 0; order < 3; ++order) {
         const BandRow row = rowOf(rows[i], order);
         d[order] = Vec2(dot(row, fit.x), dot(row, fit.y));
       }
       kappa.push_back(kappaOf(d[1], d[2]));
-      const double moved = std::abs((d[0] - targets_[i]).dot(normals_[i]));
+      const double moved = std::abs((d[0] - full.target).dot(full.normal));
       fit.moved = std::max(fit.moved, moved);
-      excess = std::max(excess, moved / limits_.distancePx[i]);
-      excess = std::max(excess, std::abs(kappa.back() - kappas_[i]) / std::max(kappaLimit(i), 1e-300));
+      excess = std::max(excess, moved / limits_.stations[i].distancePx);
+      excess = std::max(excess, std::abs(kappa.back() - full.kappa) / std::max(kappaLimit(i), 1e-300));
     }
     fit.excess = excess;
     fit.keepsExtrema = countExtrema(kappa, least_) == extrema_;
@@ -307,8 +322,8 @@ class KnotRemoval {
     const auto count = static_cast<Eigen::Index>(knots.size()) - 6;
     for (Eigen::Index i = 0; i < count; ++i) controls.emplace_back(fit.x[i % fit.x.size()], fit.y[i % fit.y.size()]);
     if (!closed_) {
-      controls.front() = targets_.front();
-      controls.back() = targets_.back();
+      controls.front() = stations_.front().target;
+      controls.back() = stations_.back().target;
     }
     auto curve = NurbsCurve::make(5, knots, std::move(controls));
     if (curve && closed_) curve = clamped(*curve);
@@ -321,19 +336,17 @@ class KnotRemoval {
   CancelCheck check_;
   KnotPlacing placing_;
   bool closed_;
-  std::vector<double> parameters_, kappas_;
-  std::vector<Vec2> targets_, normals_, bends_;
+  std::vector<Station> stations_;
   double least_ = 0.0, nearest_ = 1.0;
   int extrema_ = 0;
-  std::vector<int> courses_;
 };
 
 }  // namespace
 
 std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits& limits,
                                                  CancelCheck check) {
-  const auto isPositive = [](double d) { return d > 0.0; };
-  if (!std::all_of(limits.distancePx.begin(), limits.distancePx.end(), isPositive)) return std::nullopt;
+  const auto isPositive = [](const KnotRemovalLimit& limit) { return limit.distancePx > 0.0; };
+  if (!std::ranges::all_of(limits.stations, isPositive)) return std::nullopt;
   return KnotRemoval(full, limits, check).run();
 }
 

@@ -12,12 +12,16 @@
 
 namespace batten {
 
+/// What is asked at one station.
+struct KnotRemovalLimit {
+  double distancePx = 0.0;  ///< > 0: farthest from the curve …
+  double kappaSigma = 0.0;  ///< [1/px] … and noise of the curvature there.
+};
 /// What a curve with fewer control points has to keep of the one that it stands for; px.
 struct KnotRemovalLimits {
-  std::span<const double> distancePx;  ///< > 0 at `checkStations(curve, perSpan)`: farthest from the curve …
-  std::span<const double> kappaSigma;  ///< [1/px] … and noise of the curvature there.
-  int perSpan = 4;                     ///< Of these stations.
-  double kappaShare = 0.5;             ///< Part of that noise by which the curvature may differ.
+  std::span<const KnotRemovalLimit> stations;               ///< At `checkStations(curve, perSpan)`.
+  int perSpan = 4;                                          ///< Of these stations.
+  double kappaShare = 0.5;                                  ///< Part of the noise by which the curvature may differ.
   Vec2 startShift = Vec2::Zero(), endShift = Vec2::Zero();  ///< As UniformQuintic::toNurbs; open curves.
 };
 
@@ -34,7 +38,7 @@ std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, con
 
 /// The extrema of sampled curvature that rise or fall by more than `least`: indices, ascending.
 std::vector<int> extremaOfSamples(std::span<const double> kappa, double least);
-/// How often it does.
+/// Their number.
 int countExtrema(std::span<const double> kappa, double least);
 
 }  // namespace batten

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 #include "core/base/statistics.h"
 #include "core/construct/fair/fair_piece.h"
@@ -44,23 +45,22 @@ Course courseOf(const ConstructPiece& piece, double pixelMm, double gatePx) {
   FairData data;
   data.closed = piece.closed;
   std::vector<int> original;
-  for (std::size_t i = 0; i < piece.points.size(); ++i) {
+  for (int i = 0; i < std::ssize(piece.points); ++i) {
     if (!piece.points[i].at.allFinite()) continue;
-    data.points.push_back(piece.points[i].at / pixelMm);
-    original.push_back(static_cast<int>(i));
+    data.points.emplace_back().at = piece.points[i].at / pixelMm;
+    original.push_back(i);
   }
-  data.use.assign(data.points.size(), 1);
-  if (gatePx > 0.0) rejectOutliers(data, gatePx, medianSpacing(data.points));
+  if (gatePx > 0.0) rejectOutliers(data, gatePx, medianSpacing(data));
   std::vector<Vec2> raw;
   Course course;
   course.closed = piece.closed;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (!data.use[i]) continue;
-    raw.push_back(data.points[i]);
+  for (int i = 0; i < std::ssize(data.points); ++i) {
+    if (!data.points[i].use) continue;
+    raw.push_back(data.points[i].at);
     course.index.push_back(original[i]);
   }
-  const std::size_t n = raw.size();
-  for (std::size_t i = 0; i < n; ++i) {
+  const int n = static_cast<int>(raw.size());
+  for (int i = 0; i < n; ++i) {
     const bool end = !piece.closed && (i == 0 || i + 1 == n);
     course.p.push_back(end ? raw[i] : Vec2((raw[(i + n - 1) % n] + raw[i] + raw[(i + 1) % n]) / 3.0));
     course.s.push_back(i == 0 ? 0.0 : course.s.back() + (course.p[i] - course.p[i - 1]).norm());
@@ -104,12 +104,9 @@ PointRange widened(const Course& course, const ConstructPiece& piece, int a, int
 }
 
 double lengthBetween(const ConstructPiece& piece, int first, int last) {
-  const auto n = piece.points.size();
+  const int n = static_cast<int>(piece.points.size());
   double length = 0.0;
-  for (int i = first; i < last; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    length += (piece.points[(at + 1) % n].at - piece.points[at % n].at).norm();
-  }
+  for (int i = first; i < last; ++i) length += (piece.points[(i + 1) % n].at - piece.points[i % n].at).norm();
   return length;
 }
 
@@ -219,7 +216,7 @@ std::vector<PointRange> between(const std::vector<PointRange>& features, const C
 }
 
 bool PointDeviation::good() const {
-  const auto share = static_cast<int>(kFarShare * static_cast<double>(distancePx.size()));
+  const auto share = static_cast<int>(kFarShare * static_cast<double>(points.size()));
   return veryFar == 0 && far <= share && lengthRatio < kLongestRatio;
 }
 
@@ -237,9 +234,9 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   parameter.push_back(breaks.back());
   for (const double u : parameter) polygon.push_back(curve.point(u) / pixelMm);
   for (std::size_t i = 1; i < polygon.size(); ++i) length += (polygon[i] - polygon[i - 1]).norm();
-  const std::size_t n = piece.points.size();
-  constexpr std::size_t kStride = 4;  // noise of single points makes no length
-  for (std::size_t i = kStride; i < n; i += kStride) {
+  const int n = static_cast<int>(piece.points.size());
+  constexpr int kStride = 4;  // noise of single points makes no length
+  for (int i = kStride; i < n; i += kStride) {
     pointLength += (piece.points[i].at - piece.points[i - kStride].at).norm() / pixelMm;
   }
   if (n > 0) pointLength += (piece.points[n - 1].at - piece.points[(n - 1) / kStride * kStride].at).norm() / pixelMm;
@@ -262,23 +259,23 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
       const Passing round = follow(polygon, p, other, 8);
       if (round.distance < d.distance) d = round, at = other;
     }
-    result.offPx.push_back(d.distance);
+    PointOffset& offset = result.points.emplace_back();
+    offset.offPx = d.distance;
     // Between merged strokes the line may lie anywhere.
-    d.distance = std::max(0.0, d.distance - static_cast<double>(point.spreadPx.value_or(0.0f)));
-    result.distancePx.push_back(d.distance);
-    const auto low = std::min(static_cast<std::size_t>(d.place), parameter.size() - 2);
-    result.parameter.push_back(std::lerp(parameter[low], parameter[low + 1], d.place - static_cast<double>(low)));
-    along += d.distance;
+    offset.distancePx = std::max(0.0, d.distance - static_cast<double>(point.spreadPx.value_or(0.0f)));
+    const int low = std::min(static_cast<int>(d.place), static_cast<int>(parameter.size()) - 2);
+    offset.parameter = std::lerp(parameter[low], parameter[low + 1], d.place - low);
+    along += offset.distancePx;
   }
-  if (!std::isfinite(along)) result.veryFar = static_cast<int>(n) + 1;
-  for (std::size_t i = 0; i < n; ++i) {  // ignore single outliers
+  if (!std::isfinite(along)) result.veryFar = n + 1;
+  for (int i = 0; i < n; ++i) {  // ignore single outliers
     const auto near = [&](double limit) {
       int count = 0;
-      for (std::size_t k = i > 2 ? i - 2 : 0; k <= std::min(n - 1, i + 2); ++k) count += result.distancePx[k] > limit;
+      for (int k = std::max(0, i - 2); k <= std::min(n - 1, i + 2); ++k) count += result.points[k].distancePx > limit;
       return count >= 3;
     };
-    if (result.distancePx[i] > kFarPx && near(kFarPx)) ++result.far;
-    if (result.distancePx[i] > kVeryFarPx && near(kVeryFarPx)) ++result.veryFar;
+    if (result.points[i].distancePx > kFarPx && near(kFarPx)) ++result.far;
+    if (result.points[i].distancePx > kVeryFarPx && near(kVeryFarPx)) ++result.veryFar;
   }
   return result;
 }
@@ -289,12 +286,12 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
   const int n = static_cast<int>(piece.points.size());
   if (n < 5) return out;
   const bool outliers =
-      std::any_of(close.distancePx.begin(), close.distancePx.end(), [](double d) { return !(d <= kOutlierPx); });
+      std::ranges::any_of(close.points, [](const PointOffset& p) { return !(p.distancePx <= kOutlierPx); });
   if (!outliers && close.lengthRatio < kLongestRatio) return out;
   const Course course = courseOf(piece, pixelMm, 0.0);
   const std::vector<double> angle = turning(course, std::max(kArmPx, kArmPoints * course.total / n));
   if (course.count() != n) return {{0, n - 1}};
-  const auto distance = [&](int i) { return close.distancePx[((i % n) + n) % n]; };
+  const auto distance = [&](int i) { return close.points[((i % n) + n) % n].distancePx; };
   const auto middle = [&](int i) {
     std::array<double, 5> d{};
     for (int k = -2; k <= 2; ++k) {
@@ -307,7 +304,7 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
     int a = i, b = i;
     const auto isOff = [&](int k) {
       // What is cut out of a fit ends where the fit itself is back on the points.
-      return (whole ? close.offPx[k] : middle(k)) > kBackPx;
+      return (whole ? close.points[k].offPx : middle(k)) > kBackPx;
     };
     while (a > 0 && isOff(a - 1)) --a;
     while (b + 1 < n && isOff(b + 1)) ++b;

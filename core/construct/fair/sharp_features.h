@@ -25,14 +25,18 @@ std::vector<PointRange> united(std::vector<PointRange>, const ConstructPiece&, d
 /// The stretches between sharp features, in order (closed: beginning after the first one); without any the whole piece.
 std::vector<PointRange> between(const std::vector<PointRange>& features, const ConstructPiece&);
 
+/// How far a point lies from a curve.
+struct PointOffset {
+  double distancePx = 0.0;  ///< Between merged strokes only what lies outside them.
+  double offPx = 0.0;       ///< All of it …
+  double parameter = 0.0;   ///< … and where on the curve.
+};
 /// How far the points of a piece lie from a curve that should follow them in order.
 struct PointDeviation {
-  std::vector<double> distancePx;  ///< Per point; between merged strokes only what lies outside them.
-  std::vector<double> offPx;       ///< Per point, all of it …
-  std::vector<double> parameter;   ///< … and where on the curve.
-  double lengthRatio = 1.0;        ///< Of the curve to the points.
-  int far = 0;                     ///< Points more than 1.5 px off in a row of neighbours that are.
-  int veryFar = 0;                 ///< The same for 4 px.
+  std::vector<PointOffset> points;  ///< In the order of the piece.
+  double lengthRatio = 1.0;         ///< Of the curve to the points.
+  int far = 0;                      ///< Points more than 1.5 px off in a row of neighbours that are.
+  int veryFar = 0;                  ///< The same for 4 px.
   /// Everywhere near enough, and no longer than the points allow.
   bool good() const;
 };

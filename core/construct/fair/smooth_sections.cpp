@@ -29,10 +29,9 @@ void append(ConstructReport& whole, const ConstructReport& part, double from, do
     e.s += offset - from;
     whole.extrema.push_back(e);
   }
-  for (std::size_t i = 0; i < part.noiseS.size(); ++i) {
-    if (part.noiseS[i] < from || part.noiseS[i] > to) continue;
-    whole.noiseS.push_back(part.noiseS[i] + offset - from);
-    whole.noiseSigma.push_back(part.noiseSigma[i]);
+  for (const NoiseNote& note : part.noise) {
+    if (note.s < from || note.s > to) continue;
+    whole.noise.push_back({note.s + offset - from, note.sigma});
   }
   whole.knotRemovalMovedPx = std::max(whole.knotRemovalMovedPx, part.knotRemovalMovedPx);
   if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
@@ -52,8 +51,7 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   if (closed && to < start + seam) to = end;
   ConstructedPiece part{c, fit.report};
   part.report.extrema.clear();
-  part.report.noiseS.clear();
-  part.report.noiseSigma.clear();
+  part.report.noise.clear();
   auto curve = Result<NurbsCurve>(fail(ErrorCode::Numerical, "Nothing lies between."));
   if (from + least < to) {
     append(part.report, fit.report, from - start, to - start, 0.0);
@@ -99,8 +97,8 @@ SmoothSections::SmoothSections(const ConstructPiece& piece, bool isStroke, doubl
 
 std::vector<PiecePoint> SmoothSections::pointsOf(const PointRange& range) const {
   std::vector<PiecePoint> points;
-  const std::size_t n = piece_.points.size();
-  for (int i = range.first; i <= range.last; ++i) points.push_back(piece_.points[static_cast<std::size_t>(i) % n]);
+  const int n = static_cast<int>(piece_.points.size());
+  for (int i = range.first; i <= range.last; ++i) points.push_back(piece_.points[i % n]);
   return points;
 }
 
@@ -173,12 +171,12 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
     }
     const ConstructPiece& piece = pieces[i];
     const auto outliers = united(cut->outliers, piece, pixelMm_, kLeastSmoothPx);
-    const std::vector<double>& at = cut->close.parameter;
+    const std::vector<PointOffset>& at = cut->close.points;
     const int n = static_cast<int>(at.size());
     for (const PointRange& r : between(outliers, piece)) {
       const bool atStart = !piece.closed && r.first == 0, atEnd = !piece.closed && r.last == n - 1;
-      const double from = atStart ? fits_[i].curve.start() : at[r.first % n];
-      const double to = atEnd ? fits_[i].curve.end() : at[r.last % n];
+      const double from = atStart ? fits_[i].curve.start() : at[r.first % n].parameter;
+      const double to = atEnd ? fits_[i].curve.end() : at[r.last % n].parameter;
       auto part = stretchOf(fits_[i], from, to, piece.closed);
       if (!part) continue;  // left to the tight curve
       kept.push_back(std::move(*part));

@@ -57,8 +57,7 @@ std::size_t bytesOf(const std::vector<TracedCurve>& curves) {
   for (const TracedCurve& c : curves) {
     const NurbsCurve& largest = c.fairingStart();
     const auto points = static_cast<std::size_t>(largest.isEmpty() ? 0 : largest.controlPointCount());
-    bytes +=
-        sizeof(c) + 4 * points * sizeof(Vec2) + vectorBytes(c.construct.extrema) + 2 * vectorBytes(c.construct.noiseS);
+    bytes += sizeof(c) + 4 * points * sizeof(Vec2) + vectorBytes(c.construct.extrema) + vectorBytes(c.construct.noise);
   }
   return bytes;
 }

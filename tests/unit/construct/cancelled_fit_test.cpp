@@ -88,11 +88,9 @@ TEST_F(CancelledFit, HasNoPosteriorAndNoStructure) {
 TEST_F(CancelledFit, RemovesNoKnot) {
   const auto curve = offsetCurve(frame_.base, posterior_->mean, running_);
   ASSERT_TRUE(curve);
-  const auto stations = static_cast<std::size_t>(4 * curve->knots().spans + 1);
-  const std::vector<double> distance(stations, 0.5), sigma(stations, 1e-3);
+  const std::vector<KnotRemovalLimit> stations(4 * curve->knots().spans + 1, {0.5, 1e-3});
   KnotRemovalLimits limits;
-  limits.distancePx = distance;
-  limits.kappaSigma = sigma;
+  limits.stations = stations;
   EXPECT_TRUE(withFewestKnots(*curve, limits, running_));
   EXPECT_FALSE(withFewestKnots(*curve, limits, cancelled_));
 }
@@ -100,8 +98,8 @@ TEST_F(CancelledFit, RemovesNoKnot) {
 TEST_F(CancelledFit, MeasuresNoPoint) {
   const auto curve = frame_.base.toNurbs(1.0, 1.0, piece_.origin, piece_.origin);
   ASSERT_TRUE(curve);
-  EXPECT_EQ(pointDeviation(*curve, input_, 1.0, running_).distancePx.size(), input_.points.size());
-  EXPECT_TRUE(pointDeviation(*curve, input_, 1.0, cancelled_).distancePx.empty());
+  EXPECT_EQ(pointDeviation(*curve, input_, 1.0, running_).points.size(), input_.points.size());
+  EXPECT_TRUE(pointDeviation(*curve, input_, 1.0, cancelled_).points.empty());
   SmoothSections sections(input_, true, 1.0, options_);
   ConstructedPiece far;
   far.curve = *NurbsCurve::make(5, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1},

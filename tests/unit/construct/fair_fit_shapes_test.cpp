@@ -84,11 +84,11 @@ TEST(FairFit, NoiseBandIsHonest) {
     const auto fit = fitWithAllPoints(test::noisyPoints(truth, 0.127, seed));
     ASSERT_TRUE(fit.has_value());
     const auto& piece = fit->front();
-    ASSERT_EQ(piece.report.noiseS.size(), piece.report.noiseSigma.size());
     const auto profile = test::profileOf(piece.curve, 4);
-    ASSERT_EQ(profile.kappa.size(), piece.report.noiseS.size());
-    for (std::size_t i = 12; i + 12 < piece.report.noiseS.size(); i += 4) {
-      const double z = (profile.kappa[i] - course(piece.report.noiseS[i] + 0.5)) / piece.report.noiseSigma[i];
+    const std::vector<NoiseNote>& noise = piece.report.noise;
+    ASSERT_EQ(profile.kappa.size(), noise.size());
+    for (std::size_t i = 12; i + 12 < noise.size(); i += 4) {
+      const double z = (profile.kappa[i] - course(noise[i].s + 0.5)) / noise[i].sigma;
       sum += z * z;
       ++count;
     }

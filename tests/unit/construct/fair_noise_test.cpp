@@ -23,8 +23,7 @@ NoiseTrace traceOf(double length, std::uint32_t seed, const std::function<double
   for (double u = 4.0; u < length; u += 8.0) {
     z[2] = normal(random);
     const double d = z[0] - 2.0 * z[1] + z[2];
-    trace.u.push_back(u);
-    trace.square.push_back(variance(u) * d * d / 6.0);
+    trace.blocks.push_back({u, variance(u) * d * d / 6.0});
     z[0] = z[1];
     z[1] = z[2];
   }
@@ -36,7 +35,7 @@ TEST(LocalNoise, EqualNoiseStaysEqual) {
     const auto noise = localNoise(
         {traceOf(2000.0, seed, [](double) { return 1.0; }), traceOf(150.0, seed + 50, [](double) { return 1.0; })});
     for (const LocalNoise& n : noise) {
-      for (const double f : n.factor) EXPECT_NEAR(std::log(f), 0.0, 0.35) << seed;
+      for (const auto& place : n.places) EXPECT_NEAR(std::log(place.factor), 0.0, 0.35) << seed;
     }
   }
 }
@@ -96,9 +95,8 @@ struct NoiseBand {
     for (std::size_t i = 0; i < profile.s.size(); ++i) {
       const double s = profile.s[i];
       if (s < 80.0 || s > kLength - 80.0 || std::abs(s - 0.5 * kLength) < 60.0) continue;
-      const auto at = static_cast<std::size_t>(std::lower_bound(report.noiseS.begin(), report.noiseS.end() - 1, s) -
-                                               report.noiseS.begin());
-      const double e = profile.kappa[i] - trueKappa(s), z = e / report.noiseSigma[at];
+      const auto at = std::ranges::lower_bound(report.noise.begin(), report.noise.end() - 1, s, {}, &NoiseNote::s);
+      const double e = profile.kappa[i] - trueKappa(s), z = e / at->sigma;
       const int half = s < 0.5 * kLength ? 0 : 1;
       square[half] += z * z;
       kappaError[half] += e * e;
@@ -204,7 +202,7 @@ TEST(FairNoise, WavesOfMergedStrokesAreNotDrawn) {
   const auto truth = test::curveOfCurvature(600.0, [](double s) { return 0.002 + 6e-6 * s; });
   EXPECT_LT(test::rmsFrom(truth, fair->front().curve), 0.3);
   const auto widest = [](const ConstructedPiece& p) {
-    return *std::max_element(p.report.noiseSigma.begin(), p.report.noiseSigma.end());
+    return std::ranges::max(p.report.noise, {}, &NoiseNote::sigma).sigma;
   };
   const auto calm = fairFit(wanderingArc(0.0f, 0.0), {}, {});
   ASSERT_TRUE(calm);

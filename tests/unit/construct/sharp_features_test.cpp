@@ -160,8 +160,8 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
       }
       EXPECT_LT(worst, 1e-6) << closed << ' ' << at;
       const double length = whole->curve.end() - whole->curve.start();
-      for (const double s : whole->report.noiseS) EXPECT_LE(s, length + 1e-9);
-      EXPECT_TRUE(std::is_sorted(whole->report.noiseS.begin(), whole->report.noiseS.end()));
+      for (const NoiseNote& note : whole->report.noise) EXPECT_LE(note.s, length + 1e-9);
+      EXPECT_TRUE(std::ranges::is_sorted(whole->report.noise, {}, &NoiseNote::s));
     }
   }
 }

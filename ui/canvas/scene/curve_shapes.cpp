@@ -45,15 +45,14 @@ std::vector<CombPoint> combPoints(const NurbsCurve& curve, const PageFrame& fram
 
 /// Gives the points of a sketched curve the noise that its construction measured.
 void addNoise(std::vector<CombPoint>& points, const ConstructReport& report) {
-  const auto &s = report.noiseS, &sigma = report.noiseSigma;
-  if (s.size() < 2 || s.size() != sigma.size()) return;
+  const std::vector<NoiseNote>& noise = report.noise;
+  if (noise.size() < 2) return;
   for (CombPoint& point : points) {
-    const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(s.begin(), s.end(), point.s) - s.begin(), 1,
-                                                 static_cast<std::ptrdiff_t>(s.size()) - 1);
-    const auto i = static_cast<std::size_t>(next);
-    const double width = s[i] - s[i - 1];
-    const double t = width > 0.0 ? std::clamp((point.s - s[i - 1]) / width, 0.0, 1.0) : 0.0;
-    const double value = sigma[i - 1] + t * (sigma[i] - sigma[i - 1]);
+    const auto next = std::ranges::upper_bound(noise.begin() + 1, noise.end() - 1, point.s, {}, &NoiseNote::s);
+    const NoiseNote &low = *(next - 1), &high = *next;
+    const double width = high.s - low.s;
+    const double t = width > 0.0 ? std::clamp((point.s - low.s) / width, 0.0, 1.0) : 0.0;
+    const double value = low.sigma + t * (high.sigma - low.sigma);
     if (std::isfinite(value)) point.sigma = value;
   }
 }

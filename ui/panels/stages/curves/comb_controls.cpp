@@ -10,6 +10,7 @@
 
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/controls/setting_name.h"
 #include "ui/panels/controls/slider_track.h"
 
 namespace batten {
@@ -69,11 +70,13 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
   quantity->setNames(QStringLiteral("view.combQuantity"), {QStringLiteral("curvature"), QStringLiteral("radius")});
   quantity->setToolTip(tr("Quantity plotted by the comb: curvature, or radius of curvature as in the papers."));
   quantity->setAccessibleName(tr("Quills show"));
+  setSettingName(quantity, tr("Quills show curvature or radius"));
   grid->addWidget(quantity, 0, 0, 1, 2);
   auto* axis = new SegmentedControl({tr("Logarithmic"), tr("Linear")}, this);
   axis->setNames(QStringLiteral("view.radiusAxis"), {QStringLiteral("logarithmic"), QStringLiteral("linear")});
   axis->setToolTip(tr("Axis of the radius plot: logarithmic, or linear as in the papers."));
   axis->setAccessibleName(tr("Axis of the radius plot"));
+  setSettingName(axis, tr("Axis of the radius plot"));
   grid->addWidget(new QLabel(tr("Axis of the radius plot"), this), 1, 0, 1, 2);
   grid->addWidget(axis, 2, 0, 1, 2);
   connect(axis, &SegmentedControl::chosen, this, [&view](int index) { view.setRadiusIsLinear(index == 1); });
