@@ -180,6 +180,7 @@ class Follower {
     lastPoint_ = p;
     return found;
   }
+  const StartTable& table() const { return table_; }
 
  private:
   static bool meets(const NurbsCurve& curve) {
@@ -223,6 +224,49 @@ Deviation summary(std::span<const Vec2> points, std::vector<double> distances) {
   return result;
 }
 
+/// The distance of a curve's point at u from another curve.
+struct DistanceAt {
+  double u = 0.0, distance = 0.0;
+};
+
+/// The highest distances between places that are in order along `a`. Where one curve cuts a tight bend of the other,
+/// the distance comes to a point between two places, and is sought there.
+std::vector<DistanceAt> highestPeaks(std::vector<DistanceAt> places, const NurbsCurve& a, const StartTable& table,
+                                     CancelCheck check) {
+  constexpr std::size_t kPeaks = 8;     // that are looked at, the highest ones
+  constexpr int kSteps = 20;            // of golden section: 1/15000 of two places
+  constexpr double kGolden = 0.618034;  // part of a stretch that is left by a step
+  const auto at = [&](double u) { return DistanceAt{u, closestWith(table, a.point(u)).distance}; };
+  std::vector<std::size_t> peaks;
+  for (std::size_t i = 1; i + 1 < places.size(); ++i) {
+    const double here = places[i].distance;
+    if (here >= places[i - 1].distance && here >= places[i + 1].distance) peaks.push_back(i);
+  }
+  const std::size_t count = std::min(kPeaks, peaks.size());
+  std::partial_sort(peaks.begin(), peaks.begin() + static_cast<std::ptrdiff_t>(count), peaks.end(),
+                    [&](std::size_t i, std::size_t j) {
+                      return places[i].distance != places[j].distance ? places[i].distance > places[j].distance : i < j;
+                    });
+  std::vector<DistanceAt> found;
+  for (std::size_t k = 0; k < count; ++k) {
+    double low = places[peaks[k] - 1].u, high = places[peaks[k] + 1].u;
+    DistanceAt left = at(high - kGolden * (high - low)), right = at(low + kGolden * (high - low));
+    for (int step = 0; step < kSteps && !check.isCancelled(); ++step) {
+      if (left.distance > right.distance) {
+        high = right.u;
+        right = left;
+        left = at(high - kGolden * (high - low));
+      } else {
+        low = left.u;
+        left = right;
+        right = at(low + kGolden * (high - low));
+      }
+    }
+    found.push_back(left.distance > right.distance ? left : right);
+  }
+  return found;
+}
+
 }  // namespace
 
 ClosestPoint closestPoint(const NurbsCurve& curve, const Vec2& p) { return closestWith(StartTable(curve), p); }
@@ -248,10 +292,23 @@ Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool 
 
 Deviation deviation(const NurbsCurve& a, const NurbsCurve& b, CancelCheck check) {
   const int spans = static_cast<int>(std::max(a.breaks().size(), b.breaks().size())) - 1;
+  Follower follower(b, check);
   std::vector<Vec2> points;
-  for (const CurveSample& sample : sampleByArcLength(a, std::max(201, 10 * spans + 1), check))
+  std::vector<double> distances;
+  std::vector<DistanceAt> places;
+  for (const CurveSample& sample : sampleByArcLength(a, std::max(201, 10 * spans + 1), check)) {
+    if (check.isCancelled()) return {};
     points.push_back(sample.point);
-  return deviation(b, points, true, check);
+    distances.push_back(follower.next(sample.point).distance);
+    places.push_back({sample.u, distances.back()});
+  }
+  Deviation result = summary(points, std::move(distances));
+  for (const DistanceAt& peak : highestPeaks(std::move(places), a, follower.table(), check)) {
+    if (peak.distance <= result.max) continue;
+    result.max = peak.distance;
+    result.worstPoint = a.point(peak.u);
+  }
+  return result;
 }
 
 }  // namespace batten

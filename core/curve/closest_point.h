@@ -25,8 +25,8 @@ struct Deviation {
 };
 /// @param ordered the points follow the curve from start to end (edge points do): searches locally, much faster.
 Deviation deviation(const NurbsCurve&, std::span<const Vec2> points, bool ordered, CancelCheck check = {});
-/// Largest and mean distance between two curves of similar course, sampled at equal arc length of `a` and projected on
-/// `b`.
+/// Largest and mean distance of `a` from `b`, a curve of similar course, sampled at equal arc length of `a`; the largest
+/// also between the samples, where the distance has its highest peaks.
 Deviation deviation(const NurbsCurve& a, const NurbsCurve& b, CancelCheck check = {});
 
 }  // namespace batten

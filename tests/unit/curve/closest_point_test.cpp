@@ -77,6 +77,24 @@ NurbsCurve spiral(int turns, std::vector<Vec2>& beside) {
   return NurbsCurve::make(3, knots, points).value();
 }
 
+TEST(Deviation, OfACurveThatCutsACornerIsFoundBetweenTheSamples) {
+  const NurbsCurve arc =
+      NurbsCurve::make(2, {0.0, 0.0, 0.0, 1.0, 1.0, 1.0}, {Vec2(9, 0), Vec2(10, 0), Vec2(10, 1)}).value();
+  const double cornerToArc = bruteForce(arc, Vec2(10, 0));
+  double arcToCorner = 0.0;
+  for (int i = 0; i <= 100000; ++i) {
+    const Vec2 p = arc.point(i / 100000.0);
+    arcToCorner = std::max(arcToCorner, std::min(p.y(), 10.0 - p.x()));
+  }
+  // The corner lies between two samples of its line; the arc that cuts it is farthest from it between two of its own.
+  for (const double first : {1.003, 1.008, 1.031, 1.074}) {
+    const NurbsCurve corner =
+        NurbsCurve::make(1, {0.0, 0.0, 0.5, 1.0, 1.0}, {Vec2(10 - first, 0), Vec2(10, 0), Vec2(10, 1)}).value();
+    EXPECT_NEAR(deviation(corner, arc).max, cornerToArc, 1e-4 * cornerToArc);
+    EXPECT_NEAR(deviation(arc, corner).max, arcToCorner, 1e-4 * arcToCorner);
+  }
+}
+
 TEST(Deviation, OfALongWindingLineTakesNoTimeWithTheSquareOfItsLength) {
   const auto secondsFor = [](int turns) {
     std::vector<Vec2> beside;
