@@ -89,8 +89,7 @@ struct StrokeJunction {
   std::vector<Vec2> branchesPx;       ///< A place on every branch, where it has a middle of its own.
   EndPairs pairs;                     ///< Branches that are one stroke; a branch in no pair ends here.
   std::vector<EndPairs> ways;         ///< To pair them, the rule's own first, then the next best; the last pairs none.
-  double cost = 0.0, nextCost = 0.0;  ///< [deg^2] Of the rule's own way, and of the next best; no more than 7 branches.
-  bool isDoubtful = false;            ///< By these the rule's own is hardly better than the next best.
+  bool isDoubtful = false;            ///< The next best way is hardly worse, or two strokes may share a stretch that ends here.
   std::optional<int> choice;          ///< Index of the user's choice that it follows.
 };
 

@@ -131,6 +131,9 @@ ContourSet keepInside(ContourSet set, std::span<const RegionOfInterest> regions,
   std::stable_sort(kept.begin(), kept.end(),
                    [](const Contour& a, const Contour& b) { return a.lengthPx > b.lengthPx; });
   set.contours = std::move(kept);
+  std::erase_if(set.junctions, [&](const StrokeJunction& junction) {
+    return !junction.choice && !isInside(regions, junction.positionPx);
+  });
   return set;
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/contour/blots.h"
 #include "core/contour/centreline/centreline.h"
+#include "core/contour/centreline/junction_choices.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink_split.h"
 #include "core/contour/line_choices.h"
@@ -312,15 +313,32 @@ std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
          " or longer was found: lower the smallest length or raise the thresholds.";
 }
 
-// A choice near no junction waits for one. Where lines were made of several strokes, junctions are not known.
+// A choice near no junction waits for one; a pair of places that are not on two branches is left out. Where lines were
+// made of several strokes, junctions are not known.
 void noteJunctionChoices(ContourSet& set, const EdgeParams& edges) {
+  constexpr int kTold = 3;  // of each kind, one by one
   if (edges.mergeWidths > 0.0 || edges.intent) return;
+  int missing = 0, unmatched = 0;
   for (int i = 0; i < std::ssize(edges.junctions); ++i) {
     const Vec2& px = edges.junctions[i].positionPx;
-    if (std::ranges::any_of(set.junctions, [i](const StrokeJunction& j) { return j.choice == i; })) continue;
-    addNote(set, "Strokes were paired at a junction, but none is found near (" + std::to_string(std::lround(px.x())) +
-                     ", " + std::to_string(std::lround(px.y())) + "); the choice is kept.");
+    std::string place = std::to_string(std::lround(px.x()));
+    place += ", " + std::to_string(std::lround(px.y()));
+    // The last of several choices for one junction counts.
+    const auto followsALater = [&](const StrokeJunction& j) {
+      return j.choice && *j.choice > i && (j.positionPx - px).norm() <= kInkReachPx;
+    };
+    if (std::ranges::any_of(set.junctions, followsALater)) continue;
+    const auto own = std::ranges::find_if(set.junctions, [i](const StrokeJunction& j) { return j.choice == i; });
+    if (own == set.junctions.end()) {
+      if (++missing <= kTold)
+        addNote(set, "Strokes were paired at a junction, but none is found near (" + place + "); the choice is kept.");
+    } else if (std::ssize(own->pairs) < std::ssize(edges.junctions[i].pairs) && ++unmatched <= kTold) {
+      addNote(set, "A pair of strokes at the junction near (" + place +
+                       ") was left out: its two places are not on two branches of it.");
+    }
   }
+  if (missing > kTold) addNote(set, std::to_string(missing - kTold) + " more paired junctions are not found.");
+  if (unmatched > kTold) addNote(set, "The same is true of " + std::to_string(unmatched - kTold) + " more junctions.");
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
@@ -348,6 +366,8 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     addNote(*set, "No lines drawn over more than once were found: edges.intent changes nothing.");
   }
   sortAndCut(*set, params);
+  // Those of lines that were left out are no longer asked about.
+  set->junctions = junctionsOfLines(std::move(set->junctions), set->contours);
   context.report(0.6);
   if (edges.subpixel) {
     refineOutlines(*set, grey, context);

@@ -95,8 +95,7 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
   if (!bytes) return fail(bytes.error());
   if (context.isCancelled()) return cancelled();
   const auto back = cadBack(*bytes, settings.format);
-  if (!back)
-    return fail(ErrorCode::CannotWrite, "The file that was written cannot be read back.", back.error().message);
+  if (!back) return readsBackOtherwise(back.error().message);
   const auto difference = largestDifference(made->drawing, *back);
   if (!difference) return fail(difference.error());
   report.entities = static_cast<int>(made->drawing.entities.size());
@@ -255,6 +254,8 @@ Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSetti
   for (const ExportCurve& line : document.curves) file.report.pieces += static_cast<int>(line.pieces.size());
   auto check = checkedFile(document, settings, context, file.report);
   if (!check) return fail(check.error());
+  // What was not compared to the end is no difference.
+  if (context.isCancelled()) return cancelled();
   if (!(check->difference <= check->allowed)) {
     return fail(ErrorCode::CannotWrite,
                 "The written file deviates by " + shortNumber(check->difference) +

@@ -274,7 +274,7 @@ TEST(Architecture, NoUmbrellaHeadersAndNoOutputFromTheEngine) {
 }
 
 TEST(Architecture, ThePlatformAloneCallsTheSystem) {
-  // So that another system than this one is a matter of one file.
+  // So that another system than this one is a matter of a few files.
   for (const fs::path& file : sources()) {
     const std::string relative = pathOf(file), text = slurp(file);
     if (kCallsTheSystem.contains(relative)) {

@@ -60,6 +60,12 @@ TEST_F(HostileInput, MoreThanADrawingHasIsRefusedAtOnce) {
   expectRefused(trace, 2, "It holds 100001 corner marks; at most 100000 can be used.");
   write("r.json", start + R"("strokes":)" + listOf(100'001, R"({"points":[[1,2],[3,4]]})"));
   expectRefused(trace, 2, "It holds 100001 pen strokes; at most 100000 can be used.");
+  write("r.json", start + R"("junctions":)" + listOf(100'001, R"({"at":[1,2],"pairs":[]})"));
+  expectRefused(trace, 2, "It holds 100001 paired junctions; at most 100000 can be used.");
+  std::string pairs = listOf(101, "[[1,2],[3,4]]");
+  pairs.pop_back();
+  write("r.json", start + R"("junctions":[{"at":[1,2],"pairs":)" + pairs + "}]}");
+  expectRefused(trace, 2, "A paired junction holds 101 pairs; at most 100 can be used.");
 }
 
 TEST_F(HostileInput, APipeThatNobodyReadsTakesNoResults) {

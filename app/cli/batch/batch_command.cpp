@@ -33,9 +33,15 @@ bool isManifest(const std::string& input) { return input == "-" || input.ends_wi
 Result<std::string> textOf(const std::string& input) {
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // some two million pages
   if (input == "-") {
-    std::string lines, line;
-    while (std::getline(std::cin, line) && lines.size() <= kMostBytes) lines.append(line).append("\n");
-    if (lines.size() <= kMostBytes) return lines;
+    constexpr std::size_t kBlock = std::size_t{1} << 16;
+    std::string lines;
+    while (lines.size() <= kMostBytes) {
+      const std::size_t before = lines.size();
+      lines.resize(before + kBlock);
+      std::cin.read(lines.data() + before, kBlock);
+      lines.resize(before + static_cast<std::size_t>(std::cin.gcount()));
+      if (lines.size() == before) return lines;
+    }
     return wrong("The manifest from stdin is too large: split it.");
   }
   auto text = readWhole(input, kMostBytes);

@@ -25,7 +25,7 @@ class PageCall {
   PageCall(const BatchPage& page, int threads, std::optional<double> timeoutSeconds, Ended ended);
   ~PageCall();
 
-  /// [bytes] What the call holds now; 0 if unknown.
+  /// [bytes] What the call holds now; absent if unknown.
   std::optional<std::uint64_t> memoryBytes() const;
 
  private:

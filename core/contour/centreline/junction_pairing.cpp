@@ -76,8 +76,9 @@ std::vector<std::pair<int, int>> greedyPairs(int ends, std::vector<PairCost> cos
   for (const PairCost& c : costs) {
     if (used[c.a] || used[c.b]) continue;
     used[c.a] = used[c.b] = true;
-    pairs.emplace_back(c.a, c.b);
+    pairs.emplace_back(std::min(c.a, c.b), std::max(c.a, c.b));
   }
+  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 

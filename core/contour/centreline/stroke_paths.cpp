@@ -83,8 +83,6 @@ class StrokePathMaker {
     for (int i = 0; i < std::ssize(edges); ++i) junction.branchesPx.push_back(placeOn(edges[i], meeting[i].first));
     JunctionWays found = findWays(meeting, own, node.radius, graph_.medianRadius(), params_.maxBendDeg);
     junction.ways = std::move(found.ways);
-    junction.cost = found.cost;
-    junction.nextCost = found.nextCost;
     junction.isDoubtful = found.isDoubtful;
     return junction;
   }

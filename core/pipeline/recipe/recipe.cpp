@@ -95,12 +95,14 @@ std::optional<Error> validateNumbers(const CurveNumbers& numbers) {
 /// No drawing has so many, and what a file may ask of the memory stays in proportion.
 std::optional<Error> validateCounts(const Recipe& recipe) {
   constexpr std::size_t kMostEntries = 100'000;
+  constexpr std::size_t kMostPairs = 100;  // of one junction
   for (const auto& [count, what] : {std::pair{recipe.cornerMarks.size(), "corner marks"},
                                     {recipe.refusedCornersPx.size(), "excluded corners"},
                                     {recipe.segmentPoints.size(), "segment points"},
                                     {recipe.choices.size(), "choices for curves"},
                                     {recipe.extremumChoices.size(), "choices for curvature extrema"},
                                     {recipe.edges.choices.size(), "trace mode choices"},
+                                    {recipe.edges.junctions.size(), "paired junctions"},
                                     {recipe.regions.size(), "regions"},
                                     {recipe.directions.size(), "directions of curves"},
                                     {recipe.starts.size(), "starts of curves"},
@@ -108,6 +110,11 @@ std::optional<Error> validateCounts(const Recipe& recipe) {
     if (count > kMostEntries)
       return bad("It holds " + std::to_string(count) + " " + what + "; at most " + std::to_string(kMostEntries) +
                  " can be used.");
+  }
+  for (const JunctionChoice& junction : recipe.edges.junctions) {
+    if (junction.pairs.size() > kMostPairs)
+      return bad("A paired junction holds " + std::to_string(junction.pairs.size()) + " pairs; at most " +
+                 std::to_string(kMostPairs) + " can be used.");
   }
   return std::nullopt;
 }

@@ -35,6 +35,11 @@ std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
 std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
   for (const Contour& c : set.contours) bytes += sizeof(c) + vectorBytes(c.points);
+  for (const StrokeJunction& junction : set.junctions) {
+    bytes +=
+        sizeof(junction) + vectorBytes(junction.branchesPx) + vectorBytes(junction.pairs) + vectorBytes(junction.ways);
+    for (const EndPairs& way : junction.ways) bytes += vectorBytes(way);
+  }
   return bytes;
 }
 std::size_t bytesOf(const PieceSet& set) {

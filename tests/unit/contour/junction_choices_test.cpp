@@ -63,8 +63,9 @@ struct CrossedPage {
 CrossedPage crossing(double angleDeg, double level = 132.0) {
   std::vector<std::vector<Vec2>> lines = test::hatchLines({240, 180}, 10.0, 1, 1.0, 300.0, 0.0);
   lines.push_back(test::hatchLines({240, 180}, 10.0 + angleDeg, 1, 1.0, 300.0, 0.0).front());
-  CrossedPage page{BitImage(kPageWidth, kPageHeight),
-            test::scanOfLines(test::coverageOf(lines, 4.0, kPageWidth, kPageHeight), kPageWidth, kPageHeight, 3).grey};
+  CrossedPage page{
+      BitImage(kPageWidth, kPageHeight),
+      test::scanOfLines(test::coverageOf(lines, 4.0, kPageWidth, kPageHeight), kPageWidth, kPageHeight, 3).grey};
   for (int y = 0; y < kPageHeight; ++y)
     for (int x = 0; x < kPageWidth; ++x) page.ink.set(x, y, page.grey.level(x, y) < level);
   return page;
@@ -126,6 +127,10 @@ TEST(JunctionChoices, StrokesGoOnAsTheUserPairsThem) {
   params.junctions = {turningOff(angle), {{240, 180}, {}}};
   const ContourSet open = tracedBy(page, params);
   EXPECT_EQ(open.contours.size(), 4u) << "the last choice counts";
+  EXPECT_TRUE(open.report.note.empty()) << open.report.note;
+  params.junctions = {{{240, 180}, {{{20, 20}, placeOn(0, angle, 30)}}}};
+  const std::string leftOut = tracedBy(page, params).report.note;
+  EXPECT_NE(leftOut.find("was left out"), std::string::npos) << leftOut;
   params.junctions = {{{240, 180}, {{placeOn(0, angle, 30), placeOn(0, angle, -30)}}}};
   EXPECT_EQ(tracedBy(page, params).contours.size(), 3u) << "one stroke goes through, the other two end";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QCoreApplication>
 #include <QPen>
+#include <memory>
 
 #include "ui/canvas/layers/junction_layer.h"
 #include "ui/canvas/layers/text_box.h"
@@ -20,6 +21,7 @@ class JunctionTool final : public CanvasTool {
   using CanvasTool::CanvasTool;
 
   void press(const ToolEvent& event) override {
+    forgetOldLines();
     const auto target = targetAt(event.px);
     if (!target) {
       first_.reset();
@@ -43,6 +45,7 @@ class JunctionTool final : public CanvasTool {
 
   void move(const ToolEvent& event, bool isPressed) override {
     if (isPressed) return;
+    forgetOldLines();
     const auto over = targetAt(event.px);
     if (over != over_) scene_.repaint();
     over_ = over;
@@ -62,6 +65,7 @@ class JunctionTool final : public CanvasTool {
   Qt::CursorShape cursorShape() const override { return over_ ? Qt::PointingHandCursor : Qt::ArrowCursor; }
 
   void paint(QPainter& painter) override {
+    forgetOldLines();
     const auto& shown = first_ ? first_ : over_;
     const auto junctions = junctionsOf(scene_.session);
     if (!shown || shown->junction >= std::ssize(junctions)) return;
@@ -89,6 +93,13 @@ class JunctionTool final : public CanvasTool {
     std::optional<int> branch;
     bool operator==(const Target&) const = default;
   };
+
+  // Both targets count in the lines that they were found on.
+  void forgetOldLines() {
+    if (lines_ == scene_.session.output().contours) return;
+    lines_ = scene_.session.output().contours;
+    reset();
+  }
 
   // Seen from afar a branch cannot be told from its junction.
   bool isApart(const StrokeJunction& junction, int branch) const {
@@ -127,6 +138,7 @@ class JunctionTool final : public CanvasTool {
   }
 
   std::optional<Target> over_, first_;
+  std::shared_ptr<const ContourSet> lines_;
 };
 
 }  // namespace
