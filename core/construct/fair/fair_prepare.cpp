@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <ranges>
 
 #include "core/base/statistics.h"
 #include "core/construct/fair/fair_piece.h"
@@ -83,19 +82,13 @@ Vec2 median(const std::vector<Vec2>& p) {
 /// Leaves out the points next to corners, where blur has rounded the line.
 void guardCorners(FairPiece& piece, double guardPx) {
   auto& points = piece.data.points;
-  const auto isNear = [&](const Vec2& corner) {
-    return [&, corner](const FairPoint& p) { return (p.at - corner).norm() < guardPx; };
+  const auto guardFrom = [guardPx](auto first, auto end) {
+    const Vec2 corner = first->at;
+    first->use = false;
+    for (auto p = std::next(first); p != end && (p->at - corner).norm() < guardPx; ++p) p->use = false;
   };
-  if (piece.pins.start) {
-    points.front().use = false;
-    for (FairPoint& p : points | std::views::drop(1) | std::views::take_while(isNear(points.front().at))) p.use = false;
-  }
-  if (piece.pins.end) {
-    points.back().use = false;
-    for (FairPoint& p :
-         points | std::views::reverse | std::views::drop(1) | std::views::take_while(isNear(points.back().at)))
-      p.use = false;
-  }
+  if (piece.pins.start) guardFrom(points.begin(), points.end());
+  if (piece.pins.end) guardFrom(points.rbegin(), points.rend());
 }
 
 /// Free ends begin with good points: the curve ends where they do.
