@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -43,6 +44,8 @@ ClosestPoint descend(const SpanPolynomials& curve, const Vec2& p, double start, 
   }
   return {u, std::sqrt(squared), d[0]};
 }
+
+}  // namespace
 
 /// Sample points of a curve, fine enough that each local minimum of a distance has a start value: closer where the
 /// curve turns about, so that no hairpin hides between two of them.
@@ -116,6 +119,8 @@ class StartTable {
   std::vector<CurvePlace> places_;  ///< Until the tree takes them.
   std::optional<SampleTree> tree_;
 };
+
+namespace {
 
 ClosestPoint closestWith(const StartTable& table, const Vec2& p) {
   const SpanPolynomials& curve = table.polynomials;
@@ -270,6 +275,11 @@ std::vector<DistanceAt> highestPeaks(std::vector<DistanceAt> places, const Nurbs
 }  // namespace
 
 ClosestPoint closestPoint(const NurbsCurve& curve, const Vec2& p) { return closestWith(StartTable(curve), p); }
+
+ClosestPointFinder::ClosestPointFinder(const NurbsCurve& curve, CancelCheck check)
+    : table_(std::make_shared<const StartTable>(curve, check)) {}
+ClosestPoint ClosestPointFinder::closestTo(const Vec2& p) const { return closestWith(*table_, p); }
+const std::vector<CurvePlace>& ClosestPointFinder::places() const { return table_->tree().places(); }
 
 Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool ordered, CancelCheck check) {
   std::vector<double> distances;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
@@ -14,8 +16,25 @@ struct ClosestPoint {
   double distance = 0.0;
   Vec2 point = Vec2::Zero();
 };
-/// Globally closest point: sampled start values, then safeguarded Newton; ends included.
+/// Globally closest point: sampled start values, then safeguarded Newton; ends included. Takes time with the length of
+/// the curve: for many points of one curve there is ClosestPointFinder.
 ClosestPoint closestPoint(const NurbsCurve&, const Vec2&);
+
+struct CurvePlace;
+class StartTable;
+
+/// closestPoint() for many points: what is sampled of the curve is kept, so that a point takes time with its logarithm.
+class ClosestPointFinder {
+ public:
+  /// When the run is cancelled, the finder is of no use.
+  explicit ClosestPointFinder(const NurbsCurve&, CancelCheck check = {});
+  ClosestPoint closestTo(const Vec2&) const;
+  /// What is sampled: two places or more, from the start of the curve to its end.
+  const std::vector<CurvePlace>& places() const;
+
+ private:
+  std::shared_ptr<const StartTable> table_;
+};
 
 /// Distances of points from a curve, in its unit.
 struct Deviation {
@@ -25,8 +44,8 @@ struct Deviation {
 };
 /// @param ordered the points follow the curve from start to end (edge points do): searches locally, much faster.
 Deviation deviation(const NurbsCurve&, std::span<const Vec2> points, bool ordered, CancelCheck check = {});
-/// Largest and mean distance of `a` from `b`, a curve of similar course, sampled at equal arc length of `a`; the largest
-/// also between the samples, where the distance has its highest peaks.
+/// Largest and mean distance of `a` from `b`, a curve of similar course, sampled at equal arc length of `a`; the
+/// largest also between the samples, where the distance has its highest peaks.
 Deviation deviation(const NurbsCurve& a, const NurbsCurve& b, CancelCheck check = {});
 
 }  // namespace batten

@@ -173,8 +173,9 @@ void addJoints(PlotData& data, const NurbsCurve& curve, double scale, const auto
 void addDeviation(PlotData& data, const EditorSession& session, const TracedCurve& curve, double scale, Judged judged) {
   // Signed distance of the scan's edge points and of the faired curve from the sketched one, positive to the left.
   const ArcLength arc(curve.sketched);
+  const ClosestPointFinder finder(curve.sketched);
   const auto measure = [&](const Vec2& p, PlotSeries& series) {
-    const ClosestPoint hit = closestPoint(curve.sketched, p);
+    const ClosestPoint hit = finder.closestTo(p);
     const auto d = curve.sketched.derivatives(hit.u, 1);
     const double side = cross(d[1], p - hit.point) < 0 ? -1.0 : 1.0;
     series.s.push_back(arc.at(hit.u) * scale);

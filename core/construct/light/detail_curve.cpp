@@ -225,9 +225,10 @@ std::optional<std::vector<std::vector<LightCurve>>> fitsOfAll(const NurbsCurve& 
 }
 
 double farthest(const EvenLine& line, const NurbsCurve& curve, const RunContext& context) {
+  const ClosestPointFinder finder(curve, context);
   double worst = 0.0;
   for (int i = 0; i < line.size() && !context.isCancelled(); i += kMeasuredEvery) {
-    worst = std::max(worst, closestPoint(curve, line.points[i]).distance);
+    worst = std::max(worst, finder.closestTo(line.points[i]).distance);
   }
   return worst;
 }

@@ -181,14 +181,15 @@ Result<double> checkPolynomials(std::string_view text, const ExportDocument& doc
       const std::size_t count = curve->breaks().size() - 1;
       if (first + count > spans.size()) return readsBackOtherwise("too few rows");
       const NurbsCurve scaled = inUnits(piece.curve, settings);
+      std::optional<ClosestPointFinder> finder;
+      if (scaled.isRational()) finder.emplace(scaled);
       std::size_t k = first;
       for (int i = 0; i <= kPolynomialPlaces; ++i) {
         const double u = curve->start() + (curve->end() - curve->start()) * i / kPolynomialPlaces;
         while (k + 1 < first + count && u >= spans[k].end) ++k;
         const Vec2 read = spans[k].at(u);
         // Of a rational curve the places of one arc length are not known so exactly.
-        most =
-            std::max(most, scaled.isRational() ? closestPoint(scaled, read).distance : (read - curve->point(u)).norm());
+        most = std::max(most, finder ? finder->closestTo(read).distance : (read - curve->point(u)).norm());
       }
       first += count;
     }

@@ -42,8 +42,9 @@ std::vector<double> fractionsOf(const std::vector<Vec2>& placesPx, const NurbsCu
   if (placesPx.empty() || curve.isEmpty()) return fractions;
   const ArcLength arc(curve);
   if (!(arc.total() > 0.0)) return fractions;
+  const ClosestPointFinder finder(curve);
   for (const Vec2& place : placesPx) {
-    const auto closest = closestPoint(curve, frame.pointToModel(place));
+    const auto closest = finder.closestTo(frame.pointToModel(place));
     if (closest.distance > kPlaceReachPx * frame.mmPerPx) continue;
     fractions.push_back(std::clamp(arc.at(closest.u) / arc.total(), 0.0, 1.0));
   }

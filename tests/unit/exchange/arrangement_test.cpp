@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <random>
 #include <set>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "core/exchange/export_file.h"
 #include "core/exchange/import_file.h"
 #include "core/exchange/model/cad_drawing.h"
+#include "core/exchange/model/curves_on_top.h"
 #include "core/exchange/occt/iges.h"
 #include "core/exchange/occt/open_cascade.h"
 #include "core/exchange/occt/step_reader.h"
@@ -276,6 +278,37 @@ TEST(Arrangement, ImportedLinesAreJoinedWhateverTheirOrderAndDirection) {
   EXPECT_EQ(startOf(arranged(document, true)->document.curves[1].pieces[0]), Vec2(30, 0));
   for (ExportCurve& line : document.curves) line.isImported = false;
   EXPECT_EQ(arranged(document, true)->document.curves.size(), 9u);
+}
+
+// Among curves that cross everywhere those are found that lie on another one, and no others.
+TEST(Arrangement, FindsDoublesAmongManyCurvesThatCross) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(0.0, 200.0);
+  ExportDocument document;
+  constexpr std::size_t kCurves = 60;
+  for (std::size_t i = 0; i < kCurves; ++i) {
+    std::vector<Vec2> points;
+    for (int k = 0; k < 12; ++k) points.emplace_back(place(random), place(random));
+    document.curves.emplace_back().pieces.emplace_back().curve =
+        test::made(3, {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 9}, points);
+  }
+  PiecesOnTop expected;
+  for (std::size_t i = 0; i < kCurves; i += 7) {  // the whole curve again, the other way round, and a part of it
+    const NurbsCurve whole = document.curves[i].pieces[0].curve;
+    for (const NurbsCurve& again : {whole, reversed(whole), split(whole, 4.3)->right}) {
+      expected.insert({document.curves.size(), 0});
+      document.curves.emplace_back().pieces.emplace_back().curve = again;
+    }
+    // Only its start lies on the other.
+    const auto half = split(whole, 2.5)->left;
+    std::vector<Vec2> away(half.controlPoints().begin(), half.controlPoints().end());
+    away.back() += Vec2(3.0, 1.0);
+    document.curves.emplace_back().pieces.emplace_back().curve =
+        test::made(3, {half.knots().begin(), half.knots().end()}, away);
+  }
+  const auto found = piecesOnTop(document);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(*found, expected);
 }
 
 }  // namespace

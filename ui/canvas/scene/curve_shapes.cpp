@@ -91,8 +91,9 @@ CurveComb combOf(const TracedCurve& traced, int index, bool isSelected, Judged j
   if (!comb.isFaired || !isSelected) return comb;
   comb.sketched = combPoints(traced.sketched, frame);
   addNoise(comb.sketched, traced.construct);
+  const ClosestPointFinder finder(traced.sketched);
   for (const CurveSample& sample : sampleByArcLength(traced.faired, kWhiskers)) {
-    const ClosestPoint nearest = closestPoint(traced.sketched, sample.point);
+    const ClosestPoint nearest = finder.closestTo(sample.point);
     comb.whiskers.push_back(
         {frame.pointToImage(nearest.point), frame.pointToImage(sample.point), nearest.distance, sample.s});
   }

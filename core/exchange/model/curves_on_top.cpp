@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/model/curves_on_top.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/curve/sample_tree.h"
+
+namespace batten {
+namespace {
+
+constexpr double kOnTop = 1e-7;  ///< Of the size of a curve: how near it lies to one that it lies on top of.
+constexpr int kTopSamples = 17;
+constexpr double kSteps = 1e6;  ///< Lengths that differ by less than a millionth are alike.
+/// Stretches that a curve is looked at by: enough that few of a page full of curves have one near a place.
+constexpr std::size_t kMostStretches = 64;
+
+/// One curve of the document, to be compared with the others.
+struct TopCandidate {
+  std::size_t line = 0, piece = 0;
+  const NurbsCurve* curve = nullptr;
+  long size = 0;  ///< Logarithm of the length, rounded, so that the last digits put no curve before its like.
+};
+
+TopCandidate candidateOf(const NurbsCurve& curve, std::size_t line, std::size_t piece, CancelCheck check) {
+  TopCandidate candidate{.line = line, .piece = piece, .curve = &curve};
+  candidate.size = std::lround(kSteps * std::log(std::max(ArcLength(curve, check).total(), kOnTop)));
+  return candidate;
+}
+
+double distanceFromStretch(const Vec2& p, const Vec2& from, const Vec2& to) {
+  const Vec2 along = to - from;
+  const double square = along.squaredNorm();
+  const double f = square > 0.0 ? std::clamp((p - from).dot(along) / square, 0.0, 1.0) : 0.0;
+  return (p - from - f * along).norm();
+}
+
+/// No part of a stretch of a curve lies farther from its chord than `reach`.
+struct CurveStretch {
+  Vec2 from, to;
+  double reach = 0.0;
+
+  bool mayHold(const Vec2& place) const { return distanceFromStretch(place, from, to) <= reach; }
+};
+
+std::vector<CurveStretch> stretchesOf(const NurbsCurve& curve, const std::vector<CurvePlace>& places) {
+  const double near = 2.0 * kOnTop * extent(curve);  // what lies on a curve is no larger than it
+  const std::size_t last = places.size() - 1,
+                    step = std::max<std::size_t>(1, (last + kMostStretches - 1) / kMostStretches);
+  std::vector<CurveStretch> stretches;
+  for (std::size_t first = 0; first < last; first += step) {
+    const std::size_t end = std::min(first + step, last);
+    CurveStretch stretch{places[first].point, places[end].point};
+    for (std::size_t i = first; i <= end; ++i) {
+      const double away = distanceFromStretch(places[i].point, stretch.from, stretch.to);
+      stretch.reach = std::max(stretch.reach, away + places[i].bulge);
+    }
+    stretch.reach += near;
+    stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
+/// A curve that stays, with what is needed to ask it for distances.
+struct KeptCurve {
+  KeptCurve(const TopCandidate& one, CancelCheck check)
+      : candidate(one), finder(*one.curve, check), stretches(stretchesOf(*one.curve, finder.places())) {}
+  bool mayHold(const Vec2& place) const {
+    return std::any_of(stretches.begin(), stretches.end(),
+                       [&](const CurveStretch& stretch) { return stretch.mayHold(place); });
+  }
+  const TopCandidate& candidate;
+  ClosestPointFinder finder;
+  std::vector<CurveStretch> stretches;
+};
+
+/// Stretches of curves by squares of the page that are as large as they, so that the curves that may lie under a place
+/// are known without looking at all of them.
+class StretchSquares {
+ public:
+  void add(const KeptCurve& curve) {
+    for (const CurveStretch& stretch : curve.stretches) add(stretch, curve);
+  }
+  /// Whether `isIt(curve)` holds for one that may hold the place.
+  template <class IsIt>
+  bool anyAt(const Vec2& place, const IsIt& isIt) const {
+    for (const int level : levels_) {
+      for (int square = 0; square < 4; ++square) {  // a box begins in the square of the place or one before it
+        const auto found = squares_.find(keyOf(level, place, -(square % 2), -(square / 2)));
+        if (found == squares_.end()) continue;
+        const auto holds = [&](const Entry& one) { return one.stretch->mayHold(place) && isIt(*one.curve); };
+        if (std::any_of(found->second.begin(), found->second.end(), holds)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  using Key = std::array<std::int64_t, 3>;
+  static constexpr double kLeastSquareMm = 1e-6, kRoom = 1.01;  ///< The latter for rounding at the border of a box.
+
+  struct Entry {
+    const CurveStretch* stretch = nullptr;
+    const KeptCurve* curve = nullptr;
+  };
+
+  void add(const CurveStretch& stretch, const KeptCurve& curve) {
+    const Vec2 reach = Vec2::Constant(stretch.reach);
+    const Vec2 low = stretch.from.cwiseMin(stretch.to) - reach, high = stretch.from.cwiseMax(stretch.to) + reach;
+    const int level = levelOf((high - low).maxCoeff());
+    levels_.insert(level);
+    squares_[keyOf(level, low, 0, 0)].push_back({&stretch, &curve});
+  }
+  /// The square's side is the power of two above the box.
+  static int levelOf(double size) { return std::ilogb(std::max(kRoom * size, kLeastSquareMm)) + 1; }
+  static Key keyOf(int level, const Vec2& place, int right, int up) {
+    const double side = std::ldexp(1.0, level);
+    constexpr double kFarthest = 1e15;
+    const auto numberOf = [&](double v) {
+      return static_cast<std::int64_t>(std::clamp(std::floor(v / side), -kFarthest, kFarthest));
+    };
+    return {level, numberOf(place.x()) + right, numberOf(place.y()) + up};
+  }
+
+  std::set<int> levels_;
+  std::map<Key, std::vector<Entry>> squares_;
+};
+
+bool liesOn(const std::vector<CurveSample>& samples, const KeptCurve& longer, double near) {
+  return longer.mayHold(samples[kTopSamples / 2].point) && longer.mayHold(samples.back().point) &&
+         std::all_of(samples.begin(), samples.end(),
+                     [&](const CurveSample& sample) { return longer.finder.closestTo(sample.point).distance <= near; });
+}
+
+}  // namespace
+
+Result<PiecesOnTop> piecesOnTop(const ExportDocument& document, const RunContext& context) {
+  std::vector<TopCandidate> all;
+  for (std::size_t i = 0; i < document.curves.size() && !context.isCancelled(); ++i)
+    for (std::size_t k = 0; k < document.curves[i].pieces.size(); ++k)
+      all.push_back(candidateOf(document.curves[i].pieces[k].curve, i, k, context));
+  PiecesOnTop found;
+  if (all.size() < 2) return found;
+  // Of two alike the earlier one stays, so it comes first; a longer one comes before what lies on it.
+  std::stable_sort(all.begin(), all.end(),
+                   [](const TopCandidate& a, const TopCandidate& b) { return a.size > b.size; });
+  std::deque<KeptCurve> kept;
+  StretchSquares squares;
+  for (const TopCandidate& one : all) {
+    if (context.isCancelled()) return cancelled();
+    const double near = kOnTop * extent(*one.curve);
+    const auto samples = sampleByArcLength(*one.curve, kTopSamples, context);
+    const std::string& layer = document.curves[one.line].layer;
+    const bool isOnTop = squares.anyAt(samples.front().point, [&](const KeptCurve& other) {
+      return document.curves[other.candidate.line].layer == layer && liesOn(samples, other, near);
+    });
+    if (isOnTop) {
+      found.insert({one.line, one.piece});
+      continue;
+    }
+    kept.emplace_back(one, context);
+    squares.add(kept.back());
+  }
+  if (context.isCancelled()) return cancelled();
+  return found;
+}
+
+}  // namespace batten
