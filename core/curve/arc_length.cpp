@@ -52,11 +52,12 @@ struct Subdivision {
 
 }  // namespace
 
-ArcLength::ArcLength(const NurbsCurve& curve) : curve_(curve) {
+ArcLength::ArcLength(const NurbsCurve& curve, CancelCheck check) : curve_(curve) {
   const std::vector<double> spans = curve.breaks();
   std::vector<double> rough(spans.size(), 0.0);
   double roughTotal = 0.0;
-  for (std::size_t i = 0; i + 1 < spans.size(); ++i) roughTotal += rough[i] = gauss(curve_, spans[i], spans[i + 1]);
+  for (std::size_t i = 0; i + 1 < spans.size() && !check.isCancelled(); ++i)
+    roughTotal += rough[i] = gauss(curve_, spans[i], spans[i + 1]);
   breaks_ = {spans.front()};
   cumulative_ = {0.0};
   breaks_.reserve(2 * spans.size());
@@ -64,7 +65,8 @@ ArcLength::ArcLength(const NurbsCurve& curve) : curve_(curve) {
   double largest = roughTotal;
   for (const Vec2& p : curve.controlPoints()) largest = std::max(largest, p.lpNorm<Eigen::Infinity>());
   Subdivision subdivision{curve_, 1e-14 * largest, 4096 + 64 * spans.size(), breaks_, cumulative_};
-  for (std::size_t i = 0; i + 1 < spans.size(); ++i) subdivision.add(spans[i], spans[i + 1], rough[i], 0);
+  for (std::size_t i = 0; i + 1 < spans.size() && !check.isCancelled(); ++i)
+    subdivision.add(spans[i], spans[i + 1], rough[i], 0);
   speeds_.reserve(breaks_.size());
   for (const double u : breaks_) speeds_.push_back(speed(curve_, u));
   total_ = cumulative_.back();
@@ -114,7 +116,7 @@ double ArcLength::parameter(double s) const {
 }
 
 std::vector<CurveSample> sampleByArcLength(const NurbsCurve& curve, int count, CancelCheck check) {
-  const ArcLength length(curve);
+  const ArcLength length(curve, check);
   std::vector<CurveSample> samples(count);
   for (int i = 0; i < count && !check.isCancelled(); ++i) {
     CurveSample& sample = samples[i];

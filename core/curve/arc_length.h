@@ -14,7 +14,8 @@ namespace batten {
 /// relative change is below 1e-10; inverse by safeguarded Newton.
 class ArcLength {
  public:
-  explicit ArcLength(const NurbsCurve&);
+  /// When the run is cancelled, the lengths are of no use.
+  explicit ArcLength(const NurbsCurve&, CancelCheck check = {});
   double total() const { return total_; }
   double at(double u) const;         ///< Length from the start to u (clamped to the domain).
   double parameter(double s) const;  ///< u at length s (clamped to 0..total).

@@ -96,10 +96,10 @@ class KnotFit {
   const std::vector<WidthKnot>& knots() const { return knots_; }
 
   /// Removes, as long as there are any, knots that cost less than `most` in squared misfit.
-  void removeUpTo(double most) {
-    while (knots_.size() > 2) {
+  void removeUpTo(double most, CancelCheck check) {
+    while (knots_.size() > 2 && !check.isCancelled()) {
       std::vector<std::optional<double>> costs(knots_.size());
-      for (std::ptrdiff_t k = 1; k + 1 < std::ssize(knots_); ++k)
+      for (std::ptrdiff_t k = 1; k + 1 < std::ssize(knots_) && !check.isCancelled(); ++k)
         if (!knots_[k].isFixed) costs[k] = removalCost(k);
       if (!removeCheapest(costs, most)) return;
       solve();
@@ -257,7 +257,8 @@ WidthProfile profileOf(const std::vector<WidthKnot>& knots, double length, bool 
 
 }  // namespace
 
-WidthProfile fittedWidths(std::span<const WidthSample> measured, double length, bool closed, double pixel) {
+WidthProfile fittedWidths(std::span<const WidthSample> measured, double length, bool closed, double pixel,
+                          CancelCheck check) {
   const double step = kBinPx * pixel, reach = closed ? std::min(length, kWindow * step) : 0.0;
   const std::vector<WidthSample> all = continued(measured, length, reach);
   const std::vector<WidthBin> found = binsOf(all, -reach, length + reach, step);
@@ -277,7 +278,7 @@ WidthProfile fittedWidths(std::span<const WidthSample> measured, double length, 
   const double noise = noiseOf(bins, pixel);
   // Bayesian information: a knot brings a place and a width.
   const double price = 2.0 * std::log(static_cast<double>(bins.size()));
-  fit.removeUpTo(price * kSharedNoise * noise * noise);
+  fit.removeUpTo(price * kSharedNoise * noise * noise, check);
   WidthProfile profile = profileOf(fit.knots(), length, closed, pixel);
   std::vector<WidthBin> own;
   for (const WidthBin& bin : bins)

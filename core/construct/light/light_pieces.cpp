@@ -57,7 +57,7 @@ bool hasKnotsOf(const NurbsCurve& curve, int multiplicity) {
 
 /// Ragged: more extrema than a line that was meant so could have.
 bool isRagged(const NurbsCurve& curve, bool closed, double tolerance, const RunContext& context) {
-  return countedExtrema(curve, closed, context) * kRaggedLength * tolerance > ArcLength(curve).total();
+  return countedExtrema(curve, closed, context) * kRaggedLength * tolerance > ArcLength(curve, context).total();
 }
 
 Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOptions& options, bool simplified,

@@ -21,7 +21,7 @@ constexpr double kCornerWidths = 1.0;
 class CurveWalk {
  public:
   CurveWalk(const NurbsCurve& curve, bool closed, double pixelMm, CancelCheck check) : closed_(closed) {
-    const double length = ArcLength(curve).total();
+    const double length = ArcLength(curve, check).total();
     const int count = std::max(3, static_cast<int>(std::ceil(kSamplesPerPx * length / pixelMm)) + 1);
     samples_ = sampleByArcLength(curve, count, check);
     length_ = samples_.empty() ? 0.0 : samples_.back().s;
@@ -190,7 +190,9 @@ std::optional<WidthProfile> StrokeWidths::along(const TracedCurve& curve, const 
   }
   // A piece all of which is near corners or crossings: as wide as its line.
   if (measured.empty()) measured.push_back({0.0, output_.frame.lengthToModel(widths->usual().value_or(0.0))});
-  return fittedWidths(measured, walk.length(), curve.closed, pixel);
+  WidthProfile fitted = fittedWidths(measured, walk.length(), curve.closed, pixel, check_);
+  if (check_.isCancelled()) return std::nullopt;
+  return fitted;
 }
 
 std::optional<WidthProfile> strokeWidthsAlong(const PipelineOutput& output, const Scan& scan, const TracedCurve& curve,

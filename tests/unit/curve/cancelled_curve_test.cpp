@@ -10,7 +10,9 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/curve/curvature_structure.h"
+#include "core/curve/sample_tree.h"
 #include "core/curve/span_curve.h"
+#include "core/curve/width_fit.h"
 
 namespace batten {
 namespace {
@@ -70,6 +72,20 @@ TEST_F(CancelledCurveWork, SimplifiesNoStructure) {
   for (int i = 0; i < 3000; ++i) s.push_back(i), kappa.push_back(std::sin(0.5 * i));
   EXPECT_GT(structureLevels(s, kappa, 3000.0, false, running_).size(), 100u);
   EXPECT_EQ(structureLevels(s, kappa, 3000.0, false, cancelled_).size(), 1u) << "the one to begin with";
+}
+
+TEST_F(CancelledCurveWork, MeasuresNoLength) {
+  EXPECT_GT(ArcLength(curve_, running_).total(), 1000.0);
+  EXPECT_EQ(ArcLength(curve_, cancelled_).total(), 0.0);
+  EXPECT_EQ(ArcLength(curve_, cancelled_).at(100.0), 0.0);
+  EXPECT_EQ(ClosestPointFinder(curve_, cancelled_).places().size(), 1u);
+}
+
+TEST_F(CancelledCurveWork, RemovesNoWidth) {
+  std::vector<WidthSample> measured;
+  for (int i = 0; i < 4000; ++i) measured.push_back({i + 0.5, 5.0 + std::sin(0.001 * i)});
+  EXPECT_LT(fittedWidths(measured, 4000.0, false, 1.0, running_).samples.size(), 100u);
+  EXPECT_GT(fittedWidths(measured, 4000.0, false, 1.0, cancelled_).samples.size(), 500u);
 }
 
 }  // namespace
