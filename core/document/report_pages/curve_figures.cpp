@@ -33,7 +33,7 @@ constexpr double kLabelHeightMm = 2.2, kLabelRowMm = 2.6;
 Result<void> addCurve(Figure& figure, const NurbsCurve& curve, const Vec2& corner, Ink ink, double widthMm) {
   Eigen::Matrix2d flip;
   flip << 1.0, 0.0, 0.0, -1.0;
-  const auto path = cubicPath(curve.mapped(flip, Vec2(-corner.x(), corner.y())), kDrawnWithinMm, kDrawnGridMm);
+  const auto path = cubicPath(curve.mapped(flip, Vec2(-corner.x(), corner.y())), {kDrawnWithinMm, kDrawnGridMm});
   if (!path) return fail(path.error());
   for (const CubicRun& run : path->runs) {
     FigureStroke stroke{{run.start}, true, false, ink, widthMm};

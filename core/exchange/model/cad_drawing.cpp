@@ -160,7 +160,7 @@ class Builder {
 
   Result<void> addCubic(const Chain& chain, const NurbsCurve& curve) {
     if (addSimple(chain, curve)) return {};
-    auto path = cubicPath(curve, tolerance_, kGrid);
+    auto path = cubicPath(curve, {tolerance_, kGrid});
     if (!path) return fail(path.error());
     note(path->largestError, path->largestJump);
     for (const CubicRun& run : path->runs) {

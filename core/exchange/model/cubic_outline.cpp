@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <optional>
 
+#include "core/base/parallel.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/cubic.h"
 #include "core/curve/curvature.h"
@@ -14,7 +16,9 @@ namespace batten {
 namespace {
 
 constexpr int kSamplesPerCubic = 8;
-constexpr double kNearEnd = 1e-3;  // of a piece's extent: where its last cubic ends
+// Of a piece's extent: its last cubic ends so near to its end. One of those before it may come near by chance, but not
+// to within rounding.
+constexpr double kNearEnd = 1e-3, kAtEnd = 1e-5;
 
 /// The end and the start of a loop are one point: written alike, so that closing adds no line. The shift counts.
 void closeLoop(CubicOutline& outline) {
@@ -25,24 +29,36 @@ void closeLoop(CubicOutline& outline) {
 }
 
 /// The cubic that ends a piece at `end`: of those that come near it one behind the other, as small ones in a hook of
-/// the piece may, the nearest.
-std::size_t lastOfPiece(const std::vector<std::array<Vec2, 4>>& cubics, std::size_t first, const Vec2& end,
-                        double near) {
+/// the piece may, the nearest. Nothing if none comes so near.
+std::optional<std::size_t> lastWithin(double near, const std::vector<std::array<Vec2, 4>>& cubics, std::size_t first,
+                                      const Vec2& end) {
   const auto away = [&](std::size_t i) { return (cubics[i].back() - end).norm(); };
   std::size_t last = first;
-  while (last + 1 < cubics.size() && away(last) > near) ++last;
+  while (last < cubics.size() && away(last) > near) ++last;
+  if (last == cubics.size()) return std::nullopt;
   for (std::size_t i = last + 1; i < cubics.size() && away(i) <= near; ++i)
     if (away(i) < away(last)) last = i;
   return last;
+}
+std::size_t lastOfPiece(const std::vector<std::array<Vec2, 4>>& cubics, std::size_t first, const Vec2& end,
+                        double size) {
+  for (const double near : {kAtEnd, kNearEnd})
+    if (const auto last = lastWithin(near * size, cubics, first, end)) return *last;
+  return cubics.size() - 1;
 }
 
 }  // namespace
 
 Result<CubicOutline> cubicOutline(const ExportCurve& line, const Eigen::Matrix2d& linear, const Vec2& offset,
-                                  const CubicFit& fit, CancelCheck check) {
+                                  const CubicTolerance& within, const RunContext& context) {
   CubicOutline outline;
+  std::vector<Result<CubicPath>> paths(line.pieces.size(), cancelled());
+  parallelFor(context, static_cast<int>(paths.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end && !context.isCancelled(); ++i)
+      paths[i] = cubicPath(line.pieces[i].curve.mapped(linear, offset), within, context);
+  });
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
-    auto path = cubicPath(line.pieces[i].curve.mapped(linear, offset), fit.tolerance, fit.grid, check);
+    auto& path = paths[i];
     if (!path) return fail(path.error());
     for (std::size_t k = 0; k < path->runs.size(); ++k) {
       CubicRun& run = path->runs[k];
@@ -68,7 +84,7 @@ double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const Ex
     const NurbsCurve& exact = line.pieces[piece].curve;
     const Vec2 start = exact.point(exact.start()), end = exact.point(exact.end());
     const std::size_t last =
-        piece + 1 < line.pieces.size() ? lastOfPiece(cubics, first, end, kNearEnd * extent(exact)) : cubics.size() - 1;
+        piece + 1 < line.pieces.size() ? lastOfPiece(cubics, first, end, extent(exact)) : cubics.size() - 1;
     std::vector<Vec2> part;
     for (std::size_t i = first; i <= last; ++i) {
       const auto& c = cubics[i];

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/exchange/model/cubic_path.h"
 #include "core/exchange/model/export_model.h"
 
@@ -17,15 +18,11 @@ struct CubicOutline {
   double largestJump = 0.0;   ///< Likewise; seams and joints of pieces count where the curves have one curvature there.
 };
 
-/// How near cubics are to be, see cubic_path.h.
-struct CubicFit {
-  double tolerance = 0.0, grid = 0.0;
-};
-
-/// The pieces of a line as runs without a gap. Where a piece begins where the last one ends, but for rounding, it goes
-/// on there, and the shift counts as error. `linear` and `offset` map the curves to the frame of the file.
+/// The pieces of a line as runs without a gap; pieces share the threads. Where a piece begins where the last one ends,
+/// but for rounding, it goes on there, and the shift counts as error. `linear` and `offset` map the curves to the frame
+/// of the file.
 Result<CubicOutline> cubicOutline(const ExportCurve&, const Eigen::Matrix2d& linear, const Vec2& offset,
-                                  const CubicFit&, CancelCheck check = {});
+                                  const CubicTolerance&, const RunContext& = {});
 
 /// Largest distance of points along cubics, four points each, from the pieces of a line in the same frame; each piece
 /// ends where a cubic ends. Infinite if the cubics are no picture of the line.

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "core/base/parallel.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/cubic.h"
 #include "core/curve/curvature.h"
@@ -43,32 +45,35 @@ EndCurvatures endCurvatures(const CubicBezier& c) {
   return kappa;
 }
 
+Vec2 onGrid(const Vec2& p, double grid) { return {std::round(p.x() / grid) * grid, std::round(p.y() / grid) * grid}; }
+
+/// The cubics of a part of a curve.
+struct PartPath {
+  CubicRun run;
+  double largestError = 0.0, largestJump = 0.0;  ///< The latter where its own cubics meet.
+  std::optional<double> firstCurvature, lastCurvature;
+  std::optional<double> firstWeight;  ///< What a difference from the first curvature is measured against.
+};
+
 class Approximation {
  public:
-  Approximation(const NurbsCurve& curve, double tolerance, double grid, CubicPath& path, CancelCheck check)
-      : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path), check_(check) {}
+  /// @param wholeLength curvatures less than kLeastCurvature / `wholeLength` count as that much.
+  Approximation(const NurbsCurve& curve, const CubicTolerance& within, double wholeLength, CancelCheck check)
+      : curve_(curve),
+        tolerance_(within.tolerance),
+        grid_(within.grid),
+        check_(check),
+        least_(kLeastCurvature / wholeLength) {}
 
-  /// Adds the curve, whose curvature has one slope at every place, to the last run, or begins one where it starts
-  /// elsewhere. Curvatures less than kLeastCurvature / `wholeLength` count as that much.
-  /// @param before curvature of the cubic before at its end, which the first one's must agree with.
-  void add(double wholeLength, std::optional<double> before) {
-    least_ = kLeastCurvature / wholeLength;
-    before_ = before;
-    const Vec2 start = rounded(curve_.point(curve_.start()));
-    if (path_.runs.empty() || (path_.runs.back().end() - start).norm() > jump()) path_.runs.push_back({start, {}});
+  /// The curve, whose curvature has one slope at every place, begun at `start`.
+  PartPath from(const Vec2& start) && {
+    path_.run.start = start;
     recurse(curve_.start(), curve_.end(), 0);
+    return std::move(path_);
   }
-  /// Curvature of the last cubic at its end.
-  std::optional<double> curvatureBehind() const { return before_; }
 
  private:
-  Vec2 rounded(const Vec2& p) const { return {std::round(p.x() / grid_) * grid_, std::round(p.y() / grid_) * grid_}; }
-
-  double jump() const {
-    double size = 0.0;
-    for (const Vec2& p : curve_.controlPoints()) size = std::max(size, p.cwiseAbs().maxCoeff());
-    return std::max(4.0 * grid_, kJump * size);
-  }
+  Vec2 rounded(const Vec2& p) const { return onGrid(p, grid_); }
 
   /// Unit direction at u, from the side of the interval [from, to] that u bounds.
   Vec2 direction(double u, double from, double to) const {
@@ -223,7 +228,7 @@ class Approximation {
 
   void recurse(double from, double to, int depth) {
     if (check_.isCancelled()) return;
-    const Vec2 start = path_.runs.back().end();
+    const Vec2 start = path_.run.end();
     const Vec2 end = rounded(curve_.point(to));
     const double middle = 0.5 * (from + to);
     sample(from, to);
@@ -246,20 +251,24 @@ class Approximation {
   }
 
   void take(const CubicBezier& c, const std::optional<double>& exactAtStart, double measured) {
-    path_.runs.back().cubics.push_back({c[1], c[2], c[3]});
+    const bool isFirst = path_.run.cubics.empty();
+    path_.run.cubics.push_back({c[1], c[2], c[3]});
     path_.largestError = std::max(path_.largestError, measured);
     const EndCurvatures own = endCurvatures(c);
-    if (before_ && own[0] && exactAtStart)
-      path_.largestJump = std::max(path_.largestJump, std::abs(*before_ - *own[0]) / weight(*exactAtStart));
-    before_ = own[1];
+    const std::optional<double> before = std::exchange(path_.lastCurvature, own[1]);
+    if (isFirst) {
+      path_.firstCurvature = own[0];
+      if (exactAtStart) path_.firstWeight = weight(*exactAtStart);
+    } else if (before && own[0] && exactAtStart) {
+      path_.largestJump = std::max(path_.largestJump, std::abs(*before - *own[0]) / weight(*exactAtStart));
+    }
   }
 
   const NurbsCurve& curve_;
   double tolerance_, grid_;
-  CubicPath& path_;
   CancelCheck check_;
-  double least_ = 0.0;            ///< Curvature below which a difference does not count.
-  std::optional<double> before_;  ///< Curvature at the end of the cubic taken last.
+  double least_;  ///< Curvature below which a difference does not count.
+  PartPath path_;
   std::vector<Vec2> points_;
   std::vector<double> parameters_;
 };
@@ -268,6 +277,12 @@ class Approximation {
 struct SmoothPart {
   NurbsCurve curve;
   bool isCurvatureContinuous = false;  ///< From the part before.
+
+  double jump(double grid) const {
+    double size = 0.0;
+    for (const Vec2& p : curve.controlPoints()) size = std::max(size, p.cwiseAbs().maxCoeff());
+    return std::max(4.0 * grid, kJump * size);
+  }
 };
 
 /// Cut where the slope of the curvature may jump: halving towards such a place never ends well, because a cubic that
@@ -293,17 +308,41 @@ Result<std::vector<SmoothPart>> smoothParts(const NurbsCurve& curve) {
 
 }  // namespace
 
-Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double grid, CancelCheck check) {
-  auto parts = smoothParts(curve);
+Result<CubicPath> cubicPath(const NurbsCurve& curve, const CubicTolerance& within, const RunContext& context) {
+  const auto parts = smoothParts(curve);
   if (!parts) return fail(parts.error());
-  CubicPath path;
-  const double length = ArcLength(curve).total();
-  std::optional<double> behind;
+  const double length = ArcLength(curve, context).total();
+  // A part begins where the one before it ends, which is known without its cubics, or else a new run.
+  struct PartStart {
+    Vec2 at;
+    bool isRun = false;
+  };
+  std::vector<PartStart> starts;
+  std::optional<Vec2> end;
   for (const SmoothPart& part : *parts) {
-    Approximation approximation(part.curve, tolerance, grid, path, check);
-    approximation.add(length, part.isCurvatureContinuous ? behind : std::nullopt);
-    behind = approximation.curvatureBehind();
-    if (check.isCancelled()) return cancelled();
+    const Vec2 own = onGrid(part.curve.point(part.curve.start()), within.grid);
+    const bool isRun = !end || (*end - own).norm() > part.jump(within.grid);
+    starts.push_back({isRun ? own : *end, isRun});
+    end = onGrid(part.curve.point(part.curve.end()), within.grid);
+  }
+  std::vector<PartPath> made(parts->size());
+  parallelFor(context, static_cast<int>(made.size()), 1, [&](int first, int last) {
+    for (int i = first; i < last && !context.isCancelled(); ++i)
+      made[i] = Approximation((*parts)[i].curve, within, length, context).from(starts[i].at);
+  });
+  if (context.isCancelled()) return cancelled();
+  CubicPath path;
+  std::optional<double> behind;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const PartPath& part = made[i];
+    if (starts[i].isRun) path.runs.push_back({starts[i].at, {}});
+    auto& cubics = path.runs.back().cubics;
+    cubics.insert(cubics.end(), part.run.cubics.begin(), part.run.cubics.end());
+    path.largestError = std::max(path.largestError, part.largestError);
+    path.largestJump = std::max(path.largestJump, part.largestJump);
+    if ((*parts)[i].isCurvatureContinuous && behind && part.firstCurvature && part.firstWeight)
+      path.largestJump = std::max(path.largestJump, std::abs(*behind - *part.firstCurvature) / *part.firstWeight);
+    behind = part.lastCurvature;
   }
   return path;
 }

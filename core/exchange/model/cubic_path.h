@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "core/base/cancel_check.h"
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/curve/nurbs_curve.h"
 
 namespace batten {
@@ -27,9 +27,14 @@ struct CubicPath {
   double largestJump = 0.0;
 };
 
+/// How near cubics are to be, and the unit of their coordinates. In the unit of the curve; tolerance > 4 grid > 0.
+struct CubicTolerance {
+  double tolerance = 0.0, grid = 0.0;
+};
+
 /// Cubics within `tolerance` of a curve, with its tangents and, but for 0.8 %, its curvatures at every joint, split by
 /// halves where one cubic is not enough. Coordinates are rounded to multiples of `grid` (what the file will hold)
-/// before anything is measured; ends stay ends. @pre tolerance > 4 grid > 0.
-Result<CubicPath> cubicPath(const NurbsCurve&, double tolerance, double grid, CancelCheck check = {});
+/// before anything is measured; ends stay ends.
+Result<CubicPath> cubicPath(const NurbsCurve&, const CubicTolerance&, const RunContext& = {});
 
 }  // namespace batten

@@ -55,12 +55,12 @@ std::string outlineData(const WidthOutline& outline, const PageFrame& frame, dou
 
 /// The path of a line in user units, y down from the upper edge.
 Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, const SvgOptions& options, SvgText& svg,
-                             CancelCheck check) {
+                             const RunContext& context) {
   const double unit = options.unitsPerMm;
   Eigen::Matrix2d flip;
   flip << unit, 0.0, 0.0, -unit;
   const Vec2 corner(-frame.leftMm, frame.bottomMm + frame.lengthToModel(frame.heightPx));
-  const auto outline = cubicOutline(curve, flip, unit * corner, {unit * options.toleranceMm, kGridMm}, check);
+  const auto outline = cubicOutline(curve, flip, unit * corner, {unit * options.toleranceMm, kGridMm}, context);
   if (!outline) return fail(outline.error());
   svg.cubics += outline->cubics;
   svg.largestErrorMm = std::max(svg.largestErrorMm, outline->largestError / unit);

@@ -11,6 +11,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/exchange/export_file.h"
+#include "core/exchange/model/cubic_outline.h"
 #include "core/exchange/model/cubic_path.h"
 #include "core/exchange/pdf_writer.h"
 #include "core/exchange/svg/svg_writer.h"
@@ -161,7 +162,7 @@ TEST(CubicPaths, StateTheErrorsThatTheyHave) {
   const auto svg = writeSvg(hardCurves(), {});
   ASSERT_TRUE(svg);
   EXPECT_NE(svg->text.find("where cubics meet, the curvature jumps by at most "), std::string::npos);
-  const auto path = cubicPath(test::smoothLoop(), 0.01, 1e-9);
+  const auto path = cubicPath(test::smoothLoop(), {0.01, 1e-9});
   ASSERT_TRUE(path);
   std::vector<Cubic> cubics;
   Vec2 pen = path->runs[0].start;
@@ -238,6 +239,36 @@ TEST(Pdf, TellsAFileThatHoldsSomethingElse) {
   EXPECT_FALSE(checkPdf(pdf->bytes.substr(0, pdf->bytes.size() / 3), document));
   moved.curves.pop_back();
   EXPECT_FALSE(checkPdf(pdf->bytes, moved));
+}
+
+TEST(CubicPaths, AreTheSameWithAnyNumberOfThreads) {
+  for (const NurbsCurve& curve : {test::severalSpans(), test::bezierChain(), test::smoothLoop()}) {
+    RunContext one, four;
+    one.threads = 1;
+    four.threads = 4;
+    const auto a = cubicPath(curve, {0.001, 1e-9}, one), b = cubicPath(curve, {0.001, 1e-9}, four);
+    ASSERT_TRUE(a && b);
+    EXPECT_EQ(a->largestJump, b->largestJump);
+    EXPECT_EQ(a->largestError, b->largestError);
+    ASSERT_EQ(a->runs.size(), b->runs.size());
+    for (std::size_t i = 0; i < a->runs.size(); ++i) EXPECT_EQ(a->runs[i].cubics, b->runs[i].cubics);
+  }
+}
+
+// Once a curve that runs close by its own end before it comes there was refused as a damaged file.
+TEST(CubicPaths, MayComeByTheEndOfTheirPiece) {
+  const std::vector<std::array<Vec2, 4>> cubics{
+      {Vec2(0, 0), Vec2(30, 20), Vec2(70, 20), Vec2(100.05, 0)},
+      {Vec2(100.05, 0), Vec2(130, -20), Vec2(170, 30), Vec2(150, 80)},
+      {Vec2(150, 80), Vec2(130, 130), Vec2(90, 60), Vec2(100, 0)},
+      {Vec2(100, 0), Vec2(130, 10), Vec2(170, -10), Vec2(200, 0)},
+  };
+  ExportCurve line;
+  std::vector<Vec2> points{cubics[0][0]};
+  for (std::size_t i = 0; i < 3; ++i) points.insert(points.end(), cubics[i].begin() + 1, cubics[i].end());
+  line.pieces.emplace_back().curve = test::made(3, {0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3}, points);
+  line.pieces.emplace_back().curve = test::made(3, {0, 0, 0, 0, 1, 1, 1, 1}, {cubics[3].begin(), cubics[3].end()});
+  EXPECT_LT(distanceFromLine(cubics, line), 1e-9);
 }
 
 }  // namespace
