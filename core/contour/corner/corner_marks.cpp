@@ -26,6 +26,7 @@ struct PlacedCorner {
   Corner corner;
   double zone = 4.0;     // [px] points nearer than this are left out
   bool isJoint = false;  // of the line itself
+  bool isMarkedJoint = false;
   bool exact = false;
 };
 
@@ -160,8 +161,8 @@ std::vector<MarkPair> closeCornersOf(const Contour& contour, const std::vector<P
   return close;
 }
 
-// The corners of one contour: those that marks found, its joints, and those found without marks. Those within
-// kSamePlacePx are one.
+// The corners of one contour: those that marks found, its joints, and those found without marks. Marks within
+// kSamePlacePx are one corner; joints never are, as a line may come through one place several times.
 class ContourCorners {
  public:
   /// The mark that found the corner before; nothing: it is new.
@@ -171,13 +172,14 @@ class ContourCorners {
     corners_.push_back({.corner = corner});
     return std::nullopt;
   }
-  /// Of an imported line. A mark beside a joint means the joint.
+  /// Of an imported line. A mark beside a joint means the joint, of several at one place the first. @pre all marks are
+  /// in.
   void addJoint(const Corner& joint) {
-    const auto known = firstAt(joint.positionPx);
-    near_.add(joint.positionPx, known.value_or(static_cast<int>(corners_.size())));
-    if (known) {
-      corners_[*known].corner.pointIndex = joint.pointIndex;
-      corners_[*known].corner.positionPx = joint.positionPx;
+    const auto marked = firstAt(joint.positionPx);
+    if (marked && !corners_[*marked].isMarkedJoint) {
+      corners_[*marked].corner.pointIndex = joint.pointIndex;
+      corners_[*marked].corner.positionPx = joint.positionPx;
+      corners_[*marked].isMarkedJoint = true;
     } else {
       corners_.push_back({.corner = joint, .isJoint = true});
     }

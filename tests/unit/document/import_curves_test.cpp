@@ -324,5 +324,24 @@ TEST(ImportedCurves, TheirUnitCanBeChosenLater) {
   EXPECT_EQ(millimetresOfImport(feet), 304.8);
 }
 
+// A line may come through one place several times, as the petals of a flower do: its joints there are as many.
+TEST(ImportedCurves, ThatMeetInOnePlaceStayExact) {
+  constexpr int kPetals = 5;
+  ImportedLine flower{"flower", {}, {}, {}, {}, true};
+  for (int i = 0; i < kPetals; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kPetals;
+    const Vec2 out(60.0 * std::cos(angle), 60.0 * std::sin(angle)), across(-0.4 * out.y(), 0.4 * out.x());
+    flower.curves.push_back(
+        {NurbsCurve::make(3, {0, 0, 0, 0, 1, 1, 1, 1}, {Vec2::Zero(), out - across, out + across, Vec2::Zero()})
+             .value()});
+  }
+  ImportedFile file{"flower.svg", "mm", {flower}};
+  const auto out = run(drawingOf(file));
+  ASSERT_FALSE(out.error) << out.error->message;
+  ASSERT_EQ(out.faired->curves.size(), std::size_t{kPetals});
+  for (std::size_t i = 0; i < flower.curves.size(); ++i)
+    EXPECT_TRUE(out.faired->curves[i].sketched == flower.curves[i].curve) << i;
+}
+
 }  // namespace
 }  // namespace batten
