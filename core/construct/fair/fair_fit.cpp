@@ -21,6 +21,13 @@ constexpr int kFitRounds = 6;              // of fits of a contour; stretches ar
 constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
 constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
+/// The rest of the frame, which is most of what a piece holds, is of no use after the noise is known.
+void keepBaseOnly(FairPiece& piece) {
+  FairFrame bare;
+  bare.base = std::move(piece.frame->base);
+  piece.frame = std::move(bare);
+}
+
 /// Smooths every piece by its own cut-off and weighs its points by the noise that this leaves.
 void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, double density, double s0,
                  const FairFitOptions& options, const RunContext& context) {
@@ -34,6 +41,7 @@ void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, dou
       if (!smooth) continue;
       piece.rough = smooth->mean;
       traces[i] = noiseTrace(*piece.frame, smooth->mean, s0);
+      keepBaseOnly(piece);
     }
   });
   const std::vector<LocalNoise> noise = localNoise(traces);
@@ -68,6 +76,9 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       const FinishScale scale{contour.pixelMm, s0, CutoffTable::cutoffPx(choice.k[i].value_or(0)), willBeCut};
       finishFairPiece(pieces[i], contour.pieces[i], scale, options, context);
+      pieces[i].frame.reset();
+      pieces[i].data = {};
+      pieces[i].rough.resize(0);
     }
   });
   double squares = 0.0, points = 0.0;

@@ -7,6 +7,7 @@
 #include <map>
 #include <new>
 
+#include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/construct/construct.h"
 #include "core/curve/arc_length.h"
@@ -136,7 +137,7 @@ class ContourBuilder {
   ConstructedSet buildAlike(PieceRange range) const {
     ConstructedSet outcome;
     if (auto all = constructRange(range, recipe_.construct)) {
-      for (std::size_t i = range.first; i < range.last; ++i) add(outcome, i, std::move((*all)[i - range.first]));
+      addAll(outcome, range.first, *all);
       return outcome;
     } else if (range.last - range.first == 1) {
       outcome.failures.push_back(named(all.error(), range.first));
@@ -145,7 +146,7 @@ class ContourBuilder {
     // One piece that cannot be constructed must not cost its neighbours.
     for (std::size_t i = range.first; i < range.last && !context_.isCancelled(); ++i) {
       if (auto one = constructRange({i, i + 1}, recipe_.construct)) {
-        add(outcome, i, std::move(one->front()));
+        addAll(outcome, i, *one);
       } else {
         outcome.failures.push_back(named(one.error(), i));
       }
@@ -199,12 +200,15 @@ class ContourBuilder {
     const ImportedLine* line = importedLineOf(contour, recipe_.imports);
     if (line == nullptr || line->curves.empty()) return std::nullopt;
     const std::span<const Piece> pieces(pieces_.pieces.data() + range.first, range.last - range.first);
-    ConstructedSet outcome;
     const auto exact = importedCurves(*line, pieces, frame_, importStepPx_);
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-      if (!exact[i]) return std::nullopt;
-      add(outcome, range.first + i, {*exact[i], {}, fairableShape(*exact[i])});
-    }
+    if (!std::all_of(exact.begin(), exact.end(), [](const auto& curve) { return curve.has_value(); }))
+      return std::nullopt;
+    std::vector<ConstructedPiece> made(exact.size());
+    parallelFor(context_, static_cast<int>(made.size()), 1, [&](int begin, int end) {
+      for (int i = begin; i < end && !context_.isCancelled(); ++i) made[i] = {*exact[i], {}, fairableShape(*exact[i])};
+    });
+    ConstructedSet outcome;
+    if (!context_.isCancelled()) addAll(outcome, range.first, made);
     return outcome;
   }
 
@@ -216,14 +220,19 @@ class ContourBuilder {
     return error;
   }
 
-  void add(ConstructedSet& outcome, std::size_t index, ConstructedPiece made) const {
-    const Piece& piece = pieces_.pieces[index];
-    TracedCurve curve;
-    curve.contour = piece.contour;
-    curve.piece = static_cast<int>(index);
-    curve.closed = piece.closed;
-    take(curve, std::move(made));
-    outcome.curves.push_back(std::move(curve));
+  /// The curves of the pieces from `first` on, which share the threads: a line may have thousands.
+  void addAll(ConstructedSet& outcome, std::size_t first, std::vector<ConstructedPiece>& made) const {
+    std::vector<TracedCurve> curves(made.size());
+    parallelFor(context_, static_cast<int>(made.size()), 1, [&](int begin, int end) {
+      for (int i = begin; i < end && !context_.isCancelled(); ++i) {
+        const std::size_t index = first + i;
+        curves[i].contour = pieces_.pieces[index].contour;
+        curves[i].piece = static_cast<int>(index);
+        curves[i].closed = pieces_.pieces[index].closed;
+        take(curves[i], std::move(made[i]));
+      }
+    });
+    std::move(curves.begin(), curves.end(), std::back_inserter(outcome.curves));
   }
 
   void take(TracedCurve& curve, ConstructedPiece made) const {
@@ -260,7 +269,7 @@ std::vector<Vec2> pointsToModel(std::span<const PiecePoint> points, const PageFr
 CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points,
                        const RunContext& context) {
   CurveFigures figures;
-  figures.lengthMm = ArcLength(curve).total();
+  figures.lengthMm = ArcLength(curve, context).total();
   figures.controlPoints = curve.controlPointCount();
   if (context.isCancelled()) return figures;
   figures.fromPoints = deviation(curve, points, true, context);

@@ -219,10 +219,12 @@ std::string importedNameOf(const PieceSet& pieces, std::size_t piece, const Cont
     const Piece& one = pieces.pieces[other];
     return one.contour == line && (!isNamed || curveOfPiece(*imported, contour, one) == curve);
   };
-  std::size_t first = piece, last = piece;
-  while (first > 0 && isAlike(first - 1)) --first;
-  while (last + 1 < pieces.pieces.size() && isAlike(last + 1)) ++last;
-  return first == last ? name : name + " " + std::to_string(piece - first + 1);
+  std::size_t first = piece;
+  // A line of thousands of pieces is not gone through for each of them.
+  if (!isNamed) first -= pieces.pieces[piece].index;
+  while (isNamed && first > 0 && isAlike(first - 1)) --first;
+  const bool isAlone = first == piece && !(piece + 1 < pieces.pieces.size() && isAlike(piece + 1));
+  return isAlone ? name : name + " " + std::to_string(piece - first + 1);
 }
 
 std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, std::span<const Piece> pieces,
