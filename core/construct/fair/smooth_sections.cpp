@@ -19,8 +19,9 @@
 namespace batten {
 namespace {
 
-constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, it has a loop of its own
-constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorter stretches have no fairness to keep
+constexpr double kMostLengthRatio = 1.15;      // of a curve to its points: longer, it has a loop of its own
+constexpr std::size_t kScatteredPlaces = 500;  // sharp turns that nobody draws in one line
+constexpr double kLeastSmoothPx = 24.0;        // between two sharp features; shorter stretches have no fairness to keep
 
 /// The notes of a part that begins at `offset` of the whole, for lengths from..to of the part.
 void append(ConstructReport& whole, const ConstructReport& part, double from, double to, double offset) {
@@ -81,6 +82,10 @@ std::string sharpFeatureNote(std::size_t count) {
   if (count == 1)
     return "Turns sharply at 1 place: mark a corner there for an exact fit; where the line only trembles, raise "
            "Detail.";
+  if (count >= kScatteredPlaces)
+    return "Turns sharply at " + std::to_string(count) +
+           " places. Points that are scattered must be put in the order in which the line runs; corners that are meant "
+           "can be marked.";
   return "Turns sharply at " + std::to_string(count) +
          " places: mark corners there for an exact fit; where the line only trembles, raise "
          "Detail.";
