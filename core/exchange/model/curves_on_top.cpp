@@ -15,6 +15,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/curve/sample_tree.h"
+#include "core/curve/span_curve.h"
 
 namespace batten {
 namespace {
@@ -23,7 +24,7 @@ constexpr double kOnTop = 1e-7;  ///< Of the size of a curve: how near it lies t
 constexpr int kTopSamples = 17;
 constexpr double kSteps = 1e6;  ///< Lengths that differ by less than a millionth are alike.
 /// Stretches that a curve is looked at by: enough that few of a page full of curves have one near a place.
-constexpr std::size_t kMostStretches = 64;
+constexpr int kMostStretches = 32;
 
 /// One curve of the document, to be compared with the others.
 struct TopCandidate {
@@ -53,10 +54,29 @@ struct CurveStretch {
   bool mayHold(const Vec2& place) const { return distanceFromStretch(place, from, to) <= reach; }
 };
 
+/// Every span in equal parts of its parameter: a part of the share h lies within h^2 / 8 of the largest second
+/// derivative of its chord.
+std::vector<CurveStretch> partsOfSpans(const NurbsCurve& curve, double near) {
+  const SpanBasis basis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);
+  const SpanCurve spans(basis, curve.controlPoints());
+  const int parts = kMostStretches / basis.spanCount();
+  std::vector<CurveStretch> stretches;
+  for (int span = 0; span < basis.spanCount(); ++span) {
+    const double reach = spans.bendBound(span) / (8.0 * parts * parts) + near;
+    Vec2 from = spans.at({span, 0.0}, 0)[0];
+    for (int k = 1; k <= parts; ++k) {
+      const Vec2 to = spans.at({span, static_cast<double>(k) / parts}, 0)[0];
+      stretches.push_back({from, to, reach});
+      from = to;
+    }
+  }
+  return stretches;
+}
+
 std::vector<CurveStretch> stretchesOf(const NurbsCurve& curve, const std::vector<CurvePlace>& places) {
   const double near = 2.0 * kOnTop * extent(curve);  // what lies on a curve is no larger than it
-  const std::size_t last = places.size() - 1,
-                    step = std::max<std::size_t>(1, (last + kMostStretches - 1) / kMostStretches);
+  if (!curve.isRational() && 2 * std::ssize(curve.breaks()) <= kMostStretches) return partsOfSpans(curve, near);
+  const std::size_t last = places.size() - 1, step = last / kMostStretches + 1;
   std::vector<CurveStretch> stretches;
   for (std::size_t first = 0; first < last; first += step) {
     const std::size_t end = std::min(first + step, last);
