@@ -124,6 +124,7 @@ void timeDrag(MainWindow& window) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keepFewHeaps();
   QStandardPaths::setTestModeEnabled(true);
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("batten-bench"));
