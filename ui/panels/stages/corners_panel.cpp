@@ -22,6 +22,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/slider_track.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/corner_rounding.h"
 #include "ui/session/suggestion_source.h"
 #include "ui/theme/theme.h"
@@ -75,10 +76,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
       takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(14, 12, 14, 12);
-  column->setSpacing(8);
-  column->addWidget(heading(tr("Corners"), this));
+  auto* column = panelColumn(this, tr("Corners"));
   column->addWidget(note(tr("Click a sharp corner of a line to mark it; click a mark to select it, and again to "
                             "remove it."),
                          this));

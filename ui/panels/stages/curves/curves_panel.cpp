@@ -12,6 +12,7 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/curves/comb_controls.h"
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/stages/curves/growing_controls.h"
@@ -64,10 +65,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
       forget_(linkButton(tr("Forget"), QStringLiteral("curves.forgetWaiting"), this)),
       segmentsNote_(note({}, this)),
       growing_(new GrowingControls(session.growing(), this)) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(14, 12, 14, 12);
-  layout->setSpacing(8);
-  layout->addWidget(heading(tr("Curves"), this));
+  auto* layout = panelColumn(this, tr("Curves"));
   layout->addWidget(methods_);
   layout->addWidget(new PaperRow(session, this));
   layout->addWidget(new PinPanel(session, this));
