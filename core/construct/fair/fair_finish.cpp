@@ -14,7 +14,7 @@
 #include "core/construct/fair/fair_prepare.h"
 #include "core/construct/fair/fair_structure.h"
 #include "core/construct/fair/fair_structure_search.h"
-#include "core/construct/fair/knot_removal.h"
+#include "core/construct/fair/fewest_knots.h"
 #include "core/construct/fair/sharp_features.h"
 #include "core/solve/banded_cholesky.h"
 
@@ -328,13 +328,13 @@ class FinishedFit {
     const int stride = checkStride(stations);
     // By weight: the calm stretches of an uneven line say how far it may move.
     const double calm = std::max(kLeastNoisePx, std::sqrt(frame_.weightedSquares / frame_.weights));
-    std::vector<KnotRemovalLimit> stationLimits;
+    std::vector<FewestKnotsLimit> stationLimits;
     for (int i = 0; i < std::ssize(frame_.checks); i += stride) {
       const FrameStation& s = frame_.checks[i];
       stationLimits.push_back({options_.knotRemovalTolerance * std::max(calm, kMeanShare * spreadAt(s.u)),
                                std::sqrt(std::max(0.0, BandedCholesky::quadratic(posterior.covariance, s.kappaRow)))});
     }
-    KnotRemovalLimits limits;
+    FewestKnotsLimits limits;
     limits.stations = stationLimits;
     limits.perSpan = kChecksPerSpan;
     limits.kappaShare = kKappaShare * options_.knotRemovalTolerance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/fair/knot_removal.h"
+#include "core/construct/fair/fewest_knots.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ double farthest(const NurbsCurve& a, const NurbsCurve& b) {
   return worst;
 }
 
-TEST(FairReduce, FewerPointsWithinTheNoiseAndWithTheSameExtrema) {
+TEST(FewestKnots, FewerPointsWithinTheNoiseAndWithTheSameExtrema) {
   for (const Shape& shape : shapes()) {
     const auto full = fitWith(shape, 0.0), fewer = fitWith(shape, 0.25);
     EXPECT_EQ(fewer.report.fullControlPoints, full.curve.controlPointCount()) << shape.name;
@@ -84,7 +84,7 @@ TEST(FairReduce, FewerPointsWithinTheNoiseAndWithTheSameExtrema) {
   }
 }
 
-TEST(FairReduce, MoreNoiseAllowedMeansFewerPoints) {
+TEST(FewestKnots, MoreNoiseAllowedMeansFewerPoints) {
   for (const Shape& shape : shapes()) {
     int last = 1 << 20;
     for (const double share : {0.0, 0.05, 0.25, 1.0}) {
@@ -95,7 +95,7 @@ TEST(FairReduce, MoreNoiseAllowedMeansFewerPoints) {
   }
 }
 
-TEST(FairReduce, EndsStayExactAndClosedCurvesMeet) {
+TEST(FewestKnots, EndsStayExactAndClosedCurvesMeet) {
   for (const Shape& shape : shapes()) {
     const auto fewer = fitWith(shape, 0.25, !shape.closed);
     const NurbsCurve& c = fewer.curve;
@@ -111,7 +111,7 @@ TEST(FairReduce, EndsStayExactAndClosedCurvesMeet) {
   }
 }
 
-TEST(FairReduce, CountsTurnsBeyondTheThreshold) {
+TEST(FewestKnots, CountsTurnsBeyondTheThreshold) {
   const std::vector<double> kappa = {0.0, 1.0, 0.95, 2.0, 1.0, 1.5, 1.45, 3.0};
   EXPECT_EQ(countExtrema(kappa, 0.1), 2);
   EXPECT_EQ(countExtrema(kappa, 0.01), 6);
