@@ -14,6 +14,7 @@
 #include "core/curve/knot_operations.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/profile/curvature_samples.h"
+#include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
 namespace {
@@ -184,8 +185,9 @@ void addProfile(TargetProfile& whole, const TargetProfile& part, const ProfileSp
 Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<CornerSection>& sections,
                                       std::vector<Result<TargetOutcomes>>& parts, CancelCheck check) {
   TargetOutcomes whole;
-  std::array<bool, 6> isMet{true, true, true, true, true, true};
-  std::array<std::vector<FairedCurve>, 6> faired;
+  PerTarget<bool> isMet;
+  isMet.fill(true);
+  PerTarget<std::vector<FairedCurve>> faired;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (!parts[i]) return std::move(parts[i]);
     TargetOutcomes& part = *parts[i];

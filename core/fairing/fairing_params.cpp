@@ -4,8 +4,12 @@
 #include <string>
 
 #include "core/base/number_text.h"
+#include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
+
+static_assert(static_cast<int>(FairingTarget::Degree1) == 1 &&
+              static_cast<int>(FairingTarget::Degree6) == kMostTargetDegree);
 
 std::optional<int> degreeOf(FairingTarget target) {
   const bool isDegree = target >= FairingTarget::Degree1 && target <= FairingTarget::Degree6;
@@ -50,9 +54,11 @@ std::optional<Error> validate(const FairingParams& params) {
   for (const SpanTarget& one : params.spanTargets) {
     if (!(one.at >= 0.0 && one.at <= 1.0))
       return Error{ErrorCode::BadParameter, "A span with its own target is not on the curve.", {}};
-    if (one.degree < 1 || one.degree > 6) {
-      return Error{
-          ErrorCode::BadParameter, "The target of a span must be 1 to 6, not " + std::to_string(one.degree) + ".", {}};
+    if (!isTargetDegree(one.degree)) {
+      return Error{ErrorCode::BadParameter,
+                   "The target of a span must be 1 to " + std::to_string(kMostTargetDegree) + ", not " +
+                       std::to_string(one.degree) + ".",
+                   {}};
     }
   }
   if (auto wrong = validateProfile(params.profile)) return wrong;

@@ -6,13 +6,13 @@
 
 #include "core/base/result.h"
 #include "core/fairing/profile/drawn_profile.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 
 enum class FairingMode {
   None,       ///< The sketched curve as constructed.
-  Target,     ///< Towards one of the six profiles, or the drawn one.
+  Target,     ///< Towards one of the target profiles, or the drawn one.
   Tolerance,  ///< Smallest integral of (dkappa/ds)^2 within the tolerance.
   Monotone,   ///< The nearest curve whose curvature is monotone between the extrema that are kept.
   LowPass,    ///< Towards the sketch's own curvature without its short waves.
@@ -50,7 +50,7 @@ enum class FairingTarget {
 };
 /// The degree of the polynomial that was asked for; nothing where it is recommended, or another profile.
 std::optional<int> degreeOf(FairingTarget);
-/// @param degree 1..6.
+/// @pre isTargetDegree(degree)
 FairingTarget targetOfDegree(int degree);
 /// The target of a recipe's number; nothing for a number that stands for none.
 std::optional<FairingTarget> targetOfNumber(int number);
@@ -75,7 +75,7 @@ struct EndHold {
 /// A natural span with a target of its own.
 struct SpanTarget {
   double at = 0.0;  ///< 0..1. Share of the arc length: a place in the span.
-  int degree = 1;   ///< 1..6.
+  int degree = 1;   ///< 1..kMostTargetDegree.
   bool operator==(const SpanTarget&) const = default;
 };
 

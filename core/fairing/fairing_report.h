@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "core/base/cancel_check.h"
 #include "core/base/termination.h"
 #include "core/curve/nurbs_curve.h"
+#include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
 
@@ -52,8 +52,8 @@ struct FairedCurve {
 /// The curve as sketched, with the reason why nothing was done. Cancelled: the extrema are not counted.
 FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note, CancelCheck check = {});
 
-/// The six targets of one curve made fair, by degree minus one; absent where one failed.
-using FairedByDegree = std::array<std::optional<FairedCurve>, 6>;
+/// The targets of one curve made fair; absent where one failed.
+using FairedByDegree = PerTarget<std::optional<FairedCurve>>;
 /// The degree of the highest S of the modified curve (003 section 6), of equal ones the lowest; none where no curve has
 /// one.
 std::optional<int> mostSimilar(const FairedByDegree&);

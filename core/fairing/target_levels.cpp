@@ -9,6 +9,7 @@
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/profile/curvature_samples.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
@@ -235,7 +236,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         const std::optional<int> asked = degreeOf(params.target);
         if (!asked && params.targetChoice == TargetChoice::Similarity) {
           FairedByDegree all;
-          for (int tried = 1; tried <= 6; ++tried) {
+          for (int tried = 1; tried <= kMostTargetDegree; ++tried) {
             const auto at = static_cast<std::size_t>(tried) - 1;
             if (!first.profiles[at].valid) continue;
             auto outcome = toDegree(tried, LevelSearch::All);
@@ -246,7 +247,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
           const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
           if (any != all.end()) return std::move(**any);
         }
-        for (int tried = 1; tried <= 6 && !asked; ++tried) {
+        for (int tried = 1; tried <= kMostTargetDegree && !asked; ++tried) {
           if (!first.profiles[tried - 1].valid) continue;
           auto outcome = toDegree(tried, LevelSearch::IfItMet);
           if (!outcome) return fail(outcome.error());

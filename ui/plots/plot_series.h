@@ -19,7 +19,7 @@ enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, Dra
 
 struct PlotSeries {
   PlotRole role = PlotRole::Sketched;
-  int degree = 0;                ///< Targets: 1..6.
+  int degree = 0;                ///< Of a target.
   std::vector<double> s, value;  ///< Same size, s ascending [mm]; only finite values.
   /// Between the two samples beside the place; held beyond either end.
   /// @pre not empty.

@@ -12,6 +12,7 @@
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/polynomial_fit.h"
 #include "core/fairing/profile/profile_data.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
 
@@ -179,7 +180,7 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
   const std::optional<double> end = closed || span.to < 1.0 ? std::optional(kappa.back()) : std::nullopt;
   const ProfileData data = profileData(x, kappa, extent(curve), TargetQuantity::Curvature);
   set.comparesCurvature = data.bendsBothWays;
-  for (int degree = 1; degree <= 6; ++degree) {
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
     TargetProfile& profile = set.profiles[static_cast<std::size_t>(degree) - 1];
     profile.degree = degree;
     const std::vector<double> c = fitPinnedPolynomial(x, kappa, degree, params.monotone, start, end);

@@ -27,7 +27,7 @@ namespace batten {
 /// The target that the user has chosen for one natural span of a curve.
 struct SpanChoice {
   Vec2 placePx = Vec2::Zero();  ///< In the span.
-  int degree = 1;               ///< 1..6.
+  int degree = 1;               ///< Of a target.
   bool operator==(const SpanChoice& o) const { return placePx == o.placePx && degree == o.degree; }
 };
 

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "core/curve/curvature.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target_advice.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
@@ -189,7 +190,7 @@ void ShapeWindow::refreshTable() {
   const int nearest = isFound ? targets->recommendedDegree.value() : 1;
   const bool isAdvised = isFound && isAdvisable(*targets, nearest, fairingAsked(session_).toleranceMm);
   std::vector<FigureTable::Row> rows;
-  for (int degree = 1; targets && degree <= 6; ++degree) {
+  for (int degree = 1; targets && degree <= kMostTargetDegree; ++degree) {
     const auto at = static_cast<std::size_t>(degree - 1);
     const TargetProfile& p = targets->targets.profiles[at];
     const QString none = QStringLiteral("–");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,7 +136,7 @@ double TargetProfile::curvatureAt(double f) const {
 TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool closed) {
   TargetSet set;
   if (curve.isEmpty()) {
-    for (int d = 1; d <= 6; ++d) {
+    for (int d = 1; d <= kMostTargetDegree; ++d) {
       set.profiles[d - 1].degree = d;
       set.profiles[d - 1].problem = "There is no curve.";
     }
@@ -148,7 +148,7 @@ TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool c
   set.perimeter = data.perimeter;
   set.kappa = data.kappa;
   set.comparesCurvature = data.bendsBothWays;
-  for (int degree = 1; degree <= 6; ++degree) {
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
     const auto at = static_cast<std::size_t>(degree - 1);
     set.profiles[at] = fitProfile(data, params, closed, degree, curve.controlPointCount());
     const TargetProfile& profile = set.profiles[at];
