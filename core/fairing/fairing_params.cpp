@@ -7,6 +7,11 @@
 #include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
+namespace {
+
+constexpr int kFewestExtremaNumber = -1;  // as few as the tolerance allows
+
+}  // namespace
 
 static_assert(static_cast<int>(FairingTarget::Degree1) == 1 &&
               static_cast<int>(FairingTarget::Degree6) == kMostTargetDegree);
@@ -22,6 +27,10 @@ std::optional<FairingTarget> targetOfNumber(int number) {
   const bool isKnown = number >= 0 && number <= static_cast<int>(FairingTarget::LogAesthetic);
   return isKnown ? std::optional(static_cast<FairingTarget>(number)) : std::nullopt;
 }
+
+int numberOf(const KeptExtrema& kept) { return kept.count.value_or(kFewestExtremaNumber); }
+
+KeptExtrema keptExtremaOf(int number) { return number == kFewestExtremaNumber ? KeptExtrema{} : KeptExtrema{number}; }
 
 std::optional<Error> validate(const FairingParams& params) {
   if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= kLargestToleranceMm)) {
@@ -41,10 +50,10 @@ std::optional<Error> validate(const FairingParams& params) {
         "The low-pass wavelength must be between 0.1 and 10000 mm, not " + numberToText(params.lowPassMm) + ".",
         {}};
   }
-  if (params.keepExtrema < kKeepSignificant || params.keepExtrema > 99) {
+  if (const std::optional<int> count = params.keepExtrema.count; count && (*count < 0 || *count > 99)) {
     return Error{ErrorCode::BadParameter,
                  "The number of extrema to keep must be 0 to 99, or -1 for as few as possible, not " +
-                     std::to_string(params.keepExtrema) + ".",
+                     std::to_string(*count) + ".",
                  {}};
   }
   for (const double at : params.keptAt) {

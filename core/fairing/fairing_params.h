@@ -62,8 +62,14 @@ inline bool isPolynomial(FairingTarget target) {
 inline constexpr double kLeastAlpha = -3.0, kMostAlpha = 6.0;
 /// [mm] Of FairingParams::toleranceMm.
 inline constexpr double kLargestToleranceMm = 20.0;
-/// FairingParams::keepExtrema: as few as the tolerance allows.
-inline constexpr int kKeepSignificant = -1;
+/// How many curvature extrema a monotone curve may keep.
+struct KeptExtrema {
+  std::optional<int> count;  ///< 0..99; absent: as few as the tolerance allows.
+  bool operator==(const KeptExtrema&) const = default;
+};
+/// The number that recipes, reports and the command line hold for it: -1 for as few as the tolerance allows.
+int numberOf(const KeptExtrema&);
+KeptExtrema keptExtremaOf(int number);
 
 /// What is held at an end of an open curve beside its position, which always is.
 struct EndHold {
@@ -92,8 +98,7 @@ struct FairingParams {
   FairingMeans means = FairingMeans::ControlPoints;  ///< Target and low-pass modes; edge lengths only on Bezier paths.
   double lowPassMm =
       20.0;  ///< [mm] 0.1..10000. Low-pass: curvature waves of this length are halved, shorter ones removed.
-  int keepExtrema =
-      kKeepSignificant;        ///< Monotone: -1..99. Curvature extrema that may stay; -1 = those that must, see above.
+  KeptExtrema keepExtrema;     ///< Monotone mode.
   std::vector<double> keptAt;  ///< Monotone: arc length fractions 0..1 of the extrema to keep; not empty: counts alone.
   std::vector<SpanTarget> spanTargets;  ///< Target: not empty: only these spans are moved, the rest stays as it is.
   std::vector<ProfilePoint> profile;    ///< The drawn curvature.

@@ -126,7 +126,7 @@ class LevelFairing {
   void meet(std::size_t level) {
     const bool isAllowed = level >= levels_.first && *needs_[level].mm <= kTargetRoom * toleranceMm_;
     if (best_->faired.report.withinTolerance || !isAllowed || context_.isCancelled()) return;
-    const double needed = best_->faired.report.neededMm;
+    const std::optional<double> needed = best_->faired.report.neededMm;
     if (!needs_[level].isTried) tryLevel(level);
     best_->faired.report.neededMm = needed;
     const bool isOutOfReach = *needs_[best_->level].mm > kTargetRoom * toleranceMm_;
@@ -189,9 +189,7 @@ TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingPar
   const auto fitted = [&] {
     TargetSet set = fitTargets(start, targets, closed);
     if (!calm) return set;
-    const CurvatureSamples sketched = sampledCurvature(curve, targets.samples);  // what is shown of the curve
-    set.perimeter = sketched.perimeter;
-    set.kappa = sketched.kappa;
+    set.samples = sampledCurvature(curve, targets.samples).places();  // what is shown of the curve
     return set;
   };
   if (!hasNaturalSpans(targets)) return oneLevel(targets.splits, fitted());

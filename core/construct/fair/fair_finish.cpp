@@ -32,16 +32,6 @@ constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the c
 constexpr const char* kShortNote = "Too short for the fair fit; a low-degree curve was fitted to the points.";
 constexpr const char* kPlainNote = "The fair fit could not be solved; a smoothed curve was used.";
 
-/// The parameter afterwards of one before; between the places of the table linear, and on beyond its ends.
-double lookUp(const std::vector<ParameterPair>& places, double before) {
-  const auto next = std::upper_bound(places.begin() + 1, places.end() - 1, before,
-                                     [](double x, const ParameterPair& place) { return x < place.before; });
-  const ParameterPair &low = *(next - 1), &high = *next;
-  const double width = high.before - low.before;
-  const double part = width > 0.0 ? (before - low.before) / width : 0.0;
-  return low.after + part * (high.after - low.after);
-}
-
 /// Back from px about the origin to mm, with the corner points to the last digit.
 Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piece, const ConstructPiece& in,
                           double pixelMm) {
@@ -118,8 +108,8 @@ class FinishedFit {
     if (!moveFrame(found->c)) return false;
     const auto final = localPosterior(frame_, s0_, std::move(local->tau2), 1, options_.emWidthPx, context_);
     if (!final) return false;
-    for (FairExtremum& e : found->structure.extrema) e.u = lookUp(places_, e.u);
-    for (FairExtremum& e : found->dropped) e.u = lookUp(places_, e.u);
+    for (FairExtremum& e : found->structure.extrema) e.u = parameterAfter(places_, e.u);
+    for (FairExtremum& e : found->dropped) e.u = parameterAfter(places_, e.u);
     return finishCurve(*final, *found, circleCost);
   }
 
@@ -150,7 +140,7 @@ class FinishedFit {
     auto moved = reframe(base, d, from, to, context_);
     if (!moved) return false;
     places_ = std::move(moved->places);
-    for (FairPoint& p : data.points) p.t = lookUp(places_, p.t);
+    for (FairPoint& p : data.points) p.t = parameterAfter(places_, p.t);
     frame_ = assembleFrame(moved->curve, data, options_, kChecksPerSpan, context_);
     return !frame_.blocks.empty() && !context_.isCancelled();
   }
@@ -280,7 +270,7 @@ class FinishedFit {
     const double least = kWrongWay / (high - low).norm();
     std::vector<double> kappa;
     for (const FrameStation& s : stations) kappa.push_back(s.kappa);
-    return countExtrema(kappa, least) > static_cast<int>(structure.extrema.size());
+    return countExtrema(kappa, least) > std::ssize(structure.extrema);
   }
 
   bool finishCurve(const FairPosterior& posterior, StructureResult& found, std::optional<double> circleCost) {

@@ -142,14 +142,12 @@ TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool c
     }
     return set;
   }
-  CurvatureSamples samples = sampledCurvature(curve, params.samples);
-  const ProfileData data =
-      profileData(std::move(samples.perimeter), std::move(samples.kappa), extent(curve), params.quantity);
-  set.perimeter = data.perimeter;
-  set.kappa = data.kappa;
+  const CurvatureSamples samples = sampledCurvature(curve, params.samples);
+  const ProfileData data = profileData(samples.perimeters(), samples.kappa, extent(curve), params.quantity);
+  set.samples = samples.places();
   set.comparesCurvature = data.bendsBothWays;
   for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
-    const auto at = static_cast<std::size_t>(degree - 1);
+    const int at = degree - 1;
     set.profiles[at] = fitProfile(data, params, closed, degree, curve.controlPointCount());
     const TargetProfile& profile = set.profiles[at];
     if (!profile.valid) continue;

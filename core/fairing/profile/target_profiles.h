@@ -67,10 +67,15 @@ struct TargetProfile {
   double curvatureAt(double f) const;
 };
 
+/// The curvature of a curve at one place.
+struct CurvatureSample {
+  double perimeter = 0.0;  ///< 0..1, share of the arc length.
+  double kappa = 0.0;      ///< [1/mm]
+};
+
 struct TargetSet {
   PerTarget<TargetProfile> profiles;
-  std::vector<double> perimeter;         ///< 0..1, the sample positions.
-  std::vector<double> kappa;             ///< [1/mm] of the curve there.
+  std::vector<CurvatureSample> samples;  ///< Of the curve.
   bool comparesCurvature = false;        ///< Similarities are of the curvature, for the radius has no end somewhere.
   std::optional<int> recommendedDegree;  ///< By AICc; absent: none is valid.
 };

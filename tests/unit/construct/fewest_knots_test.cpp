@@ -77,7 +77,7 @@ TEST(FewestKnots, FewerPointsWithinTheNoiseAndWithTheSameExtrema) {
     EXPECT_LT(fewer.curve.controlPointCount(), 0.75 * full.curve.controlPointCount()) << shape.name;
     EXPECT_EQ(fewer.curve.degree(), 5);
     const double movedPx = farthest(fewer.curve, full.curve) / 0.1;
-    EXPECT_LT(movedPx, 0.25 * fewer.report.noisePx * 1.05) << shape.name;
+    EXPECT_LT(movedPx, 0.25 * fewer.report.noisePx.value() * 1.05) << shape.name;
     EXPECT_NEAR(movedPx, fewer.report.knotRemovalMovedPx, 0.35 * fewer.report.knotRemovalMovedPx + 5e-4) << shape.name;
     EXPECT_EQ(test::extremaOf(fewer.curve, shape.closed).size(), test::extremaOf(full.curve, shape.closed).size())
         << shape.name;

@@ -306,10 +306,10 @@ void FairingPanel::setHold(int end, EndHold hold) {
 
 void FairingPanel::raiseTolerance() {
   const TracedCurve* curve = session_.selected();
-  if (!curve) return;
+  if (!curve || !curve->fairing.neededMm) return;
   Recipe after = session_.recipe();
   // Rounded up to what the field shows, so that the target really fits.
-  const double needed = std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0;
+  const double needed = std::ceil(*curve->fairing.neededMm * 1000.0) / 1000.0;
   if (hasOwnFairing(session_, session_.selectedCurve()))
     after =
         withChoice(session_, session_.selectedCurve(), [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
