@@ -149,7 +149,7 @@ bool FigureTable::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     const int index = help->pos().y() / kRowHeight - (columns_.isEmpty() ? 0 : 1);
-    const bool inside = index >= 0 && index < static_cast<int>(rows_.size());
+    const bool inside = index >= 0 && index < std::ssize(rows_);
     showToolTip(help->globalPos(), inside ? rows_[index].help : QString(), this);
     return true;
   }

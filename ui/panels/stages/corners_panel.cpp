@@ -209,7 +209,7 @@ void CornersPanel::buildSuggestions() {
   connect(scaleTrack_, &QSlider::valueChanged, this, setScale);
   connect(take_, &QPushButton::clicked, this, [this] {
     const int at = suggested_->currentRow();
-    if (at >= 0 && at < static_cast<int>(suggestions_.size())) mark({suggestions_[at].positionPx});
+    if (at >= 0 && at < std::ssize(suggestions_)) mark({suggestions_[at].positionPx});
   });
   connect(suggested_, &QListWidget::itemActivated, take_, &QPushButton::click);
   connect(takeAll_, &QPushButton::clicked, this, [this] {
@@ -359,7 +359,7 @@ void CornersPanel::mark(const std::vector<Vec2>& positions) {
 void CornersPanel::editSelected(const QString& what, const std::function<void(CornerMark&)>& change) {
   const int row = marks_->currentRow();
   Recipe after = session_.recipe();
-  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  if (row < 0 || row >= std::ssize(after.cornerMarks)) return;
   change(after.cornerMarks[row]);
   session_.change(what, std::move(after));
 }
@@ -367,7 +367,7 @@ void CornersPanel::editSelected(const QString& what, const std::function<void(Co
 void CornersPanel::removeSelected() {
   const int row = marks_->currentRow();
   Recipe after = session_.recipe();
-  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  if (row < 0 || row >= std::ssize(after.cornerMarks)) return;
   after.cornerMarks.erase(after.cornerMarks.begin() + row);
   session_.change(tr("Remove corner"), std::move(after));
 }

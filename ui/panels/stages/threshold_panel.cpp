@@ -127,11 +127,10 @@ void ThresholdPanel::buildRegion() {
 }
 
 double ThresholdPanel::levelOf(int region) const {
-  const auto at = static_cast<std::size_t>(region);
-  const auto& own = session_.recipe().threshold.grid[at];
+  const auto& own = session_.recipe().threshold.grid[region];
   if (own) return *own;
   if (session_.recipe().threshold.mode == ThresholdMode::Manual) return session_.recipe().threshold.manualLevel;
-  return session_.output().thresholds ? session_.output().thresholds->automatic[at] : 128.0;
+  return session_.output().thresholds ? session_.output().thresholds->automatic[region] : 128.0;
 }
 
 void ThresholdPanel::setRegion(std::optional<int> region, std::optional<double> grey, GestureId gesture) {
