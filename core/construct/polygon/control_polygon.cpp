@@ -43,7 +43,7 @@ Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) 
   std::vector<Vec2> around = points;
   for (int i = 0; i < degree; ++i) around.push_back(points[i % points.size()]);
   std::vector<double> knots;
-  for (int i = 0; i < static_cast<int>(around.size()) + degree + 1; ++i) knots.push_back(i - degree);
+  for (int i = 0; i < std::ssize(around) + degree + 1; ++i) knots.push_back(i - degree);
   const double length = polylineLength(points, true);
   auto curve = scaledToLength(degree, std::move(knots), std::move(around), length);
   if (!curve) return curve;
@@ -202,8 +202,9 @@ Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, do
   ThinnedPiece thinned = thinnedPiece(piece, pixelMm, params);
   std::vector<Vec2>& points = thinned.points;
   ConstructedPiece result;
-  result.report.pointsBefore = thinned.before;
-  result.report.pointsAfter = static_cast<int>(points.size());
+  PolygonNote& note = result.report.polygon.emplace();
+  note.before = thinned.before;
+  note.after = static_cast<int>(points.size());
   if (piece.closed && points.size() >= 3) {
     auto curve = periodicPolygon(points, params.degree);
     if (!curve) return fail(curve.error());
@@ -217,7 +218,7 @@ Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, do
     auto curve = isFree ? clamped(made->curve) : Result<NurbsCurve>(std::move(made->curve));
     if (!curve) return fail(curve.error());
     result.curve = std::move(*curve);
-    result.report.pointsAdded = made->added;
+    note.added = made->added;
     if (made->added > 0) {
       result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were doubled.";
     }

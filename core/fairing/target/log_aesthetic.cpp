@@ -174,7 +174,7 @@ std::vector<Stretch> stretchesOf(const CurvatureSamples& samples, const std::vec
   if (!closed || splits.empty()) borders.push_back(0.0);
   borders.insert(borders.end(), splits.begin(), splits.end());
   borders.push_back(closed && !splits.empty() ? splits.front() + 1.0 : 1.0);
-  const double last = static_cast<double>(samples.kappa.size() - 1);
+  const double last = samples.count() - 1.0;
   const auto kappaAt = [&](double f) {
     const double place = (f > 1.0 ? f - 1.0 : f) * last, below = std::min(std::floor(place), last - 1.0);
     const auto i = static_cast<std::size_t>(below);
@@ -198,8 +198,8 @@ LogAestheticSpan reported(const Stretch& stretch, const LogAesthetic& fit, doubl
   if (std::abs(fit.startKappa) > straight) span.startRadiusMm = 1.0 / fit.startKappa;
   if (std::abs(fit.endKappa) > straight) span.endRadiusMm = 1.0 / fit.endKappa;
   const double ratio = fit.startKappa / fit.endKappa, length = (stretch.to - stretch.from) * lengthMm;
-  if (span.startRadiusMm == 0.0 || span.endRadiusMm == 0.0 || !(ratio > 0.0)) return span;
-  const double unit = std::abs(span.startRadiusMm) / length;
+  if (!span.startRadiusMm || !span.endRadiusMm || !(ratio > 0.0)) return span;
+  const double unit = std::abs(*span.startRadiusMm) / length;
   span.lambda =
       std::abs(fit.alpha) < kNielsen ? std::log(ratio) * unit : (std::pow(ratio, fit.alpha) - 1.0) / fit.alpha * unit;
   return span;
@@ -275,7 +275,7 @@ LogAestheticTarget logAestheticTarget(const NurbsCurve& curve, bool closed, cons
   }
   target.profile.valid = true;
   target.profile.isMonotone = true;  // each stretch is, between the splits
-  const ProfileData data = profileData(sampled.perimeter, sampled.kappa, extent(curve), TargetQuantity::Curvature);
+  const ProfileData data = profileData(sampled.perimeters(), sampled.kappa, extent(curve), TargetQuantity::Curvature);
   std::vector<double> fitted;
   for (const double f : data.perimeter) fitted.push_back(target.profile.value(f));
   judgeProfile(target.profile, data, fitted, 3 * static_cast<int>(count), curve.controlPointCount());

@@ -233,7 +233,7 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& c
   const RunContext inner = itemContext(context, set.curves.size());
   forEachItem(context, set.curves.size(), [&](std::size_t i) {
     TracedCurve& curve = set.curves[i];
-    const auto piece = static_cast<std::size_t>(curve.piece);
+    const int piece = curve.piece;
     curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
     curve.fairingUsed = paramsFor(choices[piece], recipe, pieces.pieces[piece], curve.fairingStart(), frame);
     startFromSeenEnds(curve, lightOptions(recipe.construct, frame.mmPerPx));

@@ -8,9 +8,9 @@
 #include <QPainter>
 #include <QPushButton>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "core/fairing/profile/target_degrees.h"
 #include "ui/theme/theme.h"
 #include "ui/theme/tool_tips.h"
 
@@ -151,7 +151,7 @@ bool FigureTable::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     const int index = help->pos().y() / kRowHeight - (columns_.isEmpty() ? 0 : 1);
-    const bool inside = index >= 0 && index < static_cast<int>(rows_.size());
+    const bool inside = index >= 0 && index < std::ssize(rows_);
     showToolTip(help->globalPos(), inside ? rows_[index].help : QString(), this);
     return true;
   }
@@ -196,11 +196,11 @@ QString counted(qint64 count, const QString& one, const QString& many) {
 }
 
 QString degreeName(int degree) {
-  static const std::array<const char*, 6> kNames = {
+  static const PerTarget<const char*> kNames = {
       QT_TRANSLATE_NOOP("Degree", "linear"),  QT_TRANSLATE_NOOP("Degree", "quadratic"),
       QT_TRANSLATE_NOOP("Degree", "cubic"),   QT_TRANSLATE_NOOP("Degree", "quartic"),
       QT_TRANSLATE_NOOP("Degree", "quintic"), QT_TRANSLATE_NOOP("Degree", "sextic")};
-  if (degree < 1 || degree > 6) return {};
+  if (!isTargetDegree(degree)) return {};
   return QCoreApplication::translate("Degree", kNames[degree - 1]);
 }
 
