@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/image/bits/bit_steps.h"
 #include "core/image/bits/mask_distance.h"
 
 namespace batten {
