@@ -2,9 +2,12 @@
 #include "app/cli/curve_notes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/cli/note_list.h"
+#include "core/base/number_text.h"
+#include "core/construct/typical/typical_chain.h"
 #include "core/pipeline/run/left_as_drawn.h"
 
 namespace batten::cli {
@@ -50,18 +53,23 @@ std::string fairingNote(const TracedCurve& curve) {
 
 /// Of what typical chains are made; empty where there are none.
 std::string typicalNote(const std::vector<TracedCurve>& curves) {
-  int typical = 0, monotone = 0, transitions = 0;
+  std::vector<SegmentNote> segments;
   for (const TracedCurve& curve : curves) {
-    if (!curve.included) continue;
-    for (const SegmentNote& segment : curve.construct.segments) {
-      ++(segment.typical ? typical : transitions);
-      monotone += segment.typical && segment.monotone ? 1 : 0;
-    }
+    if (curve.included)
+      segments.insert(segments.end(), curve.construct.segments.begin(), curve.construct.segments.end());
   }
-  if (typical + transitions == 0) return {};
-  return std::to_string(typical) + (typical == 1 ? " typical curve, " : " typical curves, ") +
-         std::to_string(monotone) + " of them monotone, and " + std::to_string(transitions) +
-         (transitions == 1 ? " transition." : " transitions.");
+  if (segments.empty()) return {};
+  int typical = 0, monotone = 0;
+  for (const SegmentNote& segment : segments) {
+    typical += segment.typical ? 1 : 0;
+    monotone += segment.typical && segment.monotone ? 1 : 0;
+  }
+  const std::string causes = transitionCauses(segments);
+  return counted(typical, "typical curve, ", "typical curves, ") + std::to_string(monotone) +
+         " of them monotone, and " +
+         counted(static_cast<int>(segments.size()) - typical, "transition; typical: ", "transitions; typical: ") +
+         std::to_string(std::lround(100.0 * typicalShare(segments))) + " % of the length" +
+         (causes.empty() ? std::string() : "; transitions: " + causes) + ".";
 }
 
 std::string constructionLine(const Kind& k) {
