@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "app/cli/note_list.h"
@@ -38,8 +39,14 @@ void add(std::vector<Kind>& kinds, const std::string& kind, const std::string& n
   same->curves.push_back(curve);
 }
 
-/// "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind.
-std::string kindOf(const std::string& note) { return note.starts_with("Turns sharply at ") ? "Turns sharply" : note; }
+constexpr std::string_view kTurnsSharply = "Turns sharply at ", kFewTypical = "Typical curves make ";
+
+/// "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind; so are all shares of typical curves.
+std::string kindOf(const std::string& note) {
+  for (const std::string_view kind : {kTurnsSharply, kFewTypical})
+    if (note.starts_with(kind)) return std::string(kind);
+  return note;
+}
 
 /// What fairing refused, or did in part; what a target would have taken beyond the tolerance differs for every curve.
 std::string fairingNote(const TracedCurve& curve) {
@@ -73,7 +80,9 @@ std::string typicalNote(const std::vector<TracedCurve>& curves) {
 }
 
 std::string constructionLine(const Kind& k) {
-  if (k.kind != "Turns sharply") return named(k.curves) + ": " + k.note;
+  if (k.kind == kFewTypical && k.curves.size() > 1)
+    return named(k.curves) + ": Typical curves make less than 60 % of the length; the report has it for each.";
+  if (k.kind != kTurnsSharply) return named(k.curves) + ": " + k.note;
   return named(k.curves) + (k.curves.size() == 1 ? " turns" : " turn") +
          " sharply where no corner is marked: add --corner there (suggest lists the places); where the line "
          "trembles, raise construct.detail instead.";
