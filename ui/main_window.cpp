@@ -24,6 +24,7 @@
 #include "ui/panels/stages/clean_up_panel.h"
 #include "ui/panels/stages/corners_panel.h"
 #include "ui/panels/stages/curves/curves_panel.h"
+#include "ui/panels/stages/edges_panel.h"
 #include "ui/panels/stages/export/export_panel.h"
 #include "ui/panels/stages/fairing_panel.h"
 #include "ui/panels/stages/scan_panel.h"

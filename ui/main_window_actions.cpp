@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fairing/profile/target_degrees.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/rail/stage_of_change.h"
@@ -321,7 +322,7 @@ void MainWindow::refreshActions() {
   allow(ActionId::ReverseCurve, session_.selected() != nullptr, tr("No curve is selected."));
   allow(ActionId::Pin, curves || session_.pinned(), noCurves);
   action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);
-  for (int degree = 1; degree <= 6; ++degree)
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree)
     allow(static_cast<ActionId>(static_cast<int>(ActionId::Target1) + degree - 1), curves, noCurves);
   allow(ActionId::CancelWork, session_.isWorking() || !parts_->errors->isHidden(), tr("Nothing is running."));
   allow(ActionId::ComputeAgain, session_.isStopped(), tr("Nothing was stopped."));

@@ -35,9 +35,9 @@ struct ConstructPiece : PieceLine {
 /// All pieces of one contour: methods may pool what they have in common (noise).
 struct ConstructContour {
   std::vector<ConstructPiece> pieces;
-  bool isStroke = false;    ///< Centre line of a stroke (else an outline).
-  double pixelMm = 1.0;     ///< [mm] size of a scan pixel: the scale of noise.
-  double inkWidthPx = 0.0;  ///< [px] width of the page's strokes and shapes; 0 = not known.
+  bool isStroke = false;                  ///< Centre line of a stroke (else an outline).
+  double pixelMm = 1.0;                   ///< [mm] size of a scan pixel: the scale of noise.
+  std::optional<double> inkWidthPx = {};  ///< [px] width of the page's strokes and shapes; absent: not known.
 };
 
 /// A curvature extremum that a construction considered.
@@ -79,15 +79,17 @@ struct SegmentNote {
   bool monotone = false;                    ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
 };
 
-/// Part of the length of a chain that typical curves make, 0..1.
-inline double typicalShare(std::span<const SegmentNote> segments) {
-  double typical = 0.0, all = 0.0;
+/// Part of the length of a chain that its segments of one kind make, 0..1.
+inline double shareOf(SegmentCause cause, std::span<const SegmentNote> segments) {
+  double part = 0.0, all = 0.0;
   for (const SegmentNote& one : segments) {
     all += one.lengthMm;
-    if (one.typical) typical += one.lengthMm;
+    if (one.cause == cause) part += one.lengthMm;
   }
-  return all > 0.0 ? typical / all : 0.0;
+  return all > 0.0 ? part / all : 0.0;
 }
+/// The part that typical curves make.
+inline double typicalShare(std::span<const SegmentNote> segments) { return shareOf(SegmentCause::None, segments); }
 
 /// Result of making a curve light (construct.light).
 struct LightNote {
@@ -104,24 +106,29 @@ struct LightNote {
   std::string why;            ///< Why the curve, or a section of it, stayed dense; else empty.
 };
 
+/// Points of a control polygon.
+struct PolygonNote {
+  int before = 0;  ///< Points of the line …
+  int after = 0;   ///< … that are left after point removal …
+  int added = 0;   ///< … and control points added between close corners.
+};
+
 struct ConstructReport {
   Termination why = Termination::NotRun;
-  std::string note;                     ///< One line for the user when a fallback was used; else empty.
-  std::vector<ExtremumNote> extrema;    ///< Fair fit only.
-  int extremaInSharpFeatures = 0;       ///< Fair fit: at sharp features, where significance is not tested.
-  std::vector<int> unmetConstraints;    ///< Ids of constraints that found no extremum, or one that cannot go.
-  std::vector<NoiseNote> noise;         ///< Ascending in s (fair fit only).
-  std::vector<SegmentNote> segments;    ///< Typical curves only.
-  double noisePx = 0.0;                 ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
-  int stationsAdded = 0;                ///< Nurbs, Bezier: set where the line turns too quickly for those given.
-  int pointsBefore = 0;                 ///< Control polygon: points of the line (0 = not a control polygon) …
-  int pointsAfter = 0;                  ///< … that are left after point removal …
-  int pointsAdded = 0;                  ///< … and control points added between close corners.
-  int fullControlPoints = 0;            ///< Of the fair fit before knot removal (0 = not done).
-  double knotRemovalMovedPx = 0.0;      ///< [px] largest move of the curve by knot removal.
-  std::optional<LightNote> light = {};  ///< Fair fit, where light curves were asked for.
-  bool isCircle = false;                ///< Recognised as an exact circle.
-  bool isLine = false;                  ///< Recognised as an exact line.
+  std::string note;                    ///< One line for the user when a fallback was used; else empty.
+  std::vector<ExtremumNote> extrema;   ///< Fair fit only.
+  int extremaInSharpFeatures = 0;      ///< Fair fit: at sharp features, where significance is not tested.
+  std::vector<int> unmetConstraints;   ///< Ids of constraints that found no extremum, or one that cannot go.
+  std::vector<NoiseNote> noise;        ///< Ascending in s (fair fit only).
+  std::vector<SegmentNote> segments;   ///< Typical curves only.
+  std::optional<double> noisePx = {};  ///< [px] standard deviation of an edge point; fair fit, where it was measured.
+  int stationsAdded = 0;               ///< Nurbs, Bezier: set where the line turns too quickly for those given.
+  std::optional<PolygonNote> polygon = {};    ///< Control polygons.
+  std::optional<int> fullControlPoints = {};  ///< Of the fair fit before knot removal; absent: it was not fitted.
+  double knotRemovalMovedPx = 0.0;            ///< [px] largest move of the curve by knot removal.
+  std::optional<LightNote> light = {};        ///< Fair fit, where light curves were asked for.
+  bool isCircle = false;                      ///< Recognised as an exact circle.
+  bool isLine = false;                        ///< Recognised as an exact line.
 };
 struct ConstructedPiece {
   /// Clamped, model frame, domain in mm of chord or arc length. Degree 5, but for light curves (1 to 7; arcs are

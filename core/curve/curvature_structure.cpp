@@ -169,8 +169,8 @@ CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStr
 }
 
 int countExtrema(std::span<const double> kappa, double flat, bool closed) {
-  // A turn counts once the profile has come back by more than `flat` from its extreme since the last turn.
-  int turns = 0, direction = 0, firstDirection = 0;
+  // An extremum counts once the profile has come back from it by more than `flat`.
+  int found = 0, direction = 0, firstDirection = 0;
   const std::size_t count = kappa.size();
   if (count == 0) return 0;
   double extreme = kappa[0], lowest = kappa[0], highest = kappa[0];
@@ -185,17 +185,17 @@ int countExtrema(std::span<const double> kappa, double flat, bool closed) {
       firstDirection = direction;
       continue;
     }
-    // Closed: the first time around only finds the direction; turns count from the start of the second.
-    if (closed && k == count) turns = 0, firstDirection = direction;
+    // Closed: the first time around only finds the direction; extrema count from the start of the second.
+    if (closed && k == count) found = 0, firstDirection = direction;
     if (direction > 0 ? value > extreme : value < extreme) extreme = value;
     if (direction > 0 ? extreme - value > flat : value - extreme > flat) {
-      ++turns;
+      ++found;
       direction = -direction;
       extreme = value;
     }
   }
-  if (closed && direction != firstDirection) ++turns;
-  return turns;
+  if (closed && direction != firstDirection) ++found;
+  return found;
 }
 
 }  // namespace batten

@@ -44,7 +44,8 @@ std::optional<NurbsCurve> openFit(const std::vector<CurveSample>& samples, int s
     const BasisRow row = basis(kFairableDegree, knots, count, sample.s, 0);
     std::array<double, kFairableDegree + 1> values{};
     Vec2 right = sample.point;
-    int from = -1, used = 0;
+    std::optional<int> from;
+    int used = 0;
     for (int j = 0; j <= kFairableDegree; ++j) {
       const double value = row.values[0][j];
       const int column = row.first + j;
@@ -52,10 +53,10 @@ std::optional<NurbsCurve> openFit(const std::vector<CurveSample>& samples, int s
         right -= value * (column == 0 ? first : last);
         continue;
       }
-      if (from < 0) from = column - 1;
+      if (!from) from = column - 1;
       values[used++] = value;
     }
-    if (used > 0) system.add(from, std::span(values).first(used), right);
+    if (from) system.add(*from, std::span(values).first(used), right);
   }
   auto inner = system.solve();
   if (!inner) return std::nullopt;

@@ -51,8 +51,8 @@ Result<PeriodicForm> toPeriodic(const NurbsCurve& curve) {
   form.points.assign(cycle.size(), Vec2::Zero());
   const auto knotAt = [&](int i) {
     if (i == m) return curve.end();
-    const int turn = i >= 0 ? i / m : -((m - 1 - i) / m);
-    return cycle[i - turn * m] + turn * period;
+    const int lap = i >= 0 ? i / m : -((m - 1 - i) / m);
+    return cycle[i - lap * m] + lap * period;
   };
   for (int i = -p; i <= m + p; ++i) form.knots.push_back(knotAt(i));
   const auto knot = [&](int i) { return knots[i]; };

@@ -93,11 +93,21 @@ void joinWidths(std::vector<ExportPiece>& pieces, bool closed) {
   }
 }
 
+/// What is exported of a run.
+struct ExportedRun {
+  const PipelineOutput& output;
+  const Scan& scan;
+  const Recipe& recipe;
+  ExportedCurves which;
+  ExportedWidths widths;
+};
+
 /// Adds the lines of a run in one of their two kinds.
-void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& recipe, bool sketched, bool isBoth,
-               ExportedWidths widthsWanted, CancelCheck check, ExportDocument& document) {
+void addCurves(const ExportedRun& exported, bool sketched, CancelCheck check, ExportDocument& document) {
+  const PipelineOutput& output = exported.output;
+  const Recipe& recipe = exported.recipe;
   const DirectionOwners owners = assignDirections(*output.pieces, recipe);
-  StrokeWidths widths(output, scan, check);
+  StrokeWidths widths(output, exported.scan, check);
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -121,12 +131,12 @@ void addCurves(const PipelineOutput& output, const Scan& scan, const Recipe& rec
         ExportPiece& own = curve.pieces.emplace_back(
             ExportPiece{shapeOf(*piece, sketched), nameOfCurve(output, recipe, *piece), number});
         own.figures = figuresOf(*piece, sketched);
-        if (widthsWanted == ExportedWidths::Measured) own.width = widths.along(*piece, shapeOf(*piece, sketched));
+        if (exported.widths == ExportedWidths::Measured) own.width = widths.along(*piece, shapeOf(*piece, sketched));
         if (const auto& wanted = owners.ofPiece[piece->piece])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isReversed};
       }
       if (const ImportedLine* imported = importedLineOf(line, recipe.imports))
-        takeOrigin(*imported, sketched, isBoth, curve);
+        takeOrigin(*imported, sketched, exported.which == ExportedCurves::Both, curve);
       curve.id = lineId(lowest, sketched);
       if (const auto start = owners.startOfContour.find(contour); start != owners.startOfContour.end())
         curve.startMm = output.frame.pointToModel(recipe.starts[start->second].positionPx);
@@ -151,9 +161,9 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   for (const Parameter& parameter : parameterTable())
     if (!parameter.isForDisplay) document.settings.emplace_back(parameter.name, parameter.get(recipe));
   if (!output.faired || !output.pieces || !output.contours) return document;
-  const bool isBoth = which == ExportedCurves::Both;
-  if (which != ExportedCurves::Faired) addCurves(output, scan, recipe, true, isBoth, widths, check, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, scan, recipe, false, isBoth, widths, check, document);
+  const ExportedRun exported{output, scan, recipe, which, widths};
+  if (which != ExportedCurves::Faired) addCurves(exported, true, check, document);
+  if (which != ExportedCurves::Sketched) addCurves(exported, false, check, document);
   return document;
 }
 

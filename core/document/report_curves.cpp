@@ -55,10 +55,10 @@ const char* causeName(SegmentCause cause) {
 ReportJson constructToJson(const ConstructReport& r, const PageFrame& frame) {
   ReportJson json{{"stopped", name(r.why)},
                   {"note", r.note},
-                  {"noise_px", numberToJson(r.noisePx)},
-                  {"noise_um", numberToJson(1000.0 * frame.lengthToModel(r.noisePx))},
+                  {"noise_px", numberToJson(r.noisePx.value_or(0.0))},
+                  {"noise_um", numberToJson(1000.0 * frame.lengthToModel(r.noisePx.value_or(0.0)))},
                   {"stations_added", r.stationsAdded},
-                  {"control_points_before_sparing", r.fullControlPoints},
+                  {"control_points_before_sparing", r.fullControlPoints.value_or(0)},
                   {"moved_by_sparing_px", numberToJson(r.knotRemovalMovedPx)},
                   {"moved_by_sparing_um", numberToJson(1000.0 * frame.lengthToModel(r.knotRemovalMovedPx))},
                   {"is_circle", r.isCircle},
@@ -74,10 +74,14 @@ ReportJson constructToJson(const ConstructReport& r, const PageFrame& frame) {
                      {"sections_dense", r.light->sectionsDense},
                      {"why", r.light->why}};
   }
-  if (r.pointsBefore > 0) {
-    json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
+  if (r.polygon) {
+    json["polygon_points"] = {{"before", r.polygon->before}, {"after", r.polygon->after}, {"added", r.polygon->added}};
   }
-  if (!r.segments.empty()) json["typical_share"] = numberToJson(typicalShare(r.segments));
+  if (!r.segments.empty()) {
+    json["typical_share"] = numberToJson(typicalShare(r.segments));
+    for (const SegmentCause cause : {SegmentCause::Straight, SegmentCause::Inflection, SegmentCause::Even})
+      json["transition_shares"][causeName(cause)] = numberToJson(shareOf(cause, r.segments));
+  }
   for (const SegmentNote& n : r.segments) {
     json["segments"].push_back({{"kind", n.typical ? "typical" : "transition"},
                                 {"cause", causeName(n.cause)},
@@ -108,13 +112,14 @@ ReportJson logAestheticToJson(const FairingReport& r) {
   ReportJson list = ReportJson::array();
   for (const LogAestheticSpan& one : r.logAesthetic) {
     // Lambda is relative to the radius at the start; a span that bends both ways or is straight at an end has none.
-    const bool hasLambda = one.startRadiusMm * one.endRadiusMm > 0.0;
+    const double startMm = one.startRadiusMm.value_or(0.0), endMm = one.endRadiusMm.value_or(0.0);
+    const bool hasLambda = startMm * endMm > 0.0;
     list.push_back({{"from", numberToJson(one.from)},
                     {"to", numberToJson(one.to)},
                     {"alpha", numberToJson(one.alpha)},
                     {"lambda", hasLambda ? numberToJson(one.lambda) : ReportJson(nullptr)},
-                    {"start_radius_mm", numberToJson(one.startRadiusMm)},
-                    {"end_radius_mm", numberToJson(one.endRadiusMm)}});
+                    {"start_radius_mm", numberToJson(startMm)},
+                    {"end_radius_mm", numberToJson(endMm)}});
   }
   return list;
 }
@@ -126,10 +131,10 @@ ReportJson fairingToJson(const FairingReport& r) {
           {"objective_before", numberToJson(r.objectiveBefore)},
           {"objective_after", numberToJson(r.objectiveAfter)},
           {"max_deviation_mm", numberToJson(r.maxDeviationMm)},
-          {"needed_mm", numberToJson(r.neededMm)},
+          {"needed_mm", numberToJson(r.neededMm.value_or(0.0))},
           {"within_tolerance", r.withinTolerance},
           {"similarity_to_sketch", r.similarityAfter ? numberToJson(*r.similarityAfter) : ReportJson()},
-          {"noise_of_points_mm", numberToJson(r.noiseMm)},
+          {"noise_of_points_mm", numberToJson(r.noiseMm.value_or(0.0))},
           {"log_aesthetic", logAestheticToJson(r)},
           {"rounding_moved_mm", numberToJson(r.roundedMm)},
           {"curvature_extrema_before", r.extremaBefore},
@@ -147,7 +152,7 @@ ReportJson targetsToJson(const TargetOutcomes& outcomes, double toleranceMm) {
                     {"pearson", numberToJson(p.pearson)},
                     {"rms_percent", numberToJson(p.rmsPercent)},
                     {"monotone", p.isMonotone},
-                    {"aicc", numberToJson(p.aicc)},
+                    {"aicc", p.aicc ? numberToJson(*p.aicc) : ReportJson()},
                     {"recommended", advised == i + 1}};
     if (!p.valid) json["problem"] = p.problem;
     if (outcomes.faired[i]) {
@@ -172,7 +177,7 @@ ReportJson choiceToJson(const TracedCurve& c) {
           {"target", wordOf(c.fairingUsed, "fairing.target")},
           {"drawn_profile", wordOf(c.fairingUsed, "fairing.profile")},
           {"splits", c.fairingUsed.targets.splits},
-          {"keep_extrema", c.fairingUsed.keepExtrema},
+          {"keep_extrema", numberOf(c.fairingUsed.keepExtrema)},
           {"keep_at", c.fairingUsed.keptAt},
           {"low_pass_mm", c.fairingUsed.lowPassMm},
           {"tolerance_mm", c.fairingUsed.toleranceMm},

@@ -14,6 +14,7 @@
 #include "core/curve/knot_operations.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/profile/curvature_samples.h"
+#include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
 namespace {
@@ -44,7 +45,7 @@ FairingParams paramsOf(const FairingParams& whole, const ProfileSpan& span, bool
   for (const double f : whole.keptAt)
     if (isIn(f)) params.keptAt.push_back(within(span, f));
   // The extrema that are named count alone: where none is, none stays.
-  if (!whole.keptAt.empty() && params.keptAt.empty()) params.keepExtrema = 0;
+  if (!whole.keptAt.empty() && params.keptAt.empty()) params.keepExtrema = {0};
   params.targets.splits.clear();
   for (const double f : whole.targets.splits)
     if (isIn(f)) params.targets.splits.push_back(within(span, f));
@@ -113,7 +114,7 @@ Result<FairedCurve> fairSections(const NurbsCurve& curve, bool closed, const std
   if (const auto error = validate(params)) return fail(*error);
   std::vector<Result<FairedCurve>> made(sections.size(), cancelled());
   parallelFor(context, static_cast<int>(sections.size()), 1, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    for (int i = begin; i < end; ++i) {
       const CornerSection& section = sections[i];
       const FairingParams own = paramsOf(params, section.span, closed);
       const bool isLeft = section.isStraight || (!params.spanTargets.empty() && own.spanTargets.empty());
@@ -136,18 +137,17 @@ Result<FairedCurve> fairSections(const NurbsCurve& curve, bool closed, const std
 TargetOutcomes asItIs(const CornerSection& section, const TargetParams& params) {
   TargetOutcomes outcomes;
   const CurvatureSamples samples = sampledCurvature(section.curve, params.samples);
-  outcomes.targets.perimeter = samples.perimeter;
-  outcomes.targets.kappa = samples.kappa;
-  const std::size_t count = samples.kappa.size();
+  outcomes.targets.samples = samples.places();
+  const int count = samples.count();
   for (std::size_t d = 0; d < outcomes.faired.size(); ++d) {
     TargetProfile& profile = outcomes.targets.profiles[d];
     profile.degree = static_cast<int>(d) + 1;
     profile.valid = profile.isMonotone = true;
     profile.similarity = profile.pearson = 1.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, count - 1);
-      const double slope = (samples.kappa[b] - samples.kappa[a]) / (samples.perimeter[b] - samples.perimeter[a]);
-      profile.nodes.push_back({samples.perimeter[i], samples.kappa[i], slope});
+    for (int i = 0; i < count; ++i) {
+      const int a = i > 0 ? i - 1 : 0, b = std::min(i + 1, count - 1);
+      const double slope = (samples.kappa[b] - samples.kappa[a]) / (samples.perimeter(b) - samples.perimeter(a));
+      profile.nodes.push_back({samples.perimeter(i), samples.kappa[i], slope});
     }
     outcomes.faired[d] = unchanged(section.curve, false, Termination::Converged, {});
   }
@@ -178,20 +178,23 @@ void addProfile(TargetProfile& whole, const TargetProfile& part, const ProfileSp
   whole.similarity = isFirst ? part.similarity : std::min(whole.similarity, part.similarity);
   whole.pearson = isFirst ? part.pearson : std::min(whole.pearson, part.pearson);
   whole.rmsPercent = std::max(whole.rmsPercent, part.rmsPercent);
-  whole.aicc += part.aicc;
+  if (isFirst)
+    whole.aicc = part.aicc;
+  else if (whole.aicc)
+    whole.aicc = part.aicc ? std::optional(*whole.aicc + *part.aicc) : std::nullopt;
 }
 
 Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<CornerSection>& sections,
                                       std::vector<Result<TargetOutcomes>>& parts, CancelCheck check) {
   TargetOutcomes whole;
-  std::array<bool, 6> isMet{true, true, true, true, true, true};
-  std::array<std::vector<FairedCurve>, 6> faired;
+  PerTarget<bool> isMet;
+  isMet.fill(true);
+  PerTarget<std::vector<FairedCurve>> faired;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (!parts[i]) return std::move(parts[i]);
     TargetOutcomes& part = *parts[i];
     const ProfileSpan& span = sections[i].span;
-    for (const double f : part.targets.perimeter) whole.targets.perimeter.push_back(across(span, f));
-    whole.targets.kappa.insert(whole.targets.kappa.end(), part.targets.kappa.begin(), part.targets.kappa.end());
+    for (const auto& [f, kappa] : part.targets.samples) whole.targets.samples.push_back({across(span, f), kappa});
     whole.targets.comparesCurvature = whole.targets.comparesCurvature || part.targets.comparesCurvature;
     whole.targets.recommendedDegree = std::max(whole.targets.recommendedDegree, part.targets.recommendedDegree);
     if (i > 0 || job.closed) whole.splits.push_back(span.from);

@@ -67,7 +67,7 @@ double monotoneSimilarity(const ProfileData& data, const std::vector<double>& sp
 
 PartFairness fairnessOfPart(const NurbsCurve& curve, bool closed) {
   PartFairness result;
-  CurvatureSamples samples = sampledCurvature(curve, kFairnessSamples);
+  const CurvatureSamples samples = sampledCurvature(curve, kFairnessSamples);
   result.lengthMm = samples.lengthMm;
   if (!(samples.lengthMm > 0.0)) return result;
   const double size = extent(curve);
@@ -75,8 +75,7 @@ PartFairness fairnessOfPart(const NurbsCurve& curve, bool closed) {
   const double largest = std::max(std::abs(*low), std::abs(*high));
   if (largest * size <= kStraightCurvature || *high - *low <= kEvenCurvature * largest) return result;
   const std::vector<double> splits = closed ? naturalSplits(curve, true, kFewestExtremaMm) : std::vector<double>{};
-  const ProfileData data =
-      profileData(std::move(samples.perimeter), std::move(samples.kappa), size, TargetQuantity::Curvature);
+  const ProfileData data = profileData(samples.perimeters(), samples.kappa, size, TargetQuantity::Curvature);
   result.similarity = monotoneSimilarity(data, splits, closed);
   result.logAesthetic.reset();
   if (result.similarity < kLeastForLogAesthetic) return result;

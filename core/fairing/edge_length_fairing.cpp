@@ -154,12 +154,12 @@ class EdgeLengthFairing {
   std::optional<FairedCurve> followed(bool pin) {
     double inside = 0.0, outside = 1.0;
     std::optional<FairedCurve> best;
-    double needed = 0.0;
+    std::optional<double> needed;
     for (int i = 0; i <= kBisections && !context_.isCancelled(); ++i) {
       const double share = i == 0 ? 1.0 : 0.5 * (inside + outside);
       auto curve = attempt(share, pin);
       const double away = curve ? moved(*curve) : 1e300;
-      if (i == 0) needed = curve ? away : 0.0;
+      if (i == 0 && curve) needed = away;
       if (!(away <= kToleranceShare * params_.toleranceMm)) {
         outside = share;
         continue;

@@ -94,8 +94,7 @@ BlockSolution solvePiece(const Quintic& q, const Edges& edges, std::span<const d
   block.evaluate = [&, n, share, size, pin](std::span<const double> x, std::span<double> r) {
     const Quintic moved = withLengths(q[0], edges, x);
     for (int i = 0; i < n; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      r[at] = share * (evaluate(moved, static_cast<double>(i) / (n - 1)).curvature() - wanted[at]) / scale;
+      r[i] = share * (evaluate(moved, static_cast<double>(i) / (n - 1)).curvature() - wanted[i]) / scale;
     }
     for (std::size_t i = 0; i < 5; ++i) r[n + i] = kStay * x[i];
     if (!pin) return;

@@ -9,6 +9,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_line.h"
 #include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/structure/fair_as_needed.h"
 #include "core/fairing/structure/monotone_fairing.h"
 #include "core/fairing/structure/tolerance_fairing.h"
@@ -26,7 +27,7 @@ struct TargetsRun {
   std::shared_ptr<const FairingSetup> setup;  ///< Null: the curve cannot be made fair, `problem` says why.
   std::string problem;
   TargetLevels levels;
-  std::array<bool, 6> isMet{};
+  PerTarget<bool> isMet{};
   Result<TargetOutcomes> outcomes = cancelled();
 };
 
@@ -64,7 +65,8 @@ TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
   return run;
 }
 
-void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const RunContext& context) {
+void runTarget(const TargetsJob& job, TargetsRun& run, int degree, const RunContext& context) {
+  const int at = degree - 1;
   TargetOutcomes& outcomes = *run.outcomes;
   try {
     if (!run.setup) {
@@ -76,7 +78,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
       outcomes.faired[at] = withoutTolerance(job.curve, job.closed, job.params, context);
       return;
     }
-    auto faired = fairOverLevels(run.setup, run.levels, static_cast<int>(at) + 1, tolerance, context);
+    auto faired = fairOverLevels(run.setup, run.levels, degree, tolerance, context);
     if (faired) {
       run.isMet[at] = faired->isMet;
       faired->faired = againstSketch(*run.setup, std::move(faired->faired));
@@ -120,11 +122,10 @@ std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> j
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto samples = [&](std::size_t i) { return runs[i].setup ? runs[i].setup->sampleCount() : 0; };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return samples(a) > samples(b); });
-  parallelFor(context, 6 * static_cast<int>(jobs.size()), 1, [&](int begin, int end) {
+  parallelFor(context, kMostTargetDegree * static_cast<int>(jobs.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const std::size_t job = order[at / 6];
-      if (runs[job].outcomes) runTarget(jobs[job], runs[job], at % 6, context);
+      const std::size_t job = order[i / kMostTargetDegree];
+      if (runs[job].outcomes) runTarget(jobs[job], runs[job], i % kMostTargetDegree + 1, context);
     }
   });
   std::vector<Result<TargetOutcomes>> results;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +12,8 @@
 #include "core/fairing/fairing_params.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_line.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_degrees.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 
@@ -22,12 +22,12 @@ namespace batten {
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&,
                                         const FairingLine& line = {});
 
-/// All six targets with their faired curves: what the target strip shows. Entries without value failed; the profile's
+/// All targets with their faired curves: what the target strip shows. Entries without value failed; the profile's
 /// `problem` or the error says why.
 struct TargetOutcomes {
   TargetSet targets;
   FairedByDegree faired;
-  std::array<std::string, 6> problems;
+  PerTarget<std::string> problems;
   /// The lowest degree that is met within the tolerance without a curvature extremum more; where none is, the one that
   /// TargetSet recommends. With TargetChoice::Similarity the one of the highest S of the modified curve. Absent: none.
   std::optional<int> recommendedDegree;

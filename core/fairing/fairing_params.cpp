@@ -4,8 +4,17 @@
 #include <string>
 
 #include "core/base/number_text.h"
+#include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
+namespace {
+
+constexpr int kFewestExtremaNumber = -1;  // as few as the tolerance allows
+
+}  // namespace
+
+static_assert(static_cast<int>(FairingTarget::Degree1) == 1 &&
+              static_cast<int>(FairingTarget::Degree6) == kMostTargetDegree);
 
 std::optional<int> degreeOf(FairingTarget target) {
   const bool isDegree = target >= FairingTarget::Degree1 && target <= FairingTarget::Degree6;
@@ -18,6 +27,10 @@ std::optional<FairingTarget> targetOfNumber(int number) {
   const bool isKnown = number >= 0 && number <= static_cast<int>(FairingTarget::LogAesthetic);
   return isKnown ? std::optional(static_cast<FairingTarget>(number)) : std::nullopt;
 }
+
+int numberOf(const KeptExtrema& kept) { return kept.count.value_or(kFewestExtremaNumber); }
+
+KeptExtrema keptExtremaOf(int number) { return number == kFewestExtremaNumber ? KeptExtrema{} : KeptExtrema{number}; }
 
 std::optional<Error> validate(const FairingParams& params) {
   if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= kLargestToleranceMm)) {
@@ -37,10 +50,10 @@ std::optional<Error> validate(const FairingParams& params) {
         "The low-pass wavelength must be between 0.1 and 10000 mm, not " + numberToText(params.lowPassMm) + ".",
         {}};
   }
-  if (params.keepExtrema < kKeepSignificant || params.keepExtrema > 99) {
+  if (const std::optional<int> count = params.keepExtrema.count; count && (*count < 0 || *count > 99)) {
     return Error{ErrorCode::BadParameter,
                  "The number of extrema to keep must be 0 to 99, or -1 for as few as possible, not " +
-                     std::to_string(params.keepExtrema) + ".",
+                     std::to_string(*count) + ".",
                  {}};
   }
   for (const double at : params.keptAt) {
@@ -50,9 +63,11 @@ std::optional<Error> validate(const FairingParams& params) {
   for (const SpanTarget& one : params.spanTargets) {
     if (!(one.at >= 0.0 && one.at <= 1.0))
       return Error{ErrorCode::BadParameter, "A span with its own target is not on the curve.", {}};
-    if (one.degree < 1 || one.degree > 6) {
-      return Error{
-          ErrorCode::BadParameter, "The target of a span must be 1 to 6, not " + std::to_string(one.degree) + ".", {}};
+    if (!isTargetDegree(one.degree)) {
+      return Error{ErrorCode::BadParameter,
+                   "The target of a span must be 1 to " + std::to_string(kMostTargetDegree) + ", not " +
+                       std::to_string(one.degree) + ".",
+                   {}};
     }
   }
   if (auto wrong = validateProfile(params.profile)) return wrong;

@@ -6,13 +6,13 @@
 
 #include "core/base/result.h"
 #include "core/fairing/profile/drawn_profile.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 
 enum class FairingMode {
   None,       ///< The sketched curve as constructed.
-  Target,     ///< Towards one of the six profiles, or the drawn one.
+  Target,     ///< Towards one of the target profiles, or the drawn one.
   Tolerance,  ///< Smallest integral of (dkappa/ds)^2 within the tolerance.
   Monotone,   ///< The nearest curve whose curvature is monotone between the extrema that are kept.
   LowPass,    ///< Towards the sketch's own curvature without its short waves.
@@ -50,7 +50,7 @@ enum class FairingTarget {
 };
 /// The degree of the polynomial that was asked for; nothing where it is recommended, or another profile.
 std::optional<int> degreeOf(FairingTarget);
-/// @param degree 1..6.
+/// @pre isTargetDegree(degree)
 FairingTarget targetOfDegree(int degree);
 /// The target of a recipe's number; nothing for a number that stands for none.
 std::optional<FairingTarget> targetOfNumber(int number);
@@ -62,8 +62,14 @@ inline bool isPolynomial(FairingTarget target) {
 inline constexpr double kLeastAlpha = -3.0, kMostAlpha = 6.0;
 /// [mm] Of FairingParams::toleranceMm.
 inline constexpr double kLargestToleranceMm = 20.0;
-/// FairingParams::keepExtrema: as few as the tolerance allows.
-inline constexpr int kKeepSignificant = -1;
+/// How many curvature extrema a monotone curve may keep.
+struct KeptExtrema {
+  std::optional<int> count;  ///< 0..99; absent: as few as the tolerance allows.
+  bool operator==(const KeptExtrema&) const = default;
+};
+/// The number that recipes, reports and the command line hold for it: -1 for as few as the tolerance allows.
+int numberOf(const KeptExtrema&);
+KeptExtrema keptExtremaOf(int number);
 
 /// What is held at an end of an open curve beside its position, which always is.
 struct EndHold {
@@ -75,7 +81,7 @@ struct EndHold {
 /// A natural span with a target of its own.
 struct SpanTarget {
   double at = 0.0;  ///< 0..1. Share of the arc length: a place in the span.
-  int degree = 1;   ///< 1..6.
+  int degree = 1;   ///< 1..kMostTargetDegree.
   bool operator==(const SpanTarget&) const = default;
 };
 
@@ -92,8 +98,7 @@ struct FairingParams {
   FairingMeans means = FairingMeans::ControlPoints;  ///< Target and low-pass modes; edge lengths only on Bezier paths.
   double lowPassMm =
       20.0;  ///< [mm] 0.1..10000. Low-pass: curvature waves of this length are halved, shorter ones removed.
-  int keepExtrema =
-      kKeepSignificant;        ///< Monotone: -1..99. Curvature extrema that may stay; -1 = those that must, see above.
+  KeptExtrema keepExtrema;     ///< Monotone mode.
   std::vector<double> keptAt;  ///< Monotone: arc length fractions 0..1 of the extrema to keep; not empty: counts alone.
   std::vector<SpanTarget> spanTargets;  ///< Target: not empty: only these spans are moved, the rest stays as it is.
   std::vector<ProfilePoint> profile;    ///< The drawn curvature.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "core/base/cancel_check.h"
 #include "core/base/termination.h"
 #include "core/curve/nurbs_curve.h"
+#include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
 
@@ -19,7 +19,7 @@ struct LogAestheticSpan {
   /// [-] Miura's Lambda for a radius of 1 at its start: rho^alpha = 1 + alpha Lambda s (alpha 0: rho = e^(Lambda s)).
   /// 0 where a stretch begins or ends straight, or is a circle.
   double lambda = 0.0;
-  double startRadiusMm = 0.0, endRadiusMm = 0.0;  ///< Signed; 0 = straight there.
+  std::optional<double> startRadiusMm = {}, endRadiusMm = {};  ///< Signed; absent: straight there.
 };
 
 struct FairingReport {
@@ -28,7 +28,9 @@ struct FairingReport {
   int iterations = 0;
   double objectiveBefore = 0.0, objectiveAfter = 0.0;  ///< Relative curvature misfit, or integral of (dkappa/ds)^2.
   double maxDeviationMm = 0.0;                         ///< From the sketched curve.
-  double neededMm = 0.0;        ///< Target mode: the smallest tolerance that meets the target (fairOverLevels).
+  /// The smallest tolerance that meets the target (fairOverLevels), or takes the extrema that are too many; absent: the
+  /// mode knows none, or none does.
+  std::optional<double> neededMm;
   bool withinTolerance = true;  ///< Target mode: the target was met within the tolerance.
   /// Target mode with polynomials: the degree of the one that was followed, and the shares of the arc length at which
   /// its parts meet; absent: none. Parts between corners that followed different degrees: absent.
@@ -40,8 +42,8 @@ struct FairingReport {
   int extremaBefore = 0, extremaAfter = 0;
   double roundedMm = 0.0;  ///< Largest distance that rounding its corners moved the faired curve; not in the figures
                            ///< above, which are of fairing alone.
-  double noiseMm = 0.0;    ///< Tolerance mode, as needed: standard deviation of a stretch of 8 px of the line's
-                           ///< points; 0 = not known.
+  /// Tolerance mode, as needed: standard deviation of a stretch of 8 px of the line's points; absent: not known.
+  std::optional<double> noiseMm;
 };
 
 struct FairedCurve {
@@ -52,8 +54,8 @@ struct FairedCurve {
 /// The curve as sketched, with the reason why nothing was done. Cancelled: the extrema are not counted.
 FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note, CancelCheck check = {});
 
-/// The six targets of one curve made fair, by degree minus one; absent where one failed.
-using FairedByDegree = std::array<std::optional<FairedCurve>, 6>;
+/// The targets of one curve made fair; absent where one failed.
+using FairedByDegree = PerTarget<std::optional<FairedCurve>>;
 /// The degree of the highest S of the modified curve (003 section 6), of equal ones the lowest; none where no curve has
 /// one.
 std::optional<int> mostSimilar(const FairedByDegree&);

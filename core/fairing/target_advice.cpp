@@ -39,7 +39,7 @@ double mostSensibleToleranceMm(const NurbsCurve& curve) {
 
 bool isAdvisable(const TargetOutcomes& outcomes, int degree, double toleranceMm) {
   if (!isWithinTolerance(outcomes, degree, toleranceMm)) return false;
-  const auto at = static_cast<std::size_t>(degree - 1);
+  const int at = degree - 1;
   const FairingReport& report = outcomes.faired[at]->report;
   return report.maxDeviationMm > kStillTarget * toleranceMm && !addsExtrema(outcomes, degree) &&
          outcomes.targets.profiles[at].similarity >= kLeastSimilarity;

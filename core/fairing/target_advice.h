@@ -7,7 +7,7 @@
 
 namespace batten {
 
-/// Whether a target's curve can be advised, said alike wherever the six targets are shown. `degree` is 1 to 6.
+/// Whether a target's curve can be advised, said alike wherever the targets are shown. @pre isTargetDegree(degree)
 /// The target is met, and its curve stays within the tolerance.
 bool isWithinTolerance(const TargetOutcomes&, int degree, double toleranceMm);
 /// Its curve has more curvature extrema than the sketch.

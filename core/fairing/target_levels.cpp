@@ -9,6 +9,7 @@
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/profile/curvature_samples.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
@@ -125,7 +126,7 @@ class LevelFairing {
   void meet(std::size_t level) {
     const bool isAllowed = level >= levels_.first && *needs_[level].mm <= kTargetRoom * toleranceMm_;
     if (best_->faired.report.withinTolerance || !isAllowed || context_.isCancelled()) return;
-    const double needed = best_->faired.report.neededMm;
+    const std::optional<double> needed = best_->faired.report.neededMm;
     if (!needs_[level].isTried) tryLevel(level);
     best_->faired.report.neededMm = needed;
     const bool isOutOfReach = *needs_[best_->level].mm > kTargetRoom * toleranceMm_;
@@ -188,9 +189,7 @@ TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingPar
   const auto fitted = [&] {
     TargetSet set = fitTargets(start, targets, closed);
     if (!calm) return set;
-    const CurvatureSamples sketched = sampledCurvature(curve, targets.samples);  // what is shown of the curve
-    set.perimeter = sketched.perimeter;
-    set.kappa = sketched.kappa;
+    set.samples = sampledCurvature(curve, targets.samples).places();  // what is shown of the curve
     return set;
   };
   if (!hasNaturalSpans(targets)) return oneLevel(targets.splits, fitted());
@@ -235,7 +234,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         const std::optional<int> asked = degreeOf(params.target);
         if (!asked && params.targetChoice == TargetChoice::Similarity) {
           FairedByDegree all;
-          for (int tried = 1; tried <= 6; ++tried) {
+          for (int tried = 1; tried <= kMostTargetDegree; ++tried) {
             const auto at = static_cast<std::size_t>(tried) - 1;
             if (!first.profiles[at].valid) continue;
             auto outcome = toDegree(tried, LevelSearch::All);
@@ -246,7 +245,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
           const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
           if (any != all.end()) return std::move(**any);
         }
-        for (int tried = 1; tried <= 6 && !asked; ++tried) {
+        for (int tried = 1; tried <= kMostTargetDegree && !asked; ++tried) {
           if (!first.profiles[tried - 1].valid) continue;
           auto outcome = toDegree(tried, LevelSearch::IfItMet);
           if (!outcome) return fail(outcome.error());

@@ -11,7 +11,7 @@
 #include "core/fairing/fairing_params.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_setup.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 #include "core/fairing/target/log_aesthetic.h"
 
 namespace batten {

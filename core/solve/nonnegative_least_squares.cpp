@@ -29,14 +29,14 @@ std::optional<Eigen::VectorXd> nonnegativeLeastSquares(const Eigen::MatrixXd& e,
   const double tolerance = 1e-13 * std::max(1.0, e.cwiseAbs().maxCoeff()) * std::max(f.norm(), 1e-300);
   for (Eigen::Index change = 0; change < 3 * n + 10; ++change) {
     const Eigen::VectorXd gradient = e.transpose() * (f - e * x);
-    Eigen::Index best = -1;
+    std::optional<Eigen::Index> best;
     for (Eigen::Index j = 0; j < n; ++j) {
       if (isPassive[j] || gradient[j] <= tolerance) continue;
-      if (best < 0 || gradient[j] > gradient[best]) best = j;
+      if (!best || gradient[j] > gradient[*best]) best = j;
     }
-    if (best < 0 || static_cast<Eigen::Index>(passive.size()) >= e.rows()) return x;
-    passive.push_back(best);
-    isPassive[best] = true;
+    if (!best || std::ssize(passive) >= e.rows()) return x;
+    passive.push_back(*best);
+    isPassive[*best] = true;
     bool entered = true;
     while (!passive.empty()) {
       const Eigen::VectorXd z = solvePassive(e, f, passive);

@@ -43,7 +43,7 @@ class CubicChain {
   }
 
  private:
-  const Vec2& at(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  const Vec2& at(int i) const { return points_[i]; }
   Vec2 tangent(int i) const {
     const int end = static_cast<int>(points_.size()) - 1;
     const bool inside = closed_ || (i > 0 && i < last_);

@@ -67,7 +67,7 @@ void add(EndErrors& errors, const EndPage& page, const PageStyle& style) {
 double ranked(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  return values[std::lround(share * static_cast<double>(values.size() - 1))];
 }
 
 }  // namespace

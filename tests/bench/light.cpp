@@ -210,7 +210,7 @@ int ownPoints(const NurbsCurve& section) {
     differences.pop_back();
     largest.push_back(most);
   }
-  while (degree > 1 && largest[static_cast<std::size_t>(degree) - 1] <= least) --degree;
+  while (degree > 1 && largest[degree - 1] <= least) --degree;
   return degree + 1;
 }
 

@@ -113,42 +113,46 @@ std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
   return best;
 }
 
+std::vector<SketchTruth::Share> SketchTruth::sharesOf(const std::vector<CurvePoint>& line,
+                                                      const std::vector<double>& length) const {
+  const std::size_t groups = length.size();
+  const auto groupOf = [&](int stroke) { return static_cast<std::size_t>(strokes_[stroke].group); };
+  std::vector<Share> share(groups);
+  std::set<std::pair<int, std::size_t>> covered;
+  for (const CurvePoint& point : line) {
+    std::vector<std::pair<double, double>> extent(groups, {1e9, -1e9});
+    const auto crossed = crossedAt(point, kBundlePx);
+    for (const auto& [stroke, c] : crossed) {
+      auto& [low, high] = extent[groupOf(stroke)];
+      low = std::min(low, c.offset);
+      high = std::max(high, c.offset);
+    }
+    const auto isOn = [&](std::size_t g) { return extent[g].first <= kOnPx && extent[g].second >= -kOnPx; };
+    for (std::size_t g = 0; g < groups; ++g) share[g].on += isOn(g) ? 1.0 / static_cast<double>(line.size()) : 0.0;
+    for (const auto& [stroke, c] : crossed)
+      if (isOn(groupOf(stroke))) covered.insert({stroke, c.first});
+  }
+  // Facets are up to a few px long, and the normals fan out on the outer side of a bend: their neighbours count.
+  for (std::size_t s = 0; s < strokes_.size(); ++s) {
+    const auto& p = strokes_[s].points;
+    const auto has = [&](std::size_t i) { return covered.contains({static_cast<int>(s), i}); };
+    for (std::size_t i = 0; i + 1 < p.size(); ++i)
+      if (has(i) || (i > 0 && has(i - 1)) || has(i + 1))
+        share[groupOf(static_cast<int>(s))].covers += (p[i + 1] - p[i]).norm();
+  }
+  for (std::size_t g = 0; g < groups; ++g) share[g].covers /= std::max(1e-9, length[g]);
+  return share;
+}
+
 SketchTruth::Grouping SketchTruth::group(const std::vector<std::vector<CurvePoint>>& lines) const {
   const auto groups = static_cast<std::size_t>(groups_);
-  const auto groupOf = [&](int stroke) { return static_cast<std::size_t>(strokes_[stroke].group); };
   std::vector<double> length(groups, 0.0);
   for (const Stroke& s : strokes_)
     for (std::size_t i = 0; i + 1 < s.points.size(); ++i) length[s.group] += (s.points[i + 1] - s.points[i]).norm();
   Grouping result;
-  struct Share {
-    double on = 0.0, covers = 0.0;
-  };
   std::vector<std::vector<Share>> shares;  // by line and group
   for (const auto& line : lines) {
-    std::vector<Share> share(groups);
-    std::set<std::pair<int, std::size_t>> covered;
-    for (const CurvePoint& point : line) {
-      std::vector<std::pair<double, double>> extent(groups, {1e9, -1e9});
-      const auto crossed = crossedAt(point, kBundlePx);
-      for (const auto& [stroke, c] : crossed) {
-        auto& [low, high] = extent[groupOf(stroke)];
-        low = std::min(low, c.offset);
-        high = std::max(high, c.offset);
-      }
-      const auto isOn = [&](std::size_t g) { return extent[g].first <= kOnPx && extent[g].second >= -kOnPx; };
-      for (std::size_t g = 0; g < groups; ++g) share[g].on += isOn(g) ? 1.0 / static_cast<double>(line.size()) : 0.0;
-      for (const auto& [stroke, c] : crossed)
-        if (isOn(groupOf(stroke))) covered.insert({stroke, c.first});
-    }
-    // Facets are up to a few px long, and the normals fan out on the outer side of a bend: their neighbours count.
-    for (std::size_t s = 0; s < strokes_.size(); ++s) {
-      const auto& p = strokes_[s].points;
-      const auto has = [&](std::size_t i) { return covered.contains({static_cast<int>(s), i}); };
-      for (std::size_t i = 0; i + 1 < p.size(); ++i)
-        if (has(i) || (i > 0 && has(i - 1)) || has(i + 1))
-          share[groupOf(static_cast<int>(s))].covers += (p[i + 1] - p[i]).norm();
-    }
-    for (std::size_t g = 0; g < groups; ++g) share[g].covers /= std::max(1e-9, length[g]);
+    std::vector<Share> share = sharesOf(line, length);
     int ons = 0, parts = 0;
     for (const Share& s : share) {
       ons += s.on >= kMostly ? 1 : 0;

@@ -47,6 +47,12 @@ class SketchTruth {
     int group = 0;
     std::vector<Vec2> points;
   };
+  /// How much of a line lies on a group, and how much of the group it covers; 0..1.
+  struct Share {
+    double on = 0.0, covers = 0.0;
+  };
+  /// By group. @param length [px] of the groups.
+  std::vector<Share> sharesOf(const std::vector<CurvePoint>& line, const std::vector<double>& length) const;
   struct Facet {
     int stroke = 0;
     std::size_t first = 0;

@@ -73,9 +73,8 @@ TEST_F(Alike, TilesRunAsThePlotDoes) {
   ASSERT_NO_FATAL_FAILURE(openFairing(bendPage(true)));
   auto* plots = window_->findChild<CurvePlots*>();
   const auto& set = session().targets()->targets;
-  const auto most = std::max_element(set.kappa.begin(), set.kappa.end(),
-                                     [](double a, double b) { return std::abs(a) < std::abs(b); });
-  const double along = set.perimeter[static_cast<std::size_t>(most - set.kappa.begin())];
+  const double along =
+      std::ranges::max_element(set.samples, {}, [](const CurvatureSample& s) { return std::abs(s.kappa); })->perimeter;
   ASSERT_GT(std::abs(along - 0.5), 0.05) << "the two directions would look the same";
   const auto expected = [&] { return plots->runsLeft() ? 1.0 - along : along; };
   EXPECT_TRUE(waitUntil([&] { return std::abs(peakOfTile() - expected()) < 0.05; }, 5000)) << peakOfTile();
@@ -134,7 +133,7 @@ TEST_F(Alike, RowsOfTheListKeepTheirNumbers) {
     EXPECT_TRUE(waitUntil([&] { return !list->item(0)->data(CurveList::kBadgeRole).toString().isEmpty(); }));
     for (int row = 0; row < list->count(); ++row) {
       const QString name = list->shownName(row);
-      const int number = curveNumber(session().output(), session().curves()[static_cast<std::size_t>(row)]);
+      const int number = curveNumber(session().output(), session().curves()[row]);
       EXPECT_TRUE(name.contains(QString::number(number))) << name.toStdString();
       EXPECT_FALSE(name.contains(QChar(0x2026))) << "cut within a word: " << name.toStdString();
     }

@@ -119,23 +119,23 @@ TEST_F(FairingWindow, EveryModeHasItsButtonAndItsOwnSetting) {
   field->selectAll();
   QTest::keyClicks(field, QStringLiteral("6"));
   QTest::keyClick(field, Qt::Key_Return);
-  EXPECT_EQ(session().recipe().fairing.keepExtrema, 6);
+  EXPECT_EQ(session().recipe().fairing.keepExtrema.count, 6);
   session().undoStack()->undo();
-  EXPECT_EQ(session().recipe().fairing.keepExtrema, kKeepSignificant);
+  EXPECT_FALSE(session().recipe().fairing.keepExtrema.count);
 }
 
 TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   window_->findChild<CurvePlots*>()->setTab(PlotTab::Curvature);
   click("fairing.mode.target");
   ASSERT_TRUE(settle());
-  const double needed = session().selected()->fairing.neededMm;
+  const double needed = session().selected()->fairing.neededMm.value();
   click("fairing.draw");
   ASSERT_EQ(session().recipe().choices.size(), 1u);
   EXPECT_EQ(choice().target, FairingTarget::Drawn);
   const std::vector<ProfilePoint> before = choice().profile;
   ASSERT_GE(before.size(), 2u);
   ASSERT_TRUE(settle());
-  EXPECT_LT(session().selected()->fairing.neededMm, 1.1 * needed + 0.5 * used().toleranceMm)
+  EXPECT_LT(session().selected()->fairing.neededMm.value(), 1.1 * needed + 0.5 * used().toleranceMm)
       << "what is drawn first is the target that was followed";
   ASSERT_TRUE(waitUntil([this] { return placeOf(QStringLiteral("Drag the point"), 120).x() > 0; }));
   auto* plot = find<QWidget>("plot");
@@ -152,7 +152,7 @@ TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   ASSERT_TRUE(settle());
   EXPECT_EQ(used().target, FairingTarget::Drawn);
   EXPECT_EQ(used().profile, choice().profile);
-  EXPECT_GT(session().selected()->fairing.neededMm, 0.0);
+  EXPECT_GT(session().selected()->fairing.neededMm.value(), 0.0);
   session().undoStack()->undo();
   EXPECT_EQ(choice().profile, before);
   click("fairing.forget");

@@ -66,7 +66,7 @@ TEST_F(Fairness, EveryListedCurveHasABadgeWithItsFigures) {
   EXPECT_GT(similarity(0), similarity(1)) << "three waves are less fair than one bow";
   EXPECT_GT(similarity(0), 0.8);
   for (int i = 0; i < 2; ++i) {
-    const CurveFigures& figures = session().curves()[static_cast<std::size_t>(i)].sketchedFigures;
+    const CurveFigures& figures = session().curves()[i].sketchedFigures;
     const QString tip = list()->item(i)->toolTip();
     EXPECT_TRUE(tip.contains(QStringLiteral("extrema of the curvature: %1").arg(figures.extrema))) << tip.toStdString();
     EXPECT_TRUE(tip.contains(QStringLiteral("control points: %1").arg(figures.controlPoints))) << tip.toStdString();

@@ -142,7 +142,7 @@ TEST_F(Judging, ACurveThatFairingLeavesIsShownAsAResultAndExplained) {
   ASSERT_EQ(session().curves().size(), 2u);
   ASSERT_NO_FATAL_FAILURE(fairWithin("2"));
   const int line = session().curves()[0].construct.isLine ? 0 : 1;
-  ASSERT_TRUE(session().curves()[static_cast<std::size_t>(line)].construct.isLine);
+  ASSERT_TRUE(session().curves()[line].construct.isLine);
   session().selectCurve(1 - line);
   const QListWidget* list = nullptr;
   for (auto* one : window_->findChildren<QListWidget*>(QStringLiteral("curves.list")))
@@ -150,7 +150,7 @@ TEST_F(Judging, ACurveThatFairingLeavesIsShownAsAResultAndExplained) {
   ASSERT_NE(list, nullptr);
   const QString spoken = list->item(line)->data(Qt::AccessibleTextRole).toString();
   EXPECT_TRUE(spoken.contains(QStringLiteral("unchanged"))) << spoken.toStdString();
-  const CurveFigures& still = session().curves()[static_cast<std::size_t>(line)].fairedFigures;
+  const CurveFigures& still = session().curves()[line].fairedFigures;
   EXPECT_TRUE(spoken.contains(QStringLiteral("%1 extr. · %2 pts").arg(still.extrema).arg(still.controlPoints)))
       << "its figures are told all the same: " << spoken.toStdString();
   EXPECT_TRUE(list->item(line)->toolTip().contains(QStringLiteral("exact line")));
@@ -224,15 +224,16 @@ TEST_F(Judging, ThePlotOfTheSlopeIsTheDerivativeOfTheCurvature) {
     return PlotSeries{};
   };
   const PlotSeries kappa = seriesOf(PlotTab::Curvature), slope = seriesOf(PlotTab::CurvatureSlope);
-  ASSERT_EQ(kappa.s.size(), slope.s.size());
+  ASSERT_EQ(kappa.points.size(), slope.points.size());
   double largest = 0.0;
-  for (const double value : slope.value) largest = std::max(largest, std::abs(value));
+  for (const PlotPoint& point : slope.points) largest = std::max(largest, std::abs(point.value));
   ASSERT_GT(largest, 0.0);
   // Between two samples the curvature rises by the integral of its slope (trapezoids).
   double rise = 0.0;
-  for (std::size_t i = 1; i < slope.s.size(); ++i) {
-    rise += 0.5 * (slope.value[i] + slope.value[i - 1]) * (slope.s[i] - slope.s[i - 1]);
-    EXPECT_NEAR(rise, kappa.value[i] - kappa.value[0], 0.02 * largest * slope.s.back()) << i;
+  for (std::size_t i = 1; i < slope.points.size(); ++i) {
+    const PlotPoint &before = slope.points[i - 1], &now = slope.points[i];
+    rise += 0.5 * (now.value + before.value) * (now.s - before.s);
+    EXPECT_NEAR(rise, kappa.points[i].value - kappa.points[0].value, 0.02 * largest * slope.points.back().s) << i;
   }
   click("plot.speed");
   EXPECT_TRUE(find<QLabel>("plot.quantity")->text().contains(QStringLiteral("|R′(u)|")));
@@ -281,7 +282,7 @@ TEST_F(Judging, ADrawnTargetStaysWithItsLineWhenTheLineTurnsRound) {
   click("fairing.draw");
   ASSERT_TRUE(settle());
   ASSERT_TRUE(isTargetDrawn(session()));
-  const double needed = session().selected()->fairing.neededMm;
+  const double needed = session().selected()->fairing.neededMm.value();
   const std::vector<ProfilePoint> drawn = fairingAsked(session()).profile;
   ASSERT_TRUE(setCoefficient("0"));
   ASSERT_TRUE(isTargetDrawn(session()));
@@ -289,7 +290,7 @@ TEST_F(Judging, ADrawnTargetStaysWithItsLineWhenTheLineTurnsRound) {
   ASSERT_EQ(now.size(), drawn.size());
   EXPECT_EQ(now.front().kappa, -drawn.back().kappa);
   EXPECT_EQ(session().selected()->fairingUsed.profile, now) << "the plot shows what the run follows";
-  EXPECT_LT(session().selected()->fairing.neededMm, 1.5 * needed + 0.3);
+  EXPECT_LT(session().selected()->fairing.neededMm.value(), 1.5 * needed + 0.3);
 }
 
 }  // namespace

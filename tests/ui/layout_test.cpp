@@ -128,7 +128,7 @@ TEST_F(Layout, TheLinesOfTheSixTargetsCarryTheirNumbers) {
   window_->findChild<CurvePlots*>()->setTab(PlotTab::Curvature);
   int valid = 0;
   for (int degree = 1; degree <= 6; ++degree) {
-    const bool isValid = session().targets()->targets.profiles[static_cast<std::size_t>(degree - 1)].valid;
+    const bool isValid = session().targets()->targets.profiles[degree - 1].valid;
     valid += isValid ? 1 : 0;
     const auto* text = window_->findChild<QObject*>(QStringLiteral("plot.target.%1").arg(degree));
     EXPECT_EQ(text != nullptr, isValid) << degree;

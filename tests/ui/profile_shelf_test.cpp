@@ -99,14 +99,14 @@ TEST_F(Shelf, AProfileDroppedOnALineBecomesItsTarget) {
   ASSERT_TRUE(drop(placeOf(350.0, 0.4)));
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().selectedCurve(), lower);
-  const TracedCurve& line = session().curves()[static_cast<std::size_t>(lower)];
+  const TracedCurve& line = session().curves()[lower];
   EXPECT_EQ(line.fairingUsed.mode, FairingMode::Target);
   EXPECT_EQ(line.fairingUsed.target, FairingTarget::Drawn);
   EXPECT_FALSE(line.fairingUsed.profile.empty());
-  EXPECT_EQ(session().curves()[static_cast<std::size_t>(1 - lower)].fairingUsed.mode, FairingMode::None);
+  EXPECT_EQ(session().curves()[1 - lower].fairingUsed.mode, FairingMode::None);
   session().undoStack()->undo();
   ASSERT_TRUE(settle());
-  EXPECT_EQ(session().curves()[static_cast<std::size_t>(lower)].fairingUsed.mode, FairingMode::None);
+  EXPECT_EQ(session().curves()[lower].fairingUsed.mode, FairingMode::None);
 }
 
 TEST_F(Shelf, AProfileDroppedBesideTheLinesChangesNothing) {

@@ -205,7 +205,7 @@ void Robot::typeSomething(QWidget& top) {
                         : chance == 8 ? Qt::ControlModifier
                                       : Qt::AltModifier;
   if (below(2) == 0) {
-    const Qt::Key key = kKeys[static_cast<std::size_t>(below(static_cast<int>(kKeys.size())))];
+    const Qt::Key key = kKeys[below(static_cast<int>(kKeys.size()))];
     // Return in a file dialog goes where the robot is not to go.
     if (qobject_cast<QFileDialog*>(&top) && (key == Qt::Key_Backspace || modifier != Qt::NoModifier)) return;
     say(qPrintable(QStringLiteral("presses key %1 in").arg(QKeySequence(key).toString())), to);

@@ -293,12 +293,19 @@ int numberAt(const EditorSession& session, const Vec2& px) {
   return number;
 }
 
+void paintThreeLines(QPainter& painter) {
+  painter.drawLines({QLineF(60, 80, 560, 90), QLineF(60, 180, 560, 190), QLineF(60, 280, 560, 330)});
+}
+
+/// Beside the drawing, where a session that opens it finds it.
+void saveBeside(const OpenSession& open, const Recipe& recipe) {
+  QFile file(open.folder.filePath(QStringLiteral("page.recipe.json")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(QByteArray::fromStdString(recipeToJson(recipe)));
+}
+
 TEST(EditorSession, CurvesKeepTheirNumbersThroughEditsUndoAndTheFile) {
-  OpenSession open(test::drawnPage({640, 400}, [](QPainter& painter) {
-    painter.drawLine(QPointF(60, 80), QPointF(560, 90));
-    painter.drawLine(QPointF(60, 180), QPointF(560, 190));
-    painter.drawLine(QPointF(60, 280), QPointF(560, 330));
-  }));
+  OpenSession open(test::drawnPage({640, 400}, paintThreeLines));
   ASSERT_TRUE(open.isReady);
   EditorSession& session = open.session;
   const Vec2 upper(300, 84.8), middle(300, 184.8), left(100, 284), right(500, 324);
@@ -338,12 +345,9 @@ TEST(EditorSession, CurvesKeepTheirNumbersThroughEditsUndoAndTheFile) {
   EXPECT_EQ(numberAt(session, Vec2(200, 362)), 5);
 
   // From the file, without the line above: as before.
-  QFile file(open.folder.filePath(QStringLiteral("page.recipe.json")));
-  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
   Recipe saved = session.recipeToSave();
   saved.regions = {rectangleRegion({0, 130}, {640, 400})};
-  file.write(QByteArray::fromStdString(recipeToJson(saved)));
-  file.close();
+  ASSERT_NO_FATAL_FAILURE(saveBeside(open, saved));
   EditorSession again;
   again.openScan(open.path());
   ASSERT_TRUE(waitUntil([&] { return again.hasScan() && !again.isBusy(); }));

@@ -81,55 +81,81 @@ TEST_F(Window, TheSampleOpensWithItsCornersAndFollowsATarget) {
   EXPECT_EQ(session().curves().size(), 14u);
 }
 
-TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
+/// The walk through all stages, stage by stage.
+class WholeWalk : public Window {
+ protected:
+  void setScan() {
+    const Recipe start = session().recipe();
+    window_->setStage(PanelStage::Scan);
+    auto* factor = find<QSlider>("log.factor");
+    QTest::mousePress(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2, factor->height() / 2));
+    QTest::mouseMove(factor, QPoint(factor->width() / 2 + 12, factor->height() / 2));
+    QTest::mouseMove(factor, QPoint(factor->width() / 2 + 30, factor->height() / 2));
+    QTest::mouseRelease(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2 + 30, factor->height() / 2));
+    EXPECT_NE(session().recipe().log.factor, start.log.factor);
+    EXPECT_EQ(session().undoStack()->count(), 1) << "a drag is one step";
+  }
+
+  void setThreshold() {
+    window_->setStage(PanelStage::Threshold);
+    clickCanvas({280, 175});
+    ASSERT_EQ(window_->view().selectedRegion(), 27);
+    type(find<QLineEdit>("threshold.regionLevel"), QStringLiteral("140"));
+    ASSERT_TRUE(session().recipe().threshold.grid[27]);
+    EXPECT_EQ(*session().recipe().threshold.grid[27], 140.0);
+    EXPECT_EQ(find<QTableWidget>("threshold.table")->item(3, 3)->text(), QStringLiteral("140"));
+    ASSERT_TRUE(settle());
+  }
+
+  void markCorners() {
+    window_->setStage(PanelStage::Corners);
+    clickCanvas({200, 100});
+    ASSERT_TRUE(settle());
+    clickCanvas({400, 300});
+    ASSERT_TRUE(settle());
+    ASSERT_EQ(session().recipe().cornerMarks.size(), 2u);
+    EXPECT_EQ(find<QListWidget>("corners.list")->count(), 2);
+    ASSERT_TRUE(session().output().pieces);
+    EXPECT_EQ(session().output().pieces->corners.size(), 2u);
+  }
+
+  void chooseTarget() {
+    window_->setStage(PanelStage::Fairing);
+    ASSERT_GT(session().curves().size(), 1u);
+    session().selectCurve(0);
+    const Vec2 bend = nearestContourPoint(*session().output().contours, {340, 160}, 60.0)->positionPx;
+    ASSERT_TRUE(waitUntil([&] {
+      clickCanvas(bend);
+      return session().selectedCurve() == 1;
+    }));
+    ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
+    auto* tile = find<QAbstractButton>("target.3");
+    ASSERT_TRUE(tile->isEnabled()) << tile->toolTip().toStdString();
+    QTest::mouseClick(tile, Qt::LeftButton);
+    ASSERT_EQ(session().recipe().choices.size(), 1u);
+    EXPECT_EQ(session().recipe().choices[0].target, FairingTarget::Degree3);
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(session().curves()[1].fairingUsed.mode, FairingMode::Target);
+    EXPECT_EQ(session().curves()[1].fairingUsed.target, FairingTarget::Degree3);
+  }
+
+  void exportTo(const QString& target) {
+    window_->action(ActionId::Export)->trigger();
+    EXPECT_EQ(window_->stage(), PanelStage::Export);
+    ASSERT_NO_FATAL_FAILURE(chooseReceiver("archive"));
+    type(find<QLineEdit>("export.path"), target);
+    QTest::mouseClick(find<QAbstractButton>("export.run"), Qt::LeftButton);
+    ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && !find<QLabel>("export.result")->text().isEmpty(); }));
+  }
+};
+
+TEST_F(WholeWalk, EndsInTheCurvesThatTheRecipeGives) {
   openPage(bendPage());
   const Recipe start = session().recipe();
-
-  window_->setStage(PanelStage::Scan);
-  auto* factor = find<QSlider>("log.factor");
-  QTest::mousePress(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2, factor->height() / 2));
-  QTest::mouseMove(factor, QPoint(factor->width() / 2 + 12, factor->height() / 2));
-  QTest::mouseMove(factor, QPoint(factor->width() / 2 + 30, factor->height() / 2));
-  QTest::mouseRelease(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2 + 30, factor->height() / 2));
-  EXPECT_NE(session().recipe().log.factor, start.log.factor);
-  EXPECT_EQ(session().undoStack()->count(), 1) << "a drag is one step";
-
-  window_->setStage(PanelStage::Threshold);
-  clickCanvas({280, 175});
-  ASSERT_EQ(window_->view().selectedRegion(), 27);
-  type(find<QLineEdit>("threshold.regionLevel"), QStringLiteral("140"));
-  ASSERT_TRUE(session().recipe().threshold.grid[27]);
-  EXPECT_EQ(*session().recipe().threshold.grid[27], 140.0);
-  EXPECT_EQ(find<QTableWidget>("threshold.table")->item(3, 3)->text(), QStringLiteral("140"));
-  ASSERT_TRUE(settle());
-
-  window_->setStage(PanelStage::Corners);
-  clickCanvas({200, 100});
-  ASSERT_TRUE(settle());
-  clickCanvas({400, 300});
-  ASSERT_TRUE(settle());
-  ASSERT_EQ(session().recipe().cornerMarks.size(), 2u);
-  EXPECT_EQ(find<QListWidget>("corners.list")->count(), 2);
-  ASSERT_TRUE(session().output().pieces);
-  EXPECT_EQ(session().output().pieces->corners.size(), 2u);
-
-  window_->setStage(PanelStage::Fairing);
-  ASSERT_GT(session().curves().size(), 1u);
-  session().selectCurve(0);
-  const Vec2 bend = nearestContourPoint(*session().output().contours, {340, 160}, 60.0)->positionPx;
-  ASSERT_TRUE(waitUntil([&] {
-    clickCanvas(bend);
-    return session().selectedCurve() == 1;
-  }));
-  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
-  auto* tile = find<QAbstractButton>("target.3");
-  ASSERT_TRUE(tile->isEnabled()) << tile->toolTip().toStdString();
-  QTest::mouseClick(tile, Qt::LeftButton);
-  ASSERT_EQ(session().recipe().choices.size(), 1u);
-  EXPECT_EQ(session().recipe().choices[0].target, FairingTarget::Degree3);
-  ASSERT_TRUE(settle());
-  EXPECT_EQ(session().curves()[1].fairingUsed.mode, FairingMode::Target);
-  EXPECT_EQ(session().curves()[1].fairingUsed.target, FairingTarget::Degree3);
+  ASSERT_NO_FATAL_FAILURE(setScan());
+  ASSERT_NO_FATAL_FAILURE(setThreshold());
+  ASSERT_NO_FATAL_FAILURE(markCorners());
+  ASSERT_NO_FATAL_FAILURE(chooseTarget());
 
   const Recipe end = session().recipe();
   while (session().undoStack()->canUndo()) window_->action(ActionId::Undo)->trigger();
@@ -139,13 +165,8 @@ TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
   EXPECT_EQ(session().recipe(), end);
   ASSERT_TRUE(settle());
 
-  window_->action(ActionId::Export)->trigger();
-  EXPECT_EQ(window_->stage(), PanelStage::Export);
-  ASSERT_NO_FATAL_FAILURE(chooseReceiver("archive"));
   const QString target = folder_.filePath(QStringLiteral("curves.json"));
-  type(find<QLineEdit>("export.path"), target);
-  QTest::mouseClick(find<QAbstractButton>("export.run"), Qt::LeftButton);
-  ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && !find<QLabel>("export.result")->text().isEmpty(); }));
+  ASSERT_NO_FATAL_FAILURE(exportTo(target));
 
   // The oracle: the other program, from the saved recipe, with nothing of the window.
   const QString saved = folder_.filePath(QStringLiteral("walk.json")),
@@ -338,10 +359,9 @@ TEST_F(Window, PlotsHoldFiniteNumbersOverTheWholeLength) {
     EXPECT_NEAR(data.lengthMm, length, 1e-3 * length);
     EXPECT_LT(data.low, data.high);
     for (const PlotSeries& series : data.series) {
-      ASSERT_EQ(series.s.size(), series.value.size());
-      for (std::size_t i = 0; i < series.s.size(); ++i) {
-        ASSERT_TRUE(std::isfinite(series.value[i]));
-        ASSERT_TRUE(tab != PlotTab::Radius || series.value[i] > 0.0);
+      for (const PlotPoint& point : series.points) {
+        ASSERT_TRUE(std::isfinite(point.value));
+        ASSERT_TRUE(tab != PlotTab::Radius || point.value > 0.0);
       }
     }
   }

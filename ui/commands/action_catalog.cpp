@@ -7,6 +7,8 @@
 #include <cassert>
 #include <vector>
 
+#include "core/fairing/profile/target_degrees.h"
+
 namespace batten {
 namespace {
 
@@ -254,6 +256,8 @@ std::optional<Tool> toolOf(ActionId id) {
       return std::nullopt;
   }
 }
+
+static_assert(static_cast<int>(ActionId::Target6) - static_cast<int>(ActionId::Target1) + 1 == kMostTargetDegree);
 
 std::optional<int> targetOf(ActionId id) {
   const auto index = offset(id, ActionId::Target1, ActionId::Target6);

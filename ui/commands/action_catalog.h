@@ -98,7 +98,7 @@ const ActionInfo& actionInfo(ActionId);
 /// An action with text, shortcuts, help and object name from the catalog. Held actions get no live shortcut.
 QAction* makeAction(ActionId, QObject* parent);
 
-/// The layer that a Show… action switches, the tool that a Tool… action chooses, the degree 1..6 that a Target…
+/// The layer that a Show… action switches, the tool that a Tool… action chooses, the degree that a Target…
 /// chooses.
 std::optional<Layer> layerOf(ActionId);
 std::optional<Tool> toolOf(ActionId);

@@ -80,8 +80,8 @@ std::optional<int> PlotEditing::handleAt(const QPoint& position) const {
   std::optional<int> best;
   double nearest = kReachPx;
   for (std::size_t i = 0; i < data_.handles.size(); ++i) {
-    const double distance = std::hypot(plot_->xAxis->coordToPixel(data_.handles[i].first) - position.x(),
-                                       plot_->yAxis->coordToPixel(data_.handles[i].second) - position.y());
+    const double distance = std::hypot(plot_->xAxis->coordToPixel(data_.handles[i].s) - position.x(),
+                                       plot_->yAxis->coordToPixel(data_.handles[i].value) - position.y());
     if (distance < nearest) nearest = distance, best = static_cast<int>(i);
   }
   return best;
@@ -106,7 +106,7 @@ bool PlotEditing::isOnTarget(const QPoint& position) const {
   const double s = plot_->xAxis->pixelToCoord(position.x());
   for (const PlotSeries& series : data_.series) {
     if (series.role != PlotRole::ChosenTarget && series.role != PlotRole::DrawnTarget) continue;
-    if (series.s.empty()) continue;
+    if (series.points.empty()) continue;
     const double y = plot_->yAxis->coordToPixel(series.at(s));
     if (std::abs(y - position.y()) < kLineReachPx) return true;
   }

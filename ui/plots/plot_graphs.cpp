@@ -10,13 +10,20 @@
 namespace batten {
 namespace {
 
+template <class Point>
+QVector<double> column(const std::vector<Point>& points, double Point::*field) {
+  QVector<double> values;
+  values.reserve(std::ssize(points));
+  for (const Point& point : points) values.append(point.*field);
+  return values;
+}
+
 void drawNoise(QCustomPlot& plot, const PlotData& data, const Theme& theme) {
-  if (data.noiseS.size() < 2) return;
+  if (data.noise.size() < 2) return;
   QCPGraph* low = plot.addGraph();
   QCPGraph* high = plot.addGraph();
-  const auto vector = [](const std::vector<double>& v) { return QVector<double>(v.begin(), v.end()); };
-  low->setData(vector(data.noiseS), vector(data.noiseLow), true);
-  high->setData(vector(data.noiseS), vector(data.noiseHigh), true);
+  low->setData(column(data.noise, &NoiseRange::s), column(data.noise, &NoiseRange::low), true);
+  high->setData(column(data.noise, &NoiseRange::s), column(data.noise, &NoiseRange::high), true);
   low->setPen(Qt::NoPen);
   high->setPen(Qt::NoPen);
   QColor fill = theme.mute;
@@ -47,8 +54,7 @@ void drawLines(QCustomPlot& plot, const PlotData& data, PlotTab tab, const Theme
                                                 [](const auto& one) { return one.role == PlotRole::Faired; });
   for (const PlotSeries& series : data.series) {
     QCPGraph* graph = plot.addGraph();
-    graph->setData(QVector<double>(series.s.begin(), series.s.end()),
-                   QVector<double>(series.value.begin(), series.value.end()), true);
+    graph->setData(column(series.points, &PlotPoint::s), column(series.points, &PlotPoint::value), true);
     graph->setPen(penOf(isAlone && series.role == PlotRole::Sketched ? PlotRole::Faired : series.role, theme));
     if (series.role == PlotRole::Joint) {
       graph->setLineStyle(QCPGraph::lsNone);

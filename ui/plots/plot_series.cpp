@@ -18,12 +18,13 @@
 namespace batten {
 
 double PlotSeries::at(double place) const {
-  const auto next = std::lower_bound(s.begin(), s.end(), place) - s.begin();
-  if (next == 0) return value.front();
-  if (next == std::ssize(s)) return value.back();
-  const double from = s[next - 1], width = s[next] - from;
-  const double t = width > 0.0 ? (place - from) / width : 0.0;
-  return value[next - 1] + t * (value[next] - value[next - 1]);
+  const auto next = std::ranges::lower_bound(points, place, {}, &PlotPoint::s);
+  if (next == points.begin()) return points.front().value;
+  if (next == points.end()) return points.back().value;
+  const PlotPoint &from = *(next - 1), &to = *next;
+  const double width = to.s - from.s;
+  const double t = width > 0.0 ? (place - from.s) / width : 0.0;
+  return from.value + t * (to.value - from.value);
 }
 
 namespace {
@@ -42,14 +43,13 @@ bool isFaired(const TracedCurve& curve) {
 }
 
 void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples, double scale, const auto& valueOf) {
-  PlotSeries series{role, 0, {}, {}};
+  PlotSeries series{role};
   for (const CurveSample& sample : samples) {
     const double value = valueOf(sample);
     if (!std::isfinite(value)) continue;
-    series.s.push_back(sample.s * scale);
-    series.value.push_back(value);
+    series.points.push_back({sample.s * scale, value});
   }
-  if (series.s.size() > 1) data.series.push_back(std::move(series));
+  if (series.points.size() > 1) data.series.push_back(std::move(series));
 }
 
 std::optional<int> chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
@@ -64,17 +64,16 @@ void addTargets(PlotData& data, const EditorSession& session, const TracedCurve&
   const auto chosen = session.pointedSpan() ? chosenSpanTarget(session) : chosenDegree(curve, *targets);
   for (const TargetProfile& profile : targets->targets.profiles) {
     if (!profile.valid) continue;
-    PlotSeries series{PlotRole::Target, profile.degree, {}, {}};
+    PlotSeries series{PlotRole::Target, profile.degree};
     if (profile.degree == chosen) series.role = PlotRole::ChosenTarget;
     if (profile.degree == session.hoveredTarget()) series.role = PlotRole::HoveredTarget;
     for (int i = 0; i < kSamples / 2; ++i) {
       const double f = i / (kSamples / 2 - 1.0);
       const double value = valueOf(profile.curvatureAt(f));
       if (!std::isfinite(value)) continue;
-      series.s.push_back(f * data.lengthMm);
-      series.value.push_back(value);
+      series.points.push_back({f * data.lengthMm, value});
     }
-    if (series.s.size() > 1) data.series.push_back(std::move(series));
+    if (series.points.size() > 1) data.series.push_back(std::move(series));
   }
 }
 
@@ -89,15 +88,14 @@ void addDrawn(PlotData& data, const EditorSession& session, const TracedCurve& c
   const FairingParams asked = fairingAsked(session);
   const TargetProfile profile = drawnProfile(asked.profile, curve.closed);
   if (!profile.valid) return;
-  PlotSeries series{PlotRole::DrawnTarget, 0, {}, {}};
+  PlotSeries series{PlotRole::DrawnTarget};
   for (int i = 0; i < kSamples; ++i) {
     const double f = i / (kSamples - 1.0), value = valueOf(profile.curvatureAt(f));
     if (!std::isfinite(value)) continue;
-    series.s.push_back(f * data.lengthMm);
-    series.value.push_back(value);
+    series.points.push_back({f * data.lengthMm, value});
   }
-  if (series.s.size() > 1) data.series.push_back(std::move(series));
-  for (const ProfilePoint& p : asked.profile) data.handles.emplace_back(p.fraction * data.lengthMm, valueOf(p.kappa));
+  if (series.points.size() > 1) data.series.push_back(std::move(series));
+  for (const ProfilePoint& p : asked.profile) data.handles.push_back({p.fraction * data.lengthMm, valueOf(p.kappa)});
 }
 
 /// Range from the two curves alone: a target that shoots off must not flatten them. Of the curves themselves, single
@@ -106,7 +104,8 @@ void fitRange(PlotData& data, double padding) {
   bool any = false;
   for (const PlotSeries& series : data.series) {
     if (series.role != PlotRole::Sketched && series.role != PlotRole::Faired) continue;
-    std::vector<double> sorted = series.value;
+    std::vector<double> sorted;
+    for (const PlotPoint& point : series.points) sorted.push_back(point.value);
     std::sort(sorted.begin(), sorted.end());
     const std::size_t cut = sorted.size() / 100;
     const double low = sorted[cut], high = sorted[sorted.size() - 1 - cut];
@@ -149,25 +148,22 @@ void addNoise(PlotData& data, const TracedCurve& curve, const std::vector<CurveS
     const double at = step > 0 ? s / step : 0.0;
     const auto k = static_cast<std::size_t>(std::clamp(std::lround(at), 0L, static_cast<long>(sketched.size()) - 1));
     if (!std::isfinite(sigma) || !std::isfinite(s)) continue;
-    data.noiseS.push_back(s * scale);
-    data.noiseLow.push_back(sketched[k].kappa - 2 * sigma);
-    data.noiseHigh.push_back(sketched[k].kappa + 2 * sigma);
+    data.noise.push_back({s * scale, sketched[k].kappa - 2 * sigma, sketched[k].kappa + 2 * sigma});
   }
 }
 
 /// Where two pieces of the shown curve meet (001 figures 11 to 14): knots of multiplicity 3 and more.
 void addJoints(PlotData& data, const NurbsCurve& curve, double scale, const auto& valueAt) {
-  PlotSeries joints{PlotRole::Joint, 0, {}, {}};
+  PlotSeries joints{PlotRole::Joint};
   const auto knots = curve.knots();
   const ArcLength arc(curve);
   for (const double u : curve.breaks()) {
     if (u <= curve.start() || u >= curve.end() || std::count(knots.begin(), knots.end(), u) < 3) continue;
     const std::optional<double> value = valueAt(curve, u);
     if (!value) continue;
-    joints.s.push_back(arc.at(u) * scale);
-    joints.value.push_back(*value);
+    joints.points.push_back({arc.at(u) * scale, *value});
   }
-  if (!joints.s.empty()) data.series.push_back(std::move(joints));
+  if (!joints.points.empty()) data.series.push_back(std::move(joints));
 }
 
 void addDeviation(PlotData& data, const EditorSession& session, const TracedCurve& curve, double scale, Judged judged) {
@@ -178,32 +174,28 @@ void addDeviation(PlotData& data, const EditorSession& session, const TracedCurv
     const ClosestPoint hit = finder.closestTo(p);
     const auto d = curve.sketched.derivatives(hit.u, 1);
     const double side = cross(d[1], p - hit.point) < 0 ? -1.0 : 1.0;
-    series.s.push_back(arc.at(hit.u) * scale);
-    series.value.push_back(side * hit.distance);
+    series.points.push_back({arc.at(hit.u) * scale, side * hit.distance});
   };
   const auto sorted = [](PlotSeries& series) {
-    std::vector<std::pair<double, double>> pairs;
-    for (std::size_t i = 0; i < series.s.size(); ++i) pairs.emplace_back(series.s[i], series.value[i]);
-    std::sort(pairs.begin(), pairs.end());
-    for (std::size_t i = 0; i < pairs.size(); ++i) std::tie(series.s[i], series.value[i]) = pairs[i];
+    std::ranges::sort(series.points, {}, [](const PlotPoint& p) { return std::pair(p.s, p.value); });
   };
-  PlotSeries points{PlotRole::Sketched, 0, {}, {}};
+  PlotSeries drawn{PlotRole::Sketched};
   const auto& pieces = session.output().pieces;
-  if (pieces && curve.piece >= 0 && static_cast<std::size_t>(curve.piece) < pieces->pieces.size()) {
+  if (pieces && curve.piece >= 0 && curve.piece < std::ssize(pieces->pieces)) {
     const auto& px = pieces->pieces[curve.piece].points;
     const std::size_t step = std::max<std::size_t>(1, px.size() / kDeviationSamples);
-    for (std::size_t i = 0; i < px.size(); i += step) measure(session.output().frame.pointToModel(px[i].at), points);
-    sorted(points);
+    for (std::size_t i = 0; i < px.size(); i += step) measure(session.output().frame.pointToModel(px[i].at), drawn);
+    sorted(drawn);
   }
-  if (points.s.size() > 1) data.series.push_back(std::move(points));
+  if (drawn.points.size() > 1) data.series.push_back(std::move(drawn));
   if (judged != Judged::Result || !isFaired(curve)) return;
-  PlotSeries faired{PlotRole::Faired, 0, {}, {}};
+  PlotSeries faired{PlotRole::Faired};
   for (const CurveSample& sample : sampleByArcLength(curve.faired, kDeviationSamples)) measure(sample.point, faired);
   sorted(faired);
   data.series.push_back(std::move(faired));
   const double tolerance = curve.fairingUsed.toleranceMm;
   for (const double sign : {-1.0, 1.0})
-    data.series.push_back({PlotRole::Tolerance, 0, {0.0, data.lengthMm}, {sign * tolerance, sign * tolerance}});
+    data.series.push_back({PlotRole::Tolerance, {}, {{0.0, sign * tolerance}, {data.lengthMm, sign * tolerance}}});
 }
 
 bool runsLeft(const TracedCurve& curve, const PageFrame& frame) {

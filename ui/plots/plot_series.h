@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "ui/session/editor_session.h"
@@ -17,24 +17,36 @@ inline constexpr int kPlotTabs = 5;
 /// What a line of a plot stands for; the plot chooses pen and colour.
 enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, DrawnTarget, Tolerance, Joint };
 
+struct PlotPoint {
+  double s = 0.0;  ///< [mm] Arc length on the axis.
+  double value = 0.0;
+  bool operator==(const PlotPoint&) const = default;
+};
+
 struct PlotSeries {
   PlotRole role = PlotRole::Sketched;
-  int degree = 0;                ///< Targets: 1..6.
-  std::vector<double> s, value;  ///< Same size, s ascending [mm]; only finite values.
+  std::optional<int> degree = {};      ///< Of a target.
+  std::vector<PlotPoint> points = {};  ///< s ascending; only finite values.
   /// Between the two samples beside the place; held beyond either end.
   /// @pre not empty.
   double at(double place) const;
+};
+
+/// The noise of a curve at one place.
+struct NoiseRange {
+  double s = 0.0;  ///< [mm] On the axis.
+  double low = 0.0, high = 0.0;
 };
 
 /// Everything one plot draws of the selected curve.
 struct PlotData {
   double lengthMm = 0.0;
   std::vector<PlotSeries> series;
-  std::vector<double> noiseS, noiseLow, noiseHigh;  ///< Curvature: +-2 sigma of the sketched curve.
-  std::vector<ExtremumMark> marks;                  ///< Curvature: the extrema of the judged curve; s as on the axis.
-  std::vector<std::pair<double, double>> handles;   ///< Points of the drawn target: s, value.
-  std::vector<double> kept;                         ///< s of the extrema that monotone fairing is to keep.
-  std::vector<double> splits;                       ///< s of the splits, in the order of splitsOf.
+  std::vector<NoiseRange> noise;    ///< Curvature: +-2 sigma of the sketched curve.
+  std::vector<ExtremumMark> marks;  ///< Curvature: the extrema of the judged curve; s as on the axis.
+  std::vector<PlotPoint> handles;   ///< Points of the drawn target.
+  std::vector<double> kept;         ///< s of the extrema that monotone fairing is to keep.
+  std::vector<double> splits;       ///< s of the splits, in the order of splitsOf.
   bool logarithmic = false;
   bool runsLeft = false;         ///< The curve begins farther right on the page (or below) than it ends.
   double low = 0.0, high = 1.0;  ///< Range of the values that is shown at first.

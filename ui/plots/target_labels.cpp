@@ -35,12 +35,12 @@ void TargetLabels::show(const PlotData& data) {
   curves_.clear();
   const Theme& theme = themeOf(plot_->palette());
   for (const PlotSeries& series : data.series) {
-    if ((series.role == PlotRole::Sketched || series.role == PlotRole::Faired) && series.s.size() > 1)
+    if ((series.role == PlotRole::Sketched || series.role == PlotRole::Faired) && series.points.size() > 1)
       curves_.push_back(series);
-    if (!isTarget(series) || series.s.size() < 2) continue;
+    if (!isTarget(series) || !series.degree || series.points.size() < 2) continue;
     auto* text = new QCPItemText(plot_);
-    text->setText(QString::number(series.degree));
-    text->setObjectName(QStringLiteral("plot.target.%1").arg(series.degree));
+    text->setText(QString::number(*series.degree));
+    text->setObjectName(QStringLiteral("plot.target.%1").arg(*series.degree));
     text->setFont(uiFont(11, series.role == PlotRole::Target ? QFont::Normal : QFont::Bold));
     text->setColor(series.role == PlotRole::ChosenTarget    ? theme.amber
                    : series.role == PlotRole::HoveredTarget ? theme.text

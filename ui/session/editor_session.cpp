@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fairing/profile/target_degrees.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "ui/session/change_recipe.h"
 #include "ui/session/growing_player.h"
@@ -253,7 +254,7 @@ void EditorSession::pointAtSpan(std::optional<double> share) {
 }
 
 void EditorSession::hoverTarget(std::optional<int> degree) {
-  if (degree && (*degree < 1 || *degree > 6)) degree.reset();
+  if (degree && !isTargetDegree(*degree)) degree.reset();
   if (degree == hoveredTarget_) return;
   hoveredTarget_ = degree;
   emit hoverChanged();

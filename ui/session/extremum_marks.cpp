@@ -19,8 +19,7 @@ QString extremumText(const char* text) { return QCoreApplication::translate("Ext
 std::optional<std::size_t> choiceOf(const EditorSession& session, const ExtremumNote& note) {
   const auto& choices = session.recipe().extremumChoices;
   if (!session.isStale(StageId::Curves)) {
-    if (!note.constraint || *note.constraint < 0 || static_cast<std::size_t>(*note.constraint) >= choices.size())
-      return std::nullopt;
+    if (!note.constraint || *note.constraint < 0 || *note.constraint >= std::ssize(choices)) return std::nullopt;
     return static_cast<std::size_t>(*note.constraint);
   }
   const Vec2 px = session.output().frame.pointToImage(note.point);
@@ -105,7 +104,7 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optio
 
 void toggleExtremum(EditorSession& session, std::optional<int> curve, int note) {
   const TracedCurve* traced = session.curveAt(curve);
-  if (!traced || note < 0 || static_cast<std::size_t>(note) >= traced->construct.extrema.size()) return;
+  if (!traced || note < 0 || note >= std::ssize(traced->construct.extrema)) return;
   const ExtremumNote& extremum = traced->construct.extrema[note];
   Recipe after = session.recipe();
   if (const auto choice = choiceOf(session, extremum)) {

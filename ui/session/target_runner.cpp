@@ -19,7 +19,7 @@ FairingParams paramsOfTargets(FairingParams params) {
   params.mode = FairingMode::None;
   params.target = FairingTarget::Recommended;
   params.lowPassMm = FairingParams{}.lowPassMm;
-  params.keepExtrema = kKeepSignificant;
+  params.keepExtrema = {};
   params.keptAt.clear();
   params.profile.clear();
   params.spanTargets.clear();

@@ -18,6 +18,7 @@ constexpr double kUnitsOfPath = 1000.0;  // of a path whose pixel nobody knows: 
 /// Weights of one px: offset of a joint, turn of a joint (over a quarter of a segment), sagitta of a segment that the
 /// curvature misses, change of that miss along a segment. Tuned on ellipses and roof lines with noise of 0 to 0.3 px.
 constexpr double kOffsetWeight = 0.2;
+constexpr double kPinnedWeight = 1e6;  // of the offset of an end: it stays where it is
 constexpr double kAngleWeight = 0.05;
 constexpr double kLevelWeight = 0.05;
 constexpr double kChangeWeight = 3.0;
@@ -94,7 +95,7 @@ class Chain {
       block.columns = {static_cast<int>(3 * i), static_cast<int>(3 * i) + 1};
       block.size = 2;
       block.evaluate = [pinned](std::span<const double> x, std::span<double> r) {
-        r[0] = (pinned ? 1e6 : kOffsetWeight) * x[0];
+        r[0] = (pinned ? kPinnedWeight : kOffsetWeight) * x[0];
         r[1] = kAngleWeight * x[1];
       };
       result.push_back(std::move(block));
@@ -241,7 +242,7 @@ std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool c
 
 FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, double lowPass,
                           const RunContext& context) {
-  const std::vector<Station>& stations = set.stations;
+  const std::vector<Station> stations = set.plain();
   const auto lengths = arcCorrectedDistances(stations, closed);
   double total = 0.0;
   std::vector<double> places;
@@ -252,15 +253,17 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, do
   if (!closed) places.push_back(total);
   const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / kUnitsOfPath;
   // Distances that there were before stations were set closer.
+  std::vector<double> shares;
+  for (const SpacedStation& station : set.stations) shares.push_back(station.share);
   double distances = 0.0;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    distances += 0.5 * (set.share[i] + set.share[(i + 1) % set.share.size()]);
+    distances += 0.5 * (shares[i] + shares[(i + 1) % shares.size()]);
   }
   const double width = std::max(lowPass * total / distances, kShortestLowPassPx * unit);
   std::vector<double> widths;
-  for (const double share : set.share) widths.push_back(share * width);
+  for (const double share : shares) widths.push_back(share * width);
   const auto targets = lowPassedCurvature(stations, closed, widths, places);
-  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, set.share, closed, unit);
+  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, shares, closed, unit);
   const auto blocks = chain.blocks(targets);
   const auto unknowns = static_cast<Eigen::Index>(3 * chain.count());
   const BlockSolution solved =
@@ -273,7 +276,7 @@ StationSet bezierStations(const ConstructPiece& piece, double pixelMm, const Con
   StationSet set = givenStations(usableStations(piece, 6, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 3u : 2u)) return set;
-  const auto plain = [closed](const StationSet& now) { return polylinesOf(bezierPath(now.stations, closed)); };
+  const auto plain = [closed](const StationSet& now) { return polylinesOf(bezierPath(now.plain(), closed)); };
   set = adaptiveStations(piece, std::move(set), pixelMm, params.maxDeviationPx, plain, context);
   // A wider low pass is to calm the path, and may move it.
   const double lowPass = std::min(params.lowPass, 1.0);
@@ -293,7 +296,7 @@ namespace {
 
 Result<ConstructedPiece> chainThrough(const StationSet& set, bool closed, double pixelMm, const ConstructParams& params,
                                       const RunContext& context) {
-  if (params.lowPass == 0.0) return plainPath(set.stations, closed, params.equaliseJoints);
+  if (params.lowPass == 0.0) return plainPath(set.plain(), closed, params.equaliseJoints);
   const FairedJoints faired = fairedJoints(set, closed, pixelMm, params.lowPass, context);
   if (context.isCancelled()) return cancelled();
   auto curve = hermiteChain(faired.joints, faired.lengths);

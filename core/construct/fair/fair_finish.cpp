@@ -14,7 +14,7 @@
 #include "core/construct/fair/fair_prepare.h"
 #include "core/construct/fair/fair_structure.h"
 #include "core/construct/fair/fair_structure_search.h"
-#include "core/construct/fair/knot_removal.h"
+#include "core/construct/fair/fewest_knots.h"
 #include "core/construct/fair/sharp_features.h"
 #include "core/solve/banded_cholesky.h"
 
@@ -31,16 +31,6 @@ constexpr double kKappaShare = 2.0;      // of the share of the noise, for the c
 constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the curve of the moment
 constexpr const char* kShortNote = "Too short for the fair fit; a low-degree curve was fitted to the points.";
 constexpr const char* kPlainNote = "The fair fit could not be solved; a smoothed curve was used.";
-
-/// The parameter afterwards of one before; between the places of the table linear, and on beyond its ends.
-double lookUp(const std::vector<ParameterPair>& places, double before) {
-  const auto next = std::upper_bound(places.begin() + 1, places.end() - 1, before,
-                                     [](double x, const ParameterPair& place) { return x < place.before; });
-  const ParameterPair &low = *(next - 1), &high = *next;
-  const double width = high.before - low.before;
-  const double part = width > 0.0 ? (before - low.before) / width : 0.0;
-  return low.after + part * (high.after - low.after);
-}
 
 /// Back from px about the origin to mm, with the corner points to the last digit.
 Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piece, const ConstructPiece& in,
@@ -118,8 +108,8 @@ class FinishedFit {
     if (!moveFrame(found->c)) return false;
     const auto final = localPosterior(frame_, s0_, std::move(local->tau2), 1, options_.emWidthPx, context_);
     if (!final) return false;
-    for (FairExtremum& e : found->structure.extrema) e.u = lookUp(places_, e.u);
-    for (FairExtremum& e : found->dropped) e.u = lookUp(places_, e.u);
+    for (FairExtremum& e : found->structure.extrema) e.u = parameterAfter(places_, e.u);
+    for (FairExtremum& e : found->dropped) e.u = parameterAfter(places_, e.u);
     return finishCurve(*final, *found, circleCost);
   }
 
@@ -150,7 +140,7 @@ class FinishedFit {
     auto moved = reframe(base, d, from, to, context_);
     if (!moved) return false;
     places_ = std::move(moved->places);
-    for (FairPoint& p : data.points) p.t = lookUp(places_, p.t);
+    for (FairPoint& p : data.points) p.t = parameterAfter(places_, p.t);
     frame_ = assembleFrame(moved->curve, data, options_, kChecksPerSpan, context_);
     return !frame_.blocks.empty() && !context_.isCancelled();
   }
@@ -280,7 +270,7 @@ class FinishedFit {
     const double least = kWrongWay / (high - low).norm();
     std::vector<double> kappa;
     for (const FrameStation& s : stations) kappa.push_back(s.kappa);
-    return countExtrema(kappa, least) > static_cast<int>(structure.extrema.size());
+    return countExtrema(kappa, least) > std::ssize(structure.extrema);
   }
 
   bool finishCurve(const FairPosterior& posterior, StructureResult& found, std::optional<double> circleCost) {
@@ -328,13 +318,13 @@ class FinishedFit {
     const int stride = checkStride(stations);
     // By weight: the calm stretches of an uneven line say how far it may move.
     const double calm = std::max(kLeastNoisePx, std::sqrt(frame_.weightedSquares / frame_.weights));
-    std::vector<KnotRemovalLimit> stationLimits;
+    std::vector<FewestKnotsLimit> stationLimits;
     for (int i = 0; i < std::ssize(frame_.checks); i += stride) {
       const FrameStation& s = frame_.checks[i];
       stationLimits.push_back({options_.knotRemovalTolerance * std::max(calm, kMeanShare * spreadAt(s.u)),
                                std::sqrt(std::max(0.0, BandedCholesky::quadratic(posterior.covariance, s.kappaRow)))});
     }
-    KnotRemovalLimits limits;
+    FewestKnotsLimits limits;
     limits.stations = stationLimits;
     limits.perSpan = kChecksPerSpan;
     limits.kappaShare = kKappaShare * options_.knotRemovalTolerance;

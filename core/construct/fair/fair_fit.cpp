@@ -33,7 +33,7 @@ void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, dou
                  const FairFitOptions& options, const RunContext& context) {
   std::vector<NoiseTrace> traces(pieces.size());
   parallelFor(context, static_cast<int>(pieces.size()), 1, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    for (int i = begin; i < end; ++i) {
       FairPiece& piece = pieces[i];
       if (!piece.frame || context.isCancelled()) continue;
       const std::vector<double> prior = uniformPrior(*piece.frame, s0, CutoffTable::cutoffPx(*choice.k[i]));
@@ -90,7 +90,9 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
     squares += piece.squares;
     points += piece.pointCount;
   }
-  for (ConstructedPiece& piece : out) piece.report.noisePx = points > 0.0 ? std::sqrt(squares / points) : 0.0;
+  if (points > 0.0) {
+    for (ConstructedPiece& piece : out) piece.report.noisePx = std::sqrt(squares / points);
+  }
   return out;
 }
 

@@ -236,6 +236,15 @@ OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, do
   return {p[0] + offset * normal, p[1] * (1.0 - kappa * offset) + rate * normal};
 }
 
+double parameterAfter(const std::vector<ParameterPair>& places, double before) {
+  const auto next = std::upper_bound(places.begin() + 1, places.end() - 1, before,
+                                     [](double x, const ParameterPair& place) { return x < place.before; });
+  const ParameterPair &low = *(next - 1), &high = *next;
+  const double width = high.before - low.before;
+  const double part = width > 0.0 ? (before - low.before) / width : 0.0;
+  return low.after + part * (high.after - low.after);
+}
+
 std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to,
                                 CancelCheck check) {
   const UniformKnots& knots = base.knots();

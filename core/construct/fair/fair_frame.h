@@ -87,6 +87,9 @@ struct Reframed {
   UniformQuintic curve;
   std::vector<ParameterPair> places;  ///< On the base and on the curve, ascending.
 };
+/// The parameter on the curve of one on the base; between the places linear, and on beyond their ends.
+/// @pre two places at least.
+double parameterAfter(const std::vector<ParameterPair>& places, double before);
 std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to,
                                 CancelCheck);
 /// base + d N with the same knots and parameter.

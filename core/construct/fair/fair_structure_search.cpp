@@ -266,11 +266,11 @@ class ExtremumRemoval {
     FairStructure widened = rest;
     setWindows(widened, knots);
     for (const FairExtremum& other : widened.extrema) {
-      for (const double turn : {-knots.length, 0.0, knots.length}) {
-        const double low = other.u - 2.0 * other.halfWidth + turn, high = other.u + 2.0 * other.halfWidth + turn;
-        if (!knots.closed && turn != 0.0) continue;
+      for (const double lap : {-knots.length, 0.0, knots.length}) {
+        const double low = other.u - 2.0 * other.halfWidth + lap, high = other.u + 2.0 * other.halfWidth + lap;
+        if (!knots.closed && lap != 0.0) continue;
         if (high <= from || low >= to) continue;
-        if (other.u + turn <= 0.5 * (from + to)) {
+        if (other.u + lap <= 0.5 * (from + to)) {
           from = std::max(from, high);
         } else {
           to = std::min(to, low);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/construct/fair/fair_join.h"
+#include "core/construct/fair/joined_sections.h"
 #include "core/construct/nurbs/quintic_nurbs.h"
 #include "core/contour/segment/regression_segments.h"
 #include "core/curve/curvature.h"
@@ -19,24 +20,8 @@
 namespace batten {
 namespace {
 
-constexpr double kMostLengthRatio = 1.15;      // of a curve to its points: longer, it has a loop of its own
-constexpr std::size_t kScatteredPlaces = 500;  // sharp turns that nobody draws in one line
-constexpr double kLeastSmoothPx = 24.0;        // between two sharp features; shorter stretches have no fairness to keep
-
-/// The notes of a part that begins at `offset` of the whole, for lengths from..to of the part.
-void append(ConstructReport& whole, const ConstructReport& part, double from, double to, double offset) {
-  for (ExtremumNote e : part.extrema) {
-    if (e.s < from || e.s > to) continue;
-    e.s += offset - from;
-    whole.extrema.push_back(e);
-  }
-  for (const NoiseNote& note : part.noise) {
-    if (note.s < from || note.s > to) continue;
-    whole.noise.push_back({note.s + offset - from, note.sigma});
-  }
-  whole.knotRemovalMovedPx = std::max(whole.knotRemovalMovedPx, part.knotRemovalMovedPx);
-  if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
-}
+constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, it has a loop of its own
+constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorter stretches have no fairness to keep
 
 /// What lies between two parameters of a fit; of a closed one through its seam where `to` comes before `from`.
 Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, double to, bool closed) {
@@ -55,40 +40,19 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   part.report.noise.clear();
   auto curve = Result<NurbsCurve>(fail(ErrorCode::Numerical, "Nothing lies between."));
   if (from + least < to) {
-    append(part.report, fit.report, from - start, to - start, 0.0);
+    addNotes(part.report, fit.report, {from - start, to - start, 0.0});
     curve = between(from, to);
   } else if (closed && from + least < end && to > start + least) {
-    append(part.report, fit.report, from - start, end - start, 0.0);
-    append(part.report, fit.report, 0.0, to - start, end - from);
+    addNotes(part.report, fit.report, {from - start, end - start, 0.0});
+    addNotes(part.report, fit.report, {0.0, to - start, end - from});
     const auto before = between(from, end), after = between(start, to);
     if (before && after) curve = joinSmoothly(std::array{*before, *after});
   }
   if (!curve) return fail(curve.error());
   const double share = static_cast<double>(curve->controlPointCount()) / c.controlPointCount();
-  part.report.fullControlPoints = static_cast<int>(std::lround(share * part.report.fullControlPoints));
+  if (std::optional<int>& full = part.report.fullControlPoints) full = static_cast<int>(std::lround(share * *full));
   part.curve = std::move(*curve);
   return part;
-}
-
-/// Curvature extrema of what follows the points closely, without a judgement of each.
-int extremaOf(const std::vector<NurbsCurve>& fills, double size, bool closed, const RunContext& context) {
-  std::size_t count = 0;
-  for (const NurbsCurve& fill : fills)
-    count += curvatureExtrema(fill, kExtremumProminence / size, closed, context).size();
-  return static_cast<int>(count);
-}
-
-std::string sharpFeatureNote(std::size_t count) {
-  if (count == 1)
-    return "Turns sharply at 1 place: mark a corner there for an exact fit; where the line only trembles, raise "
-           "Detail.";
-  if (count >= kScatteredPlaces)
-    return "Turns sharply at " + std::to_string(count) +
-           " places. Points that are scattered must be put in the order in which the line runs; corners that are meant "
-           "can be marked.";
-  return "Turns sharply at " + std::to_string(count) +
-         " places: mark corners there for an exact fit; where the line only trembles, raise "
-         "Detail.";
 }
 
 }  // namespace
@@ -114,7 +78,7 @@ std::vector<ConstructPiece> SmoothSections::stretches() const {
     ConstructPiece piece;
     piece.points = pointsOf(range);
     piece.startIsCorner = piece_.startIsCorner && range.first == 0;
-    piece.endIsCorner = piece_.endIsCorner && range.last + 1 == static_cast<int>(piece_.points.size());
+    piece.endIsCorner = piece_.endIsCorner && range.last + 1 == std::ssize(piece_.points);
     pieces.push_back(std::move(piece));
   }
   for (const ExtremumConstraint& constraint : piece_.constraints) {  // to the stretch with the nearest point
@@ -193,88 +157,6 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
   smooth_ = std::move(ranges);
 }
 
-Result<ConstructedPiece> SmoothSections::withSharpFeatures(const RunContext& context) const {
-  const int n = static_cast<int>(piece_.points.size());
-  ConstructedPiece whole;
-  whole.report.why = Termination::Converged;
-  whole.report.note = sharpFeatureNote(sharp_.size());
-  if (smooth_.empty()) {
-    auto curve = piece_.closed ? tightLoop(positionsOf(piece_.points), pixelMm_)
-                               : cornerFill(positionsOf(piece_.points), pixelMm_, {}, {});
-    if (!curve) return fail(curve.error());
-    whole.curve = std::move(*curve);
-    whole.report.why = Termination::Degenerate;
-    whole.report.note =
-        "The line bends too sharply everywhere for the fair fit; a curve close to the points was "
-        "used.";
-    whole.report.extremaInSharpFeatures = extremaOf({whole.curve}, extent(whole.curve), piece_.closed, context);
-    return whole;
-  }
-  std::vector<NurbsCurve> parts, fills;
-  double total = 0.0;  // [mm] of the parts so far
-  const auto tight = [&](int first, int last, const std::optional<CurveEnd>& a, const std::optional<CurveEnd>& b) {
-    auto curve = cornerFill(positionsOf(pointsOf({first, last})), pixelMm_, a, b);
-    if (!curve) return curve;
-    parts.push_back(*curve);
-    fills.push_back(*curve);
-    total += curve->end() - curve->start();
-    return curve;
-  };
-  const auto place = [&](const NurbsCurve& curve, const ConstructReport& report, double from, double to) {
-    append(whole.report, report, from, to, total);
-    parts.push_back(curve);
-    total += curve.end() - curve.start();
-  };
-  const std::size_t count = smooth_.size();
-  std::size_t first = 0;
-  std::optional<SplitCurve> halves;
-  double cut = 0.0;
-  if (piece_.closed) {  // begins in the middle of the longest stretch, where all derivatives meet
-    for (std::size_t i = 1; i < count; ++i) {
-      if (smooth_[i].last - smooth_[i].first > smooth_[first].last - smooth_[first].first) first = i;
-    }
-    const NurbsCurve& longest = fits_[first].curve;
-    cut = 0.5 * (longest.end() - longest.start());
-    auto made = split(longest, longest.start() + cut);
-    if (!made) return fail(made.error());
-    halves = std::move(*made);
-    place(halves->right, fits_[first].report, cut, 2.0 * cut);
-  } else {
-    if (smooth_[0].first > 0) {
-      if (auto t = tight(0, smooth_[0].first - 1, {}, startOf(fits_[0].curve)); !t) return fail(t.error());
-    }
-    place(fits_[0].curve, fits_[0].report, 0.0, fits_[0].curve.end() - fits_[0].curve.start());
-  }
-  for (std::size_t k = 1; k < count + (piece_.closed ? 1 : 0); ++k) {
-    if (context.isCancelled()) return cancelled();
-    const std::size_t from = (first + k - 1) % count, to = (first + k) % count;
-    int next = smooth_[to].first;
-    while (next <= smooth_[from].last) next += n;
-    const auto fill = tight(smooth_[from].last + 1, next - 1, endOf(fits_[from].curve), startOf(fits_[to].curve));
-    if (!fill) return fail(fill.error());
-    if (piece_.closed && k == count) {
-      place(halves->left, fits_[first].report, 0.0, cut);
-    } else {
-      place(fits_[to].curve, fits_[to].report, 0.0, fits_[to].curve.end() - fits_[to].curve.start());
-    }
-  }
-  if (!piece_.closed && smooth_.back().last < n - 1) {
-    const auto fill = tight(smooth_.back().last + 1, n - 1, endOf(fits_.back().curve), {});
-    if (!fill) return fail(fill.error());
-  }
-  auto curve = joinSmoothly(parts);
-  if (!curve) return fail(curve.error());
-  whole.curve = std::move(*curve);
-  whole.report.noisePx = fits_[first].report.noisePx;
-  whole.report.extremaInSharpFeatures = extremaOf(fills, extent(whole.curve), false, context);
-  whole.report.fullControlPoints = whole.curve.controlPointCount();
-  for (const ConstructedPiece& fit : fits_) {
-    if (fit.report.fullControlPoints == 0) continue;
-    whole.report.fullControlPoints += fit.report.fullControlPoints - fit.curve.controlPointCount();
-  }
-  return whole;
-}
-
 Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& context) const {
   PieceSet set;
   set.pieces.resize(1);
@@ -317,7 +199,7 @@ Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const
 }
 
 Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
-  auto whole = withSharpFeatures(context);
+  auto whole = joinSections(piece_, pixelMm_, {sharp_, smooth_, fits_}, context);
   if (context.isCancelled()) return cancelled();
   const auto farness = [&](const PointDeviation& c) {
     return c.far + 10 * c.veryFar + (c.lengthRatio > kMostLengthRatio ? 1000 : 0);

@@ -39,7 +39,6 @@ class SmoothSections {
   /// Of those fits only what is near the points; tight curves come between.
   void keepNear(const std::vector<Cut>&, const std::vector<ConstructPiece>& pieces);
   Result<ConstructedPiece> joinedParts(const RunContext&) const;
-  Result<ConstructedPiece> withSharpFeatures(const RunContext&) const;
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;
   std::vector<PiecePoint> pointsOf(const PointRange&) const;

@@ -174,7 +174,7 @@ LightOptions lightOptions(const ConstructParams& params, const ConstructContour&
                           double detail) {
   LightOptions options = lightOptions(params, contour.pixelMm);
   const double most =
-      contour.inkWidthPx > 0.0 ? kMostOfWidth * contour.inkWidthPx * contour.pixelMm : kMostOfSize * extent(dense);
+      contour.inkWidthPx ? kMostOfWidth * *contour.inkWidthPx * contour.pixelMm : kMostOfSize * extent(dense);
   if (most > options.tolerance) options.tolerance *= std::pow(most / options.tolerance, detail);
   options.significance = kLeastSignificance + detail * (kMostSignificance - kLeastSignificance);
   return options;

@@ -316,20 +316,20 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, doub
     return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
   }
   if (params.gradients == GradientUse::Directions && !closed && set.stations.size() >= 4) {
-    return constructFromDirections(set.stations, params);
+    return constructFromDirections(set.plain(), params);
   }
   if (!params.magnitudeAsInPaper) {
     const auto through = [&](const StationSet& now) {
-      const auto made = curveThrough(now.stations, closed, params);
+      const auto made = curveThrough(now.plain(), closed, params);
       return made ? polylinesOf(*made) : std::vector<std::vector<Vec2>>{};
     };
     set = adaptiveStations(piece, std::move(set), pixelMm, params.maxDeviationPx, through, context);
     if (context.isCancelled()) return cancelled();
   }
-  auto made = curveThrough(set.stations, closed, params);
+  auto made = curveThrough(set.plain(), closed, params);
   if (!made && set.added > 0) {
     set = givenStations(usableStations(piece, 6, params.ends));
-    made = curveThrough(set.stations, closed, params);
+    made = curveThrough(set.plain(), closed, params);
   }
   if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was used.");
   ConstructedPiece result{std::move(made->curve), {}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/number_text.h"
 #include "core/construct/stations/piece_stations.h"
 #include "core/curve/knot_operations.h"
 #include "core/polyline/polyline_tools.h"
@@ -43,7 +44,7 @@ Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) 
   std::vector<Vec2> around = points;
   for (int i = 0; i < degree; ++i) around.push_back(points[i % points.size()]);
   std::vector<double> knots;
-  for (int i = 0; i < static_cast<int>(around.size()) + degree + 1; ++i) knots.push_back(i - degree);
+  for (int i = 0; i < std::ssize(around) + degree + 1; ++i) knots.push_back(i - degree);
   const double length = polylineLength(points, true);
   auto curve = scaledToLength(degree, std::move(knots), std::move(around), length);
   if (!curve) return curve;
@@ -142,7 +143,8 @@ Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span
   if (kind == SharpKnots::Order && !sharp.empty()) {
     result.warning = "Knots of multiplicity = order break the curve just before each sharp point.";
   } else if (polygon.added > 0) {
-    result.warning = "Between close sharp points " + std::to_string(polygon.added) + " control points were doubled.";
+    result.warning = "Between close sharp points " +
+                     counted(polygon.added, "control point was doubled.", "control points were doubled.");
   }
   return result;
 }
@@ -202,8 +204,9 @@ Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, do
   ThinnedPiece thinned = thinnedPiece(piece, pixelMm, params);
   std::vector<Vec2>& points = thinned.points;
   ConstructedPiece result;
-  result.report.pointsBefore = thinned.before;
-  result.report.pointsAfter = static_cast<int>(points.size());
+  PolygonNote& note = result.report.polygon.emplace();
+  note.before = thinned.before;
+  note.after = static_cast<int>(points.size());
   if (piece.closed && points.size() >= 3) {
     auto curve = periodicPolygon(points, params.degree);
     if (!curve) return fail(curve.error());
@@ -217,9 +220,9 @@ Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, do
     auto curve = isFree ? clamped(made->curve) : Result<NurbsCurve>(std::move(made->curve));
     if (!curve) return fail(curve.error());
     result.curve = std::move(*curve);
-    result.report.pointsAdded = made->added;
+    note.added = made->added;
     if (made->added > 0) {
-      result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were doubled.";
+      result.report.note = "Too few points for this degree: " + counted(made->added, "was doubled.", "were doubled.");
     }
     if (isFree) result.report.note = "Uniform knots: the curve ends short of the ends of its line.";
     if (breaks) result.report.note = "Multiplicity = order: the curve is broken just before its last corner.";

@@ -134,11 +134,12 @@ class Refiner {
       if (!std::all_of(line.begin(), line.end(), [](const Vec2& p) { return p.allFinite(); })) return false;
     }
     away_.clear();
-    excess_ = set_.missedPx = 0.0;
+    excess_ = 0.0;
+    set_.missedPx.reset();
     const std::vector<BoxedLine> lines(curve.begin(), curve.end());
     for (std::size_t i = 0; i < curve.size(); ++i) {
       away_.push_back(worst(lines, i));
-      if (away_[i] > kTold * limitPx_) set_.missedPx = std::max(set_.missedPx, away_[i]);
+      if (away_[i] > kTold * limitPx_) set_.missedPx = std::max(set_.missedPx.value_or(0.0), away_[i]);
       excess_ += length(i) * std::pow(std::max(0.0, away_[i] - limitPx_), 2);
     }
     return true;
@@ -221,7 +222,7 @@ class Refiner {
   /// Neighbouring intervals are to be halved as often but for one time.
   void grade(std::vector<char>& halved) const {
     const std::size_t n = halved.size();
-    const auto after = [&](std::size_t i) { return set_.halvings[i] + halved[i]; };
+    const auto after = [&](std::size_t i) { return set_.stations[i].halvings + halved[i]; };
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t i = 0; i < n; ++i) {
@@ -237,28 +238,26 @@ class Refiner {
 
   void insert(const std::vector<char>& halved) {
     std::vector<double> s;
-    std::vector<int> depth;
-    std::vector<Station> stations;
+    std::vector<SpacedStation> stations;
     std::vector<char> anew;
     for (std::size_t i = 0; i < s_.size(); ++i) {
       const bool before = i > 0 ? halved[i - 1] : given_.closed && halved.back();
       const bool after = i < halved.size() && halved[i];
       s.push_back(s_[i]);
-      stations.push_back(set_.stations[i]);
-      depth.push_back(set_.halvings[i] + (after ? 1 : 0));
+      SpacedStation& here = stations.emplace_back(set_.stations[i]);
+      here.halvings += after ? 1 : 0;
       anew.push_back(before || after);
       if (!after) continue;
       s.push_back(0.5 * (s_[i] + end(i)));
-      stations.push_back({});
-      depth.push_back(depth.back());
+      const int halvings = here.halvings;
+      stations.emplace_back().halvings = halvings;
       anew.push_back(1);
       ++set_.added;
     }
     s_ = std::move(s);
-    set_.halvings = std::move(depth);
     set_.stations = std::move(stations);
     for (std::size_t i = 0; i < s_.size(); ++i) {
-      if (anew[i]) set_.stations[i] = measured(i);
+      if (anew[i]) static_cast<Station&>(set_.stations[i]) = measured(i);
     }
     shareOut();
   }
@@ -276,12 +275,11 @@ class Refiner {
 
   void shareOut() {
     const std::size_t n = s_.size();
-    const auto share = [&](std::size_t interval) { return std::exp2(-set_.halvings[interval]); };
-    set_.share.clear();
+    const auto share = [&](std::size_t interval) { return std::exp2(-set_.stations[interval].halvings); };
     for (std::size_t i = 0; i < n; ++i) {
       const bool first = i == 0 && !given_.closed, last = i + 1 == n && !given_.closed;
       const double before = first ? share(i) : share((i + n - 1) % n), after = last ? before : share(i);
-      set_.share.push_back(std::sqrt(before * after));
+      set_.stations[i].share = std::sqrt(before * after);
     }
   }
 
@@ -297,9 +295,7 @@ class Refiner {
 
 StationSet givenStations(std::vector<Station> stations) {
   StationSet set;
-  set.share.assign(stations.size(), 1.0);
-  set.halvings.assign(stations.size(), 0);
-  set.stations = std::move(stations);
+  for (Station& station : stations) set.stations.push_back({std::move(station)});
   return set;
 }
 
@@ -327,8 +323,8 @@ StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, doubl
 }
 
 std::string maxDeviationNote(const StationSet& set) {
-  if (!(set.missedPx > 0.0)) return {};
-  return "The curve leaves the line by about " + roundedText(set.missedPx, 1) +
+  if (!set.missedPx) return {};
+  return "The curve leaves the line by about " + roundedText(*set.missedPx, 1) +
          " px, more than \"Maximum deviation\" allows. Mark sharp corners, or use the true and "
          "fair fit.";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,20 @@
 
 namespace batten {
 
-/// Stations along a piece and how much closer than at first they stand.
+/// A station and how much closer to its neighbours than at first it stands.
+struct SpacedStation : Station {
+  double share = 1.0;  ///< 0..1. Its distance from its neighbours, in distances that there were at first.
+  int halvings = 0;    ///< How often the interval after it was halved.
+};
+
+/// Stations along a piece.
 struct StationSet {
-  std::vector<Station> stations;
-  /// Per station 0..1: its distance from its neighbours, in distances that there were at first.
-  std::vector<double> share;
-  std::vector<int> halvings;  ///< Per station: how often the interval after it was halved.
+  std::vector<SpacedStation> stations;
   int added = 0;
-  /// [px] How far the points lie from the curve, in the mean over 5 px, where that is clearly more than wanted; else 0.
-  double missedPx = 0.0;
+  /// [px] How far the points lie from the curve, in the mean over 5 px, where that is clearly more than wanted.
+  std::optional<double> missedPx = {};
+
+  std::vector<Station> plain() const { return {stations.begin(), stations.end()}; }
 };
 
 /// The curve through stations: one polyline per interval from station to station, ends included. Empty where there is

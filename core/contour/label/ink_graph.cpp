@@ -14,13 +14,13 @@ namespace {
 // A square end of a stroke makes a spur that sticks out .41 radii; nothing that is drawn is dropped.
 constexpr double kSpurRadii = 1.6;
 constexpr int kInkSpurRounds = 3;
-constexpr double kStraightDeg = 45.0;  // legs that bend more are no single stroke
+constexpr double kStraightDeg = 45.0;  // chains that bend more at a junction are no single stroke
 constexpr double kWidthRatio = 1.6;    // nor those whose widths differ more, and a pixel
 constexpr double kDegPerOctave = 40.0;
 constexpr double kLevelPx = 1.0;  // of a width, that the grid of pixels explains
-// Beyond the disc of a junction, over which the direction and the width of a leg are taken: [stroke widths], and where
-// strokes are thin as many pixels as keep a single step of the skeleton below 15 degrees.
-constexpr double kLegReachWidths = 2.0, kLeastLegReachPx = 4.0;
+// Beyond the disc of a junction, over which the direction and the width of a chain are taken: [stroke widths], and
+// where strokes are thin as many pixels as keep a single step of the skeleton below 15 degrees.
+constexpr double kEndReachWidths = 2.0, kLeastEndReachPx = 4.0;
 constexpr double kPathCoreWidths = 2.5;
 
 InkPixel measured(const SkeletonPixel& p, const BitImage& ink) {
@@ -63,34 +63,34 @@ std::vector<int> rimsOf(std::vector<InkPixel>& p) {
 }
 
 // How a chain leaves a junction.
-struct Leg {
+struct ChainEnd {
   int end = 0;
   Vec2 out = Vec2::Zero();  ///< Unit direction from the junction.
   double widthPx = 1.0;
 };
 
-Leg legAt(const InkChain& chain, int end, const InkNode& node) {
+ChainEnd chainEndAt(const InkChain& chain, int end, const InkNode& node) {
   const int n = static_cast<int>(chain.pixels.size());
   const auto at = [&](int k) -> const InkPixel& { return chain.pixels[end % 2 == 0 ? k : n - 1 - k]; };
   int first = 0;
   while (first < n - 1 && (at(first).centre() - node.centre).norm() < node.radius) ++first;
   const double from = (at(first).centre() - node.centre).norm();
-  const double reach = std::max(kLeastLegReachPx, kLegReachWidths * at(first).widthPx());
+  const double reach = std::max(kLeastEndReachPx, kEndReachWidths * at(first).widthPx());
   Vec2 sum = Vec2::Zero();
   std::vector<double> widths;
   for (int k = first; k < n && (at(k).centre() - node.centre).norm() <= from + reach; ++k) {
     sum += at(k).centre() - node.centre;
     widths.push_back(at(k).widthPx());
   }
-  Leg leg;
-  leg.end = end;
-  if (sum.norm() > 0.0) leg.out = sum.normalized();
-  if (!widths.empty()) leg.widthPx = std::max(1.0, upperMedian(widths));
-  return leg;
+  ChainEnd found;
+  found.end = end;
+  if (sum.norm() > 0.0) found.out = sum.normalized();
+  if (!widths.empty()) found.widthPx = std::max(1.0, upperMedian(widths));
+  return found;
 }
 
-// Cost of going on from one leg to another; absent: no pen does.
-std::optional<double> costOfPassing(const Leg& a, const Leg& b) {
+// Cost of going on from one chain to another; absent: no pen does.
+std::optional<double> costOfPassing(const ChainEnd& a, const ChainEnd& b) {
   const double bend = std::atan2(std::abs(cross(a.out, b.out)), -a.out.dot(b.out)) * kDegPerRad;
   const double octaves = std::abs(std::log2(a.widthPx / b.widthPx));
   if (bend > kStraightDeg || octaves > std::log2(kWidthRatio) + 1.0 / std::min(a.widthPx, b.widthPx)) return {};
@@ -110,7 +110,7 @@ InkGraph::InkGraph(const BitImage& skeleton, const BitImage& ink, const RunConte
   dropSpurs();
   markJunctions();
   cutAtRims();
-  pairLegs();
+  pairChainEnds();
   makePaths();
 }
 
@@ -274,7 +274,7 @@ int InkGraph::cutChain(int chain, int index) {
   return number;
 }
 
-void InkGraph::pairLegs() {
+void InkGraph::pairChainEnds() {
   struct Option {
     double cost;
     int a, b;
@@ -282,12 +282,12 @@ void InkGraph::pairLegs() {
   partner_.assign(2 * chains_.size(), std::nullopt);
   for (const InkNode& node : nodes_) {
     if (!node.isJunction()) continue;
-    std::vector<Leg> legs;
-    for (const int end : node.ends) legs.push_back(legAt(chains_[end / 2], end, node));
+    std::vector<ChainEnd> ends;
+    for (const int end : node.ends) ends.push_back(chainEndAt(chains_[end / 2], end, node));
     std::vector<Option> options;
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      for (std::size_t j = i + 1; j < legs.size(); ++j) {
-        if (const auto cost = costOfPassing(legs[i], legs[j])) options.push_back({*cost, legs[i].end, legs[j].end});
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      for (std::size_t j = i + 1; j < ends.size(); ++j) {
+        if (const auto cost = costOfPassing(ends[i], ends[j])) options.push_back({*cost, ends[i].end, ends[j].end});
       }
     }
     std::stable_sort(options.begin(), options.end(), [](const Option& a, const Option& b) { return a.cost < b.cost; });

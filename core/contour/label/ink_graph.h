@@ -71,7 +71,7 @@ struct InkPath {
 double coreWidth(double strokeWidthPx);
 
 /// The skeleton of a page as paths: spurs dropped, junction discs cut out, chains cut where a line runs into a solid,
-/// legs of junctions paired by direction and width. Deterministic.
+/// ends of chains at junctions paired by direction and width. Deterministic.
 class InkGraph {
  public:
   /// @param skeleton of `ink` (thinToSkeleton). Unfinished when the context is cancelled.
@@ -97,7 +97,7 @@ class InkGraph {
   void markJunctions();
   void cutAtRims();
   int cutChain(int chain, int index);
-  void pairLegs();
+  void pairChainEnds();
   void makePaths();
   void measurePath(InkPath&) const;
   bool isFreeEnd(int end) const;

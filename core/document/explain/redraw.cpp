@@ -24,10 +24,10 @@ constexpr double kMostlyInk = 0.8;
 class LineWidths {
  public:
   explicit LineWidths(const Contour& line) : line_(line), grid_(kCellPx) {
-    for (int i = 0; i < static_cast<int>(line.points.size()); ++i) grid_.add(line.points[i].at, i);
+    for (int i = 0; i < std::ssize(line.points); ++i) grid_.add(line.points[i].at, i);
     bridged_.assign(line.points.size(), false);
     for (const auto& [first, last] : line.bridges) {
-      for (int i = std::max(0, first); i <= last && i < static_cast<int>(bridged_.size()); ++i) bridged_[i] = true;
+      for (int i = std::max(0, first); i <= last && i < std::ssize(bridged_); ++i) bridged_[i] = true;
     }
     std::vector<float> widths = strokeWidthsOf(line.points);
     if (!widths.empty()) usual_ = 0.5 * static_cast<double>(upperMedian(widths));
@@ -129,7 +129,7 @@ std::vector<RedrawnCurve> redrawCurves(const PipelineOutput& out, const RunConte
   std::vector<RedrawnCurve> redrawn;
   if (!out.faired || !out.contours) return redrawn;
   std::map<int, LineWidths> lines;
-  for (int i = 0; i < static_cast<int>(out.faired->curves.size()) && !context.isCancelled(); ++i) {
+  for (int i = 0; i < std::ssize(out.faired->curves) && !context.isCancelled(); ++i) {
     const TracedCurve& curve = out.faired->curves[i];
     if (!curve.included) continue;
     const Contour& line = out.contours->contours[curve.contour];

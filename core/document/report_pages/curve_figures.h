@@ -6,7 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/document/report_pages/figure.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {

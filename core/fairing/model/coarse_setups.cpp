@@ -55,8 +55,8 @@ std::vector<double> periodicKnots(const std::vector<double>& breaks) {
   const int spans = static_cast<int>(breaks.size()) - 1;
   std::vector<double> knots;
   for (int i = -kCoarseDegree; i <= spans + kCoarseDegree; ++i) {
-    const int turn = i >= 0 ? i / spans : -((spans - 1 - i) / spans);
-    knots.push_back(i == spans ? 1.0 : breaks[i - turn * spans] + turn);
+    const int lap = i >= 0 ? i / spans : -((spans - 1 - i) / spans);
+    knots.push_back(i == spans ? 1.0 : breaks[i - lap * spans] + lap);
   }
   return knots;
 }

@@ -26,8 +26,7 @@ LocalRow curvatureRow(const Jet& r, const SpanRow& basis, int degree) {
   LocalRow row;
   row.fill(Vec2::Zero());
   for (int j = 0; j <= degree; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    row[at] = basis.d[1][at] * first + basis.d[2][at] * second;
+    row[j] = basis.d[1][j] * first + basis.d[2][j] * second;
   }
   return row;
 }
@@ -42,8 +41,7 @@ LocalRow curvatureSlopeRow(const Jet& r, const SpanRow& basis, int degree) {
   LocalRow row;
   row.fill(Vec2::Zero());
   for (int j = 0; j <= degree; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    row[at] = basis.d[1][at] * first + basis.d[2][at] * second + basis.d[3][at] * third;
+    row[j] = basis.d[1][j] * first + basis.d[2][j] * second + basis.d[3][j] * third;
   }
   return row;
 }

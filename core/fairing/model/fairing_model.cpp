@@ -56,14 +56,13 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
   corridorCurvature_.resize(count);
   Eigen::VectorXd corridorGradient(count);
   for (int i = 0; i < count && !setup.check.isCancelled(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const int span = state.arc.places[at].span;
-    const SpanRow basis = setup.basis.row(state.arc.places[at], profile ? 2 : 3);
-    const CurvatureJet& c = state.curvature[at];
-    const Vec2 tangent = state.jets[at][1] / c.speed, normal = leftNormal(tangent);
+    const FairingSample& sample = state.samples[i];
+    const int span = state.arc.places[i].span;
+    const SpanRow basis = setup.basis.row(state.arc.places[i], profile ? 2 : 3);
+    const CurvatureJet& c = sample.curvature;
+    const Vec2 tangent = sample.jet[1] / c.speed, normal = leftNormal(tangent);
     const Unknowns& unknowns = setup.unknowns;
-    LocalRow local =
-        profile ? curvatureRow(state.jets[at], basis, degree) : curvatureSlopeRow(state.jets[at], basis, degree);
+    LocalRow local = profile ? curvatureRow(sample.jet, basis, degree) : curvatureSlopeRow(sample.jet, basis, degree);
     // A sample that is re-located loses what sliding along the curve would change.
     nonlocal_[i] = profile ? c.slope : c.bend;
     for (int j = 0; j <= degree; ++j) {
@@ -72,18 +71,19 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
     unknowns.reduce(span, local, &local_(0, i));
     unknowns.reduce(span, positionRow(normal, basis, degree), &normal_(0, i));
     unknowns.reduce(span, positionRow(tangent, basis, degree), &tangent_(0, i));
-    across_[i] = state.normal[at].dot(normal);
+    across_[i] = sample.normalAtFoot.dot(normal);
     weight_[i] =
         profile ? 1.0 / objective.reference / std::sqrt(count) : std::sqrt(length / count) / objective.reference;
-    lengthTerm_[i] = profile ? weight_[i] * setup.start.length / (length * length) * objective.wanted[at]
+    lengthTerm_[i] = profile ? weight_[i] * setup.start.length / (length * length) * objective.wanted[i]
                              : 0.5 * state.residual[i] / length;
-    const double e = state.distance[at];
-    corridorGradient[i] = corridor.weight * corridor.weight * (e - setup.offsetAt(state.feet[at])) / count;
+    const double e = sample.distance;
+    corridorGradient[i] = corridor.weight * corridor.weight * (e - setup.offsetAt(sample.foot)) / count;
     corridorCurvature_[i] = corridor.weight * corridor.weight / count;
-    if (corridor.barrier > 0.0) {
-      const double room = corridor.bound * corridor.bound - e * e;
-      corridorGradient[i] += corridor.barrier / count * e / room;
-      corridorCurvature_[i] += corridor.barrier / count * (corridor.bound * corridor.bound + e * e) / (room * room);
+    if (corridor.barrier) {
+      const auto [strength, bound] = *corridor.barrier;
+      const double room = bound * bound - e * e;
+      corridorGradient[i] += strength / count * e / room;
+      corridorCurvature_[i] += strength / count * (bound * bound + e * e) / (room * room);
     }
   }
   const double wave = 2.0 * std::numbers::pi / length;
@@ -161,7 +161,7 @@ Eigen::VectorXd FairingModel::cumulativeTransposed(const Eigen::VectorXd& values
 Eigen::VectorXd FairingModel::applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const {
   const int count = setup_->sampleCount();
   Eigen::VectorXd bent(count), result(count);
-  for (int i = 0; i < count; ++i) bent[i] = state_->curvature[i].kappa * normal[i];
+  for (int i = 0; i < count; ++i) bent[i] = state_->samples[i].curvature.kappa * normal[i];
   const Integral sums = cumulative(bent);
   const double lengthChange = -sums.total;
   for (int i = 0; i < count; ++i) {
@@ -181,7 +181,7 @@ FairingModel::Transposed FairingModel::transposed(const Eigen::VectorXd& y) cons
     shift += slide[i];
   }
   Eigen::VectorXd normal = cumulativeTransposed(slide, -length);
-  for (int i = 0; i < count; ++i) normal[i] *= state_->curvature[i].kappa;
+  for (int i = 0; i < count; ++i) normal[i] *= state_->samples[i].curvature.kappa;
   return {weight_.cwiseProduct(y), std::move(normal), shift};
 }
 

@@ -17,6 +17,10 @@ constexpr int kChecksPerSpan = 12, kMostChecks = 400;
 /// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
 constexpr double kMeasured = 0.999;
 constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
+/// A move that is too long is shortened to this part of what is allowed: the deviation is all but proportional to it,
+/// and rounding must not make another round of it. Never to less than a hundredth at once.
+constexpr double kShrinkRoom = 0.9995, kMostShrinking = 0.01;
+constexpr int kMostShrinkings = 60;
 /// Of the extent: control points that differ by less are the same but for rounding.
 constexpr double kSamePeriodic = 1e-8;
 /// What may lie between the places where a distance is measured.
@@ -254,7 +258,7 @@ FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const Fairing
 }
 
 FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired) {
-  if (faired.report.neededMm > 0.0) faired.report.neededMm += setup.claimedMm();
+  if (std::optional<double>& needed = faired.report.neededMm; needed && *needed > 0.0) *needed += setup.claimedMm();
   if (!(setup.seamMm > 0.0)) return faired;
   const auto periodic = fromPeriodic(setup.periodic, setup.original);
   if (periodic && faired.curve == *periodic) {
@@ -292,10 +296,10 @@ double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec
   const std::vector<Vec2> goal = points;
   double share = 1.0;
   // The deviation is all but proportional to the share, so that this ends after one or two rounds.
-  for (int round = 0; round < 60 && !setup.check.isCancelled(); ++round) {
+  for (int round = 0; round < kMostShrinkings && !setup.check.isCancelled(); ++round) {
     const double deviation = largestDeviation(setup, points, true);
     if (deviation <= kMeasured * toleranceMm) return deviation;
-    share *= std::clamp(0.9995 * kMeasured * toleranceMm / deviation, 0.01, 0.9995);
+    share *= std::clamp(kShrinkRoom * kMeasured * toleranceMm / deviation, kMostShrinking, kShrinkRoom);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = setup.points[i] + share * (goal[i] - setup.points[i]);
   }
   points = setup.points;

@@ -12,6 +12,13 @@ constexpr double kSurelyMore = 1.0 + 1e-9;
 
 }  // namespace
 
+std::vector<SpanPlace> FairingState::feet() const {
+  std::vector<SpanPlace> feet;
+  feet.reserve(samples.size());
+  for (const FairingSample& sample : samples) feet.push_back(sample.foot);
+  return feet;
+}
+
 std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObjective& objective,
                                      const FairingCorridor& corridor, std::vector<Vec2> points,
                                      const std::vector<SpanPlace>& feet, double most) {
@@ -22,12 +29,7 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
   auto arc = equalArcPlaces(state.curve, count, setup.closed, setup.check);
   if (!arc) return std::nullopt;
   state.arc = std::move(*arc);
-  const auto size = static_cast<std::size_t>(count);
-  state.jets.resize(size);
-  state.curvature.resize(size);
-  state.feet.resize(size);
-  state.distance.resize(size);
-  state.normal.resize(size);
+  state.samples.reserve(state.arc.places.size());
   state.residual.resize(count);
   const double length = state.arc.length, domain = setup.original.end() - setup.original.start();
   const bool profile = !objective.wanted.empty();
@@ -35,24 +37,24 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
   const double givesUpAt = kSurelyMore * most;
   for (int i = 0; i < count; ++i) {
     if (setup.check.isCancelled()) return std::nullopt;
-    const auto at = static_cast<std::size_t>(i);
-    state.jets[at] = state.curve.at(state.arc.places[at], 4);
-    const Jet& jet = state.jets[at];
+    FairingSample& sample = state.samples.emplace_back();
+    sample.jet = state.curve.at(state.arc.places[i], 4);
+    const Jet& jet = sample.jet;
     if (!(jet[1].norm() > kCuspShare * length / domain)) return std::nullopt;
-    state.curvature[at] = curvatureJet(jet);
-    state.feet[at] = footPoint(setup.reference, jet[0], feet[at]);
-    const Jet foot = setup.reference.at(state.feet[at], 1);
-    state.normal[at] = foot[1].norm() > 0.0 ? leftNormal(foot[1].normalized()) : Vec2(Vec2::Zero());
-    const double e = state.distance[at] = (jet[0] - foot[0]).dot(state.normal[at]);
-    state.residual[i] = profile ? (state.curvature[at].kappa - setup.start.length / length * objective.wanted[at]) /
+    sample.curvature = curvatureJet(jet);
+    sample.foot = footPoint(setup.reference, jet[0], feet[i]);
+    const Jet foot = setup.reference.at(sample.foot, 1);
+    if (foot[1].norm() > 0.0) sample.normalAtFoot = leftNormal(foot[1].normalized());
+    const double e = sample.distance = (jet[0] - foot[0]).dot(sample.normalAtFoot);
+    state.residual[i] = profile ? (sample.curvature.kappa - setup.start.length / length * objective.wanted[i]) /
                                       objective.reference / std::sqrt(count)
-                                : state.curvature[at].slope * std::sqrt(length / count) / objective.reference;
-    const double miss = e - setup.offsetAt(state.feet[at]);
+                                : sample.curvature.slope * std::sqrt(length / count) / objective.reference;
+    const double miss = e - setup.offsetAt(sample.foot);
     state.total += corridor.weight * corridor.weight * miss * miss / count;
-    if (corridor.barrier > 0.0) {
-      const double share = e / corridor.bound;
+    if (corridor.barrier) {
+      const double share = e / corridor.barrier->boundMm;
       if (!(std::abs(share) < 1.0)) return std::nullopt;
-      state.total -= corridor.barrier / count * std::log1p(-share * share);
+      state.total -= corridor.barrier->weight / count * std::log1p(-share * share);
     }
     misfit += state.residual[i] * state.residual[i];
     if (misfit + state.total > givesUpAt) return std::nullopt;

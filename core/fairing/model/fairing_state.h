@@ -22,9 +22,21 @@ struct FairingObjective {
 };
 /// What keeps the curve near the sketch, a function of the signed distance e of each sample.
 struct FairingCorridor {
-  double weight = 0.0;   ///< weight^2 e^2 / M, 1/mm.
-  double barrier = 0.0;  ///< -barrier / M log(1 - (e/bound)^2); 0 = none.
-  double bound = 0.0;
+  /// -weight / M log(1 - (e/boundMm)^2)
+  struct Barrier {
+    double weight = 0.0, boundMm = 0.0;
+  };
+  double weight = 0.0;                  ///< weight^2 e^2 / M, 1/mm.
+  std::optional<Barrier> barrier = {};  ///< Absent: e has no bound.
+};
+
+/// A place of a curve on its way, at equal arc length.
+struct FairingSample {
+  Jet jet;
+  CurvatureJet curvature;
+  SpanPlace foot;                    ///< On the sketched curve.
+  Vec2 normalAtFoot = Vec2::Zero();  ///< Left normal of the sketched curve there.
+  double distance = 0.0;             ///< Signed, from the foot.
 };
 
 /// A curve on its way, with all that the next step needs.
@@ -32,12 +44,9 @@ struct FairingState {
   std::vector<Vec2> points;
   SpanCurve curve;
   EqualArc arc;
-  std::vector<Jet> jets;
-  std::vector<CurvatureJet> curvature;
-  std::vector<SpanPlace> feet;   ///< Foot points of the samples on the sketched curve.
-  std::vector<double> distance;  ///< Signed distances of the samples.
-  std::vector<Vec2> normal;      ///< Left normals of the sketched curve at the feet.
-  Eigen::VectorXd residual;
+  std::vector<FairingSample> samples;
+  Eigen::VectorXd residual;  ///< Of the samples.
+  std::vector<SpanPlace> feet() const;
   double misfit = 0.0, total = 0.0;  ///< Sum of squared residuals; the same with the corridor.
 };
 /// Absent when the curve collapses (a vanishing derivative), is not finite or leaves the corridor of the barrier, and

@@ -16,6 +16,10 @@ constexpr double kFewestBlocks = 40.0;
 constexpr double kPointsPerBlock = 3.0;
 /// Points that lie off by more than so many standard deviations belong to something else.
 constexpr double kOutlier = 6.0;
+/// [px] The noise of points on a perfect page, below which none counts as an outlier (kLeastNoisePx of the fair fit).
+constexpr double kNoiseFloorPx = 0.02;
+/// Of the extent: a point whose foot lies farther along the curve than this is beyond its end.
+constexpr double kBeyondEnd = 1e-3;
 /// A block with less than this share of its points is none.
 constexpr double kLeastShare = 0.3;
 
@@ -46,7 +50,7 @@ std::vector<Foot> feetOf(const FairingSetup& setup, const std::vector<Vec2>& poi
     const Jet jet = setup.reference.at(place, 1);
     if (!(jet[1].norm() > 0.0)) continue;
     const Vec2 tangent = jet[1].normalized(), away = p - jet[0];
-    if (std::abs(away.dot(tangent)) > 1e-3 * setup.extent) continue;
+    if (std::abs(away.dot(tangent)) > kBeyondEnd * setup.extent) continue;
     feet.push_back({setup.sampleAt(place), away.dot(leftNormal(tangent))});
   }
   return feet;
@@ -56,7 +60,7 @@ void dropOutliers(std::vector<Foot>& feet, double pixelMm) {
   std::vector<double> sizes;
   for (const Foot& f : feet) sizes.push_back(std::abs(f.distance));
   if (sizes.empty()) return;
-  const double most = kOutlier * std::max(robustSigma(sizes), 0.02 * pixelMm);
+  const double most = kOutlier * std::max(robustSigma(sizes), kNoiseFloorPx * pixelMm);
   std::erase_if(feet, [&](const Foot& f) { return std::abs(f.distance) > most; });
 }
 
@@ -112,15 +116,17 @@ std::vector<double> LineBlocks::offsets(const FairingSetup& setup) const {
 }
 
 double LineBlocks::misfit(const FairingSetup& setup, const FairingState& state) const {
+  const auto& samples = state.samples;
   std::vector<double> at;
-  for (const SpanPlace& foot : state.feet) at.push_back(setup.sampleAt(foot));
+  for (const FairingSample& sample : samples) at.push_back(setup.sampleAt(sample.foot));
   double sum = 0.0;
   std::size_t next = 1;
   for (const Block& block : blocks) {
     while (next + 1 < at.size() && at[next] < block.sample) ++next;
     const double gap = at[next] - at[next - 1];
     const double share = gap > 0.0 ? std::clamp((block.sample - at[next - 1]) / gap, 0.0, 1.0) : 0.5;
-    const double distance = state.distance[next - 1] + share * (state.distance[next] - state.distance[next - 1]);
+    const double before = samples[next - 1].distance, after = samples[next].distance;
+    const double distance = before + share * (after - before);
     sum += (distance - block.distance) * (distance - block.distance);
   }
   return sum;

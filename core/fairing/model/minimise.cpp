@@ -24,14 +24,18 @@ constexpr LevenbergOptions kFairingSteps{.success = 8.0,
                                          .smallStepsDamped = 4,
                                          .negligible = kNoMisfit};
 
+/// Of the way to the bound that one step may go, so that the barrier stays finite (interior point).
+constexpr double kBarrierShare = 0.95;
+
 /// The largest share of a step that keeps every sample's distance within the bound of the barrier, by the linear model.
 double shareWithin(const FairingCorridor& corridor, const FairingState& state, const Eigen::VectorXd& change) {
-  if (!(corridor.barrier > 0.0)) return 1.0;
+  if (!corridor.barrier) return 1.0;
+  const double bound = corridor.barrier->boundMm;
   double share = 1.0;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
-    const double e = state.distance[i], c = change[i];
-    const double room = c > 0.0 ? corridor.bound - e : corridor.bound + e;
-    if (std::abs(c) > 0.0) share = std::min(share, 0.95 * room / std::abs(c));
+    const double e = state.samples[i].distance, c = change[i];
+    const double room = c > 0.0 ? bound - e : bound + e;
+    if (std::abs(c) > 0.0) share = std::min(share, kBarrierShare * room / std::abs(c));
   }
   return share;
 }
@@ -53,7 +57,7 @@ class FairingProblem final : public LevenbergProblem {
     std::vector<Vec2> points = state_.points;
     setup_.unknowns.move(share * *step, points);
     promised_ = -2.0 * share * model_->gradient().dot(*step);
-    trial_ = evaluate(setup_, objective_, corridor_, std::move(points), state_.feet, state_.total);
+    trial_ = evaluate(setup_, objective_, corridor_, std::move(points), state_.feet(), state_.total);
     return trial_ ? trial_->total : std::numeric_limits<double>::infinity();
   }
   double promised() const override { return promised_; }

@@ -99,7 +99,7 @@ void TargetSteps::follow(double mostMm) {
 }
 
 std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& from, const FairingLimits& limits) const {
-  const FairingCorridor corridor{weight, 0.0, 0.0};
+  const FairingCorridor corridor{.weight = weight};
   auto state = evaluate(setup_, objective_, corridor, from.points, from.feet);
   if (!state) return std::nullopt;
   FairingLimits damped = limits;
@@ -116,7 +116,7 @@ std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& fr
   step.deviationMm = largestDeviation(setup_, run.state.points, true);
   step.extrema = countedExtrema(*curve, setup_.closed, setup_.check);
   step.points = std::move(run.state.points);
-  step.feet = std::move(run.state.feet);
+  step.feet = run.state.feet();
   return step;
 }
 

@@ -11,7 +11,7 @@
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/model/fairing_state.h"
 #include "core/fairing/model/minimise.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 

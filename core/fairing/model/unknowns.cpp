@@ -20,13 +20,12 @@ Eigen::MatrixXd endConditions(const SpanBasis& basis, const SpanCurve& curve, co
   const int count = hold.curvature ? 5 : hold.tangent ? 3 : 2;
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(count, 2 * (p + 1));
   for (int j = 0; j <= p; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    c(0, 2 * j) = c(1, 2 * j + 1) = row.d[0][at];
+    c(0, 2 * j) = c(1, 2 * j + 1) = row.d[0][j];
     if (hold.curvature) {
-      c(2, 2 * j) = c(3, 2 * j + 1) = row.d[1][at];
-      c.block(4, 2 * j, 1, 2) = row.d[2][at] * n.transpose();
+      c(2, 2 * j) = c(3, 2 * j + 1) = row.d[1][j];
+      c.block(4, 2 * j, 1, 2) = row.d[2][j] * n.transpose();
     } else if (hold.tangent) {
-      c.block(2, 2 * j, 1, 2) = row.d[1][at] * n.transpose();
+      c.block(2, 2 * j, 1, 2) = row.d[1][j] * n.transpose();
     }
   }
   for (int i = 0; i < count; ++i) {

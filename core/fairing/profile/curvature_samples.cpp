@@ -14,12 +14,23 @@ constexpr int kCurvaturePlaces = 4;
 
 }  // namespace
 
+std::vector<double> CurvatureSamples::perimeters() const {
+  std::vector<double> all;
+  for (int i = 0; i < count(); ++i) all.push_back(perimeter(i));
+  return all;
+}
+
+std::vector<CurvatureSample> CurvatureSamples::places() const {
+  std::vector<CurvatureSample> all;
+  for (int i = 0; i < count(); ++i) all.push_back({perimeter(i), kappa[i]});
+  return all;
+}
+
 /// Plain B-splines take the fast way; what it refuses, the general one.
 CurvatureSamples sampledCurvature(const NurbsCurve& curve, int least) {
   CurvatureSamples result;
   const int spans = static_cast<int>(curve.breaks().size()) - 1;
   const int count = std::max(least, kCurvaturePlaces * spans + 1);
-  for (int i = 0; i < count; ++i) result.perimeter.push_back(static_cast<double>(i) / (count - 1));
   result.kappa.assign(count, 0.0);
   if (!curve.isRational() && curve.degree() >= 2 && curve.degree() <= kMaxDegree) {
     const SpanBasis basis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 

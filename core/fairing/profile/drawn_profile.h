@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/base/result.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 

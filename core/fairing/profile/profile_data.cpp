@@ -58,9 +58,8 @@ double similarityToSketch(const NurbsCurve& modified, const NurbsCurve& sketched
   const int count =
       std::max<int>(static_cast<int>(modified.breaks().size()), static_cast<int>(sketched.breaks().size()));
   const auto dataOf = [&](const NurbsCurve& curve) {
-    CurvatureSamples samples = sampledCurvature(curve, std::max(kLeastCompared, 4 * count + 1));
-    return profileData(std::move(samples.perimeter), std::move(samples.kappa), extent(curve),
-                       TargetQuantity::Curvature);
+    const CurvatureSamples samples = sampledCurvature(curve, std::max(kLeastCompared, 4 * count + 1));
+    return profileData(samples.perimeters(), samples.kappa, extent(curve), TargetQuantity::Curvature);
   };
   const ProfileData a = dataOf(modified), b = dataOf(sketched);
   return b.bendsBothWays ? similarity(a.kappa, b.kappa) : similarity(a.radius, b.radius);

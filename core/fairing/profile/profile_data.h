@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 

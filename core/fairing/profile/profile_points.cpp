@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace batten {
 namespace {
@@ -31,7 +32,7 @@ class PointsOnTarget {
     places_.push_back(0.0);
     if (!closed) places_.push_back(1.0);
     for (const double split : splits) addPlace(split, kLeastApart);
-    addTurns();
+    addExtrema();
     if (places_.size() < 2) places_.push_back(0.5);
     lay();
   }
@@ -59,10 +60,12 @@ class PointsOnTarget {
   /// interval that turns too much or too little. False where there is no room.
   bool addWorst() {
     const bool isNear = isMet(off_);
-    double worst = 0.0, share = -1.0;
+    double worst = 0.0;
+    std::optional<double> share;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       const double end = k + 1 < places_.size() ? places_[k + 1] : 1.0;
-      double sum = 0.0, highest = 0.0, place = -1.0;
+      double sum = 0.0, highest = 0.0;
+      std::optional<double> place;
       for (int i = 0; i <= kCompared; ++i) {
         const double f = shareAt(i);
         if (f < places_[k] + kLeastApart || f > end - kLeastApart) continue;
@@ -70,10 +73,10 @@ class PointsOnTarget {
         if (std::abs(off_[i]) > highest) highest = std::abs(off_[i]), place = f;
       }
       const double badness = isNear ? std::abs(sum) : highest;
-      if (place >= 0.0 && badness > worst) worst = badness, share = place;
+      if (place && badness > worst) worst = badness, share = place;
     }
-    if (share < 0.0) return false;
-    places_.insert(std::upper_bound(places_.begin(), places_.end(), share), share);
+    if (!share) return false;
+    places_.insert(std::upper_bound(places_.begin(), places_.end(), *share), *share);
     lay();
     return true;
   }
@@ -93,7 +96,7 @@ class PointsOnTarget {
   }
 
   /// A place wherever the target turns back by more than what rounding makes of a constant one.
-  void addTurns() {
+  void addExtrema() {
     const double flat = kFlatShare * largest_;
     int farthest = 0;
     double direction = 0.0;

@@ -9,7 +9,7 @@
 namespace batten {
 namespace {
 
-/// Cubic pieces that stand for a polynomial of degree 6 or less, exact to 1e-6 of its range.
+/// Cubic pieces that stand for a target polynomial, exact to 1e-6 of its range.
 constexpr int kNodesPerPart = 24;
 
 /// From split to split: samples over 0..1 of the part.

@@ -123,7 +123,7 @@ class NeededFairing {
                                        const std::vector<SpanPlace>& feet) {
     const double weight =
         std::sqrt(setup_.start.length) * std::pow(2.0 * std::numbers::pi / wave, 3.0) / objective_.reference;
-    const FairingCorridor corridor{weight, 0.0, 0.0};
+    const FairingCorridor corridor{.weight = weight};
     auto state = evaluate(setup_, objective_, corridor, points, feet);
     if (!state) return std::nullopt;
     FairingRun run = minimise(setup_, objective_, corridor, std::move(*state), kLimits, context_);
@@ -147,7 +147,7 @@ class NeededFairing {
       auto state = smoothed(wave, points, feet);
       if (!state) break;
       const double misfit = blocks_.misfit(setup_, *state), degrees = freedom(wave);
-      if (noise_ <= 0.0) {
+      if (!(noise_ > 0.0)) {
         if (count - degrees < 6.0) continue;
         noise_ = std::max(misfit / (count - degrees), leastNoise_);
       }
@@ -159,9 +159,9 @@ class NeededFairing {
         if (score > found[best].score + 3.0 * kExtremumCost) break;
       }
       points = std::move(state->points);
-      feet = std::move(state->feet);
+      feet = state->feet();
     }
-    report_.noiseMm = std::sqrt(noise_);
+    if (noise_ > 0.0) report_.noiseMm = std::sqrt(noise_);
     if (!found.empty()) found.resize(best + 1);
     for (Smoothed& one : found) one.extrema = extremaOf(one.points);
     return found;
@@ -190,7 +190,7 @@ class NeededFairing {
     const auto mayGoOn = [&] { return work < kMostSearchWork && !context_.isCancelled(); };
     const auto attempt = [&](std::size_t level) {
       auto trial =
-          search.solve(levels[level].structure, (*smooth)->points, std::max(levels[level].estimateMm, least), 0.0, 0.0);
+          search.solve(levels[level].structure, (*smooth)->points, std::max(levels[level].estimateMm, least), {});
       report_.iterations += trial.iterations;
       work += static_cast<double>(trial.iterations) * static_cast<double>(start.points.size());
       const double allowed = kExtremumCost + kFurtherCost * static_cast<double>(level - 1);
@@ -225,7 +225,7 @@ class NeededFairing {
   const FairingParams& params_;
   const RunContext& context_;
   LineBlocks blocks_;
-  double leastNoise_ = 0.0, noise_ = 0.0;  ///< [mm^2] Of a block.
+  double leastNoise_ = 0.0, noise_ = 0.0;  ///< [mm^2] Of a block; the noise 0 until it is measured.
   FairingObjective objective_;
   FairingReport report_;
 };

@@ -28,7 +28,7 @@ std::string millimetres(double mm) { return significantText(mm, 3) + " mm"; }
 
 std::string extremaText(int count) {
   if (count == 0) return "monotone curvature";
-  return count == 1 ? "1 curvature extremum" : std::to_string(count) + " curvature extrema";
+  return counted(count, "curvature extremum", "curvature extrema");
 }
 
 class MonotoneFairing {
@@ -44,7 +44,7 @@ class MonotoneFairing {
                        "The curve has a cusp and was not changed.");
     }
     if (!params_.keptAt.empty()) return byPlace();
-    return params_.keepExtrema == kKeepSignificant ? asFewAsCan() : byCount();
+    return params_.keepExtrema.count ? byCount(*params_.keepExtrema.count) : asFewAsCan();
   }
 
  private:
@@ -63,8 +63,7 @@ class MonotoneFairing {
 
   /// What a number of extrema needs is the least of what all ways need, whatever the tolerance. Of the curves within
   /// the tolerance the one that turns back no more often than asked is taken, of these the nearest.
-  Result<FairedCurve> byCount() {
-    const int asked = params_.keepExtrema;
+  Result<FairedCurve> byCount(int asked) {
     std::vector<StructureCandidate> reached;
     if (auto nearest = candidates_.nearest(asked)) reached.push_back(std::move(*nearest));
     const bool isSketch = !reached.empty() && !(reached.front().deviationMm > 0.0);
@@ -93,7 +92,7 @@ class MonotoneFairing {
     const int least = setup_.closed ? 4 : 0;
     if (countedExtrema(setup_.original, setup_.closed, context_) > least) {
       // Where none has fewer extrema, only a nearer one is better.
-      const bool isLeast = best.extrema <= least && best.turns <= least;
+      const bool isLeast = best.extrema <= least && best.allExtrema <= least;
       offer(targetCurves(kTargetReach * (isLeast ? best.deviationMm : params_.toleranceMm)), best);
     }
     if (context_.isCancelled()) return cancelled();
@@ -127,29 +126,57 @@ class MonotoneFairing {
     FairingReport report;
     const int sketched = countedExtrema(setup_.original, setup_.closed, context_);
     report.why = found.deviationMm > 0.0 ? Termination::Converged : Termination::FixedPoint;
-    if (found.deviationMm == 0.0 && sketched > 0 && params_.keptAt.empty() && params_.keepExtrema == kKeepSignificant)
-      report.note = "No extremum can be removed within the tolerance.";
+    if (found.deviationMm == 0.0 && sketched > 0 && params_.keptAt.empty() && !params_.keepExtrema.count)
+      report.note = "No extremum can be removed within the tolerance." + heldEndsNote(sketched - 1);
     report.iterations = iterations_ + candidates_.iterations();
     report.neededMm = needed.value_or(found.deviationMm);
     return asFaired(setup_, found, std::move(report));
+  }
+
+  bool hasHeldEnds() const {
+    const EndHold free;
+    return !setup_.closed && (params_.startHold != free || params_.endHold != free);
+  }
+
+  /// With held ends, what so many extrema would take; it may be that no tolerance is enough.
+  std::string heldEndsNote(int extrema) const {
+    FairingParams one = params_;
+    one.keepExtrema.count = extrema;
+    if (!hasHeldEnds() || validate(one)) return {};
+    const auto asked = fairMonotone(setup_.original, setup_.closed, one, context_);
+    return asked && !asked->report.withinTolerance ? ' ' + asked->report.note : std::string();
+  }
+
+  /// [mm] What the extrema that are asked for would take if no end were held.
+  std::optional<double> neededWithFreeEnds() const {
+    if (!hasHeldEnds() || context_.isCancelled()) return std::nullopt;
+    FairingParams free = params_;
+    free.startHold = free.endHold = {};
+    const auto faired = fairMonotone(setup_.original, setup_.closed, free, context_);
+    if (!faired || !(faired->report.neededMm.value_or(0.0) > 0.0)) return std::nullopt;
+    return faired->report.neededMm;
   }
 
   Result<FairedCurve> limited(const StructureCandidate& best, std::optional<double> needed) {
     auto result = done(best);
     if (!result) return result;
     FairingReport& report = result->report;
-    const std::string kept =
-        report.extremaAfter == 1 ? "1 extremum was kept." : std::to_string(report.extremaAfter) + " extrema were kept.";
-    const bool byPlace = !params_.keptAt.empty();
-    const std::string asked = byPlace ? "these extrema" : extremaText(params_.keepExtrema);
+    const std::string kept = counted(report.extremaAfter, "extremum was kept.", "extrema were kept.");
+    // By place, or by number: as few as can be are never too few.
+    const std::optional<int> count = params_.keptAt.empty() ? params_.keepExtrema.count : std::nullopt;
+    const std::string asked = count ? extremaText(*count) : "these extrema";
     report.why = needed ? Termination::ToleranceLimited : Termination::NoProgress;
     report.withinTolerance = false;
-    report.neededMm = needed.value_or(0.0);
+    report.neededMm = needed;
     report.note = needed ? "A curve with " + asked + " needs a tolerance of " +
                                millimetres(*needed + setup_.claimedMm()) + "; " + kept
                          : "No curve with " + asked + " was found; " + kept;
-    if (!needed && setup_.closed && params_.keepExtrema < 4 && !byPlace)
+    if (!needed && setup_.closed && count && *count < 4)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;
+    if (const auto free = needed ? std::nullopt : neededWithFreeEnds())
+      report.note = "No curve with " + asked +
+                    " keeps what is held at the ends; with free ends it needs a tolerance of " + millimetres(*free) +
+                    "; " + kept;
     return result;
   }
 

@@ -13,7 +13,7 @@ constexpr double kHopeless = 1e6;
 }  // namespace
 
 MonotoneSearch::Program::Program(const FairingSetup& setup, const std::vector<SpanPlace>& places,
-                                 const std::vector<Jet>& jets, const RunContext& context)
+                                 const std::vector<Sample>& samples, const RunContext& context)
     : setup_(setup), context_(context) {
   program_.b = Eigen::VectorXd::Zero(setup.unknowns.count());
   program_.ridge = 1e-12;
@@ -24,7 +24,8 @@ MonotoneSearch::Program::Program(const FairingSetup& setup, const std::vector<Sp
   for (std::size_t i = 0; i < places.size() && !context.isCancelled(); ++i) {
     const SpanPlace& place = places[i];
     spans_.push_back(place.span);
-    setup.unknowns.reduce(place.span, curvatureSlopeRow(jets[i], setup.basis.row(place, 3), setup.basis.degree()),
+    setup.unknowns.reduce(place.span,
+                          curvatureSlopeRow(samples[i].jet, setup.basis.row(place, 3), setup.basis.degree()),
                           slopes_.data() + static_cast<std::ptrdiff_t>(i) * stride);
   }
 }

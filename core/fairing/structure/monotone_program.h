@@ -13,7 +13,7 @@ namespace batten {
 /// One quadratic program of the search: squares and bounds over the free coordinates of the control points.
 class MonotoneSearch::Program {
  public:
-  Program(const FairingSetup& setup, const std::vector<SpanPlace>& places, const std::vector<Jet>& jets,
+  Program(const FairingSetup& setup, const std::vector<SpanPlace>& places, const std::vector<Sample>& samples,
           const RunContext& context);
 
   /// A row over the unknowns of one or two spans. Refers to the program: holds until the next call of the function that

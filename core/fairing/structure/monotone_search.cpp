@@ -30,10 +30,13 @@ constexpr double kLateShare = 0.6;
 constexpr double kMargin = 1e-3, kMarginGrowth = 2.5;
 /// Share of the least move that the last step may move the curve.
 constexpr double kSettled = 5e-3;
+/// Of the bound: places whose distance is less cannot reach it in one step.
+constexpr double kNearBound = 0.25;
+/// The unit of distances, as a part of the estimated move and at least of the least one: the squares of a program then
+/// are about 1 where the curve is off by a tenth of its move.
+constexpr double kUnitShare = 0.1, kLeastUnit = 0.05;
 /// No step moves a control point by more than this, in the larger of the least and the estimated move.
 constexpr double kLongestStep = 1.0;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<SpanPlace> checkPlaces(const SpanBasis& basis, int perSpan) {
   // Below degree 5 the slope of the curvature jumps at knots: both sides count.
@@ -49,16 +52,10 @@ std::vector<SpanPlace> checkPlaces(const SpanBasis& basis, int perSpan) {
 
 }  // namespace
 
-/// The curve on its way, at the places.
+/// The curve on its way.
 struct MonotoneSearch::State {
   std::vector<Vec2> points;
-  std::vector<CurvatureJet> curvature;
-  std::vector<double> weight;  ///< Arc length that a place stands for, in mean spans.
-  std::vector<double> step;    ///< Arc length to the next place [mm].
-  std::vector<SpanPlace> feet;
-  std::vector<double> distance, slide;
-  std::vector<Vec2> normal, tangent;  ///< Of the sketch at the feet.
-  std::vector<Jet> jets;
+  std::vector<Sample> samples;
   bool valid = false;
 };
 
@@ -75,8 +72,8 @@ MonotoneSearch::MonotoneSearch(const FairingSetup& setup, double leastMoveMm, co
   double s = 0.0, low = 0.0, high = 0.0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     s_.push_back(s);
-    kappa_.push_back(state.curvature[i].kappa);
-    s += state.step[i];
+    kappa_.push_back(state.samples[i].curvature.kappa);
+    s += state.samples[i].step;
     low = i == 0 ? kappa_[i] : std::min(low, kappa_[i]);
     high = i == 0 ? kappa_[i] : std::max(high, kappa_[i]);
   }
@@ -97,30 +94,29 @@ MonotoneSearch::State MonotoneSearch::evaluate(const std::vector<Vec2>& points,
   const double meanSpeed = setup_.start.length / (setup_.original.end() - setup_.original.start());
   for (int i = 0; i < count; ++i) {
     if (context_.isCancelled()) return state;
-    const Jet jet = curve.at(places_[at(i)], 4);
+    const Jet jet = curve.at(places_[i], 4);
     if (!(jet[1].norm() > kCuspShare * meanSpeed) || !jet[0].allFinite()) return state;
-    state.jets.push_back(jet);
-    state.curvature.push_back(curvatureJet(jet));
-    const SpanPlace foot = footPoint(setup_.reference, jet[0], feet[at(i)]);
-    const Jet base = setup_.reference.at(foot, 1), same = start_.at(places_[at(i)], 0);
-    const Vec2 tangent = base[1].norm() > 0.0 ? Vec2(base[1].normalized()) : Vec2(Vec2::UnitX());
-    state.feet.push_back(foot);
-    state.tangent.push_back(tangent);
-    state.normal.push_back(leftNormal(tangent));
-    state.distance.push_back((jet[0] - base[0]).dot(state.normal.back()));
-    state.slide.push_back((jet[0] - same[0]).dot(tangent));
+    const SpanPlace foot = footPoint(setup_.reference, jet[0], feet[i]);
+    const Jet base = setup_.reference.at(foot, 1), same = start_.at(places_[i], 0);
+    Sample& sample = state.samples.emplace_back();
+    sample.jet = jet;
+    sample.curvature = curvatureJet(jet);
+    sample.foot = foot;
+    sample.tangent = base[1].norm() > 0.0 ? Vec2(base[1].normalized()) : Vec2(Vec2::UnitX());
+    sample.normal = leftNormal(sample.tangent);
+    sample.distance = (jet[0] - base[0]).dot(sample.normal);
+    sample.slide = (jet[0] - same[0]).dot(sample.tangent);
   }
   const double unit = setup_.start.length / setup_.basis.spanCount();
-  state.step.assign(at(count), 0.0);
-  state.weight.assign(at(count), 0.0);
   for (int i = 0; i < (setup_.closed ? count : count - 1); ++i) {
     const int next = (i + 1) % count;
     // Corrected trapezoid of the speed; the last place of a span belongs to the next one's begin where they coincide.
-    const SpanPlace &a = places_[at(i)], &b = places_[at(next)];
+    const SpanPlace &a = places_[i], &b = places_[next];
     const double width = (b.span == a.span ? b.tau - a.tau : 1.0 - a.tau + b.tau) * setup_.basis.width(a.span);
-    state.step[at(i)] = 0.5 * width * (state.curvature[at(i)].speed + state.curvature[at(next)].speed);
-    state.weight[at(i)] += 0.5 * state.step[at(i)] / unit;
-    state.weight[at(next)] += 0.5 * state.step[at(i)] / unit;
+    Sample &from = state.samples[i], &to = state.samples[next];
+    from.step = 0.5 * width * (from.curvature.speed + to.curvature.speed);
+    from.weight += 0.5 * from.step / unit;
+    to.weight += 0.5 * from.step / unit;
   }
   state.valid = true;
   return state;
@@ -130,15 +126,15 @@ std::vector<MonotoneSearch::Window> MonotoneSearch::windows(const CurvatureStruc
   std::vector<Window> result;
   const int count = static_cast<int>(places_.size()), extrema = static_cast<int>(structure.extrema.size());
   for (int j = 0; j < extrema; ++j) {
-    const int here = structure.extrema[at(j)].sample;
-    int before = j > 0 ? structure.extrema[at(j - 1)].sample : -1,
-        after = j + 1 < extrema ? structure.extrema[at(j + 1)].sample : count;
+    const int here = structure.extrema[j].sample;
+    int before = j > 0 ? structure.extrema[j - 1].sample : -1,
+        after = j + 1 < extrema ? structure.extrema[j + 1].sample : count;
     if (setup_.closed && j == 0) before = structure.extrema.back().sample - count;
     if (setup_.closed && j + 1 == extrema) after = structure.extrema.front().sample + count;
     const int left = std::max((here - before) / 4, here - before > 3 ? 1 : 0);
     const int right = std::max((after - here) / 4, after - here > 3 ? 1 : 0);
     const int half = std::min(left, right);
-    Window window{here - half, here + half, structure.extrema[at(j)].maximum};
+    Window window{here - half, here + half, structure.extrema[j].maximum};
     if (!setup_.closed) {
       window.low = std::max(window.low, 0);
       window.high = std::min(window.high, count - 1);
@@ -150,11 +146,12 @@ std::vector<MonotoneSearch::Window> MonotoneSearch::windows(const CurvatureStruc
 
 void MonotoneSearch::recentre(CurvatureStructure& structure, const std::vector<Window>& windows,
                               const State& state) const {
+  const auto kappaAt = [&](int i) { return state.samples[wrapped(i)].curvature.kappa; };
   for (std::size_t j = 0; j < windows.size(); ++j) {
     const double sign = windows[j].maximum ? 1.0 : -1.0;
     int best = windows[j].low;
     for (int i = windows[j].low; i <= windows[j].high; ++i) {
-      if (sign * state.curvature[at(wrapped(i))].kappa > sign * state.curvature[at(wrapped(best))].kappa) best = i;
+      if (sign * kappaAt(i) > sign * kappaAt(best)) best = i;
     }
     // An extremum in the middle of its window is left there, or two of them would swing to and fro.
     const int centre = (windows[j].low + windows[j].high) / 2, half = (windows[j].high - windows[j].low) / 2;
@@ -169,18 +166,19 @@ void MonotoneSearch::addDistance(Program& program, const State& state, const Sca
     const SpanRow basis = setup_.basis.row(places_[i], 0);
     const auto along = [&](const Vec2& direction) {
       row.fill(Vec2::Zero());
-      for (int j = 0; j <= degree; ++j) row[at(j)] = basis.d[0][at(j)] * direction;
+      for (int j = 0; j <= degree; ++j) row[j] = basis.d[0][j] * direction;
       return program.localRow(places_[i].span, row);
     };
-    const double w = state.weight[i] / (scales.distance * scales.distance);
-    const Program::Row normal = along(state.normal[i]);
-    program.addSquare(normal, state.distance[i], w);
+    const Sample& sample = state.samples[i];
+    const double w = sample.weight / (scales.distance * scales.distance);
+    const Program::Row normal = along(sample.normal);
+    program.addSquare(normal, sample.distance, w);
     // Places far inside the bound cannot reach it in one step, and every second one is dense enough.
-    if (scales.bound > 0.0 && i % 2 == 0 && std::abs(state.distance[i]) >= 0.25 * scales.bound) {
-      program.addBound(normal, -1.0, state.distance[i] - scales.bound);
-      program.addBound(normal, 1.0, -scales.bound - state.distance[i]);
+    if (scales.bound && i % 2 == 0 && std::abs(sample.distance) >= kNearBound * *scales.bound) {
+      program.addBound(normal, -1.0, sample.distance - *scales.bound);
+      program.addBound(normal, 1.0, -*scales.bound - sample.distance);
     }
-    program.addSquare(along(state.tangent[i]), state.slide[i], kSlideShare * w);
+    program.addSquare(along(sample.tangent), sample.slide, kSlideShare * w);
   }
 }
 
@@ -190,10 +188,10 @@ void MonotoneSearch::addBend(Program& program, const State& state, const Scales&
   const int count = static_cast<int>(places_.size());
   for (int i = 0; i < (setup_.closed ? count : count - 1) && !context_.isCancelled(); ++i) {
     const int next = (i + 1) % count;
-    const double step = state.step[at(i)];
+    const double step = state.samples[i].step;
     if (!(step > 1e-9 * unit)) continue;
     const Program::Row row = program.difference(i, next);
-    const double change = state.curvature[at(next)].slope - state.curvature[at(i)].slope;
+    const double change = state.samples[next].curvature.slope - state.samples[i].curvature.slope;
     program.addSquare(row, change, lambda / (step * unit));
   }
 }
@@ -202,7 +200,7 @@ void MonotoneSearch::addSigns(Program& program, const State& state, const Curvat
                               const Scales& scales) const {
   const std::vector<Window> all = windows(structure);
   const int count = static_cast<int>(places_.size());
-  const auto slope = [&](int i) { return state.curvature[at(wrapped(i))].slope; };
+  const auto slope = [&](int i) { return state.samples[wrapped(i)].curvature.slope; };
   const auto rising = [&](int i, double sign, double margin) {
     program.addBound(program.slope(wrapped(i)), sign, margin - sign * slope(i));
   };
@@ -231,28 +229,30 @@ void MonotoneSearch::addSigns(Program& program, const State& state, const Curvat
 }
 
 MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, const std::vector<Vec2>& start,
-                                              double estimateMm, double boundMm, double giveUpMm) const {
+                                              double estimateMm, const Limits& limits) const {
   Outcome outcome;
   outcome.points = start;
   State state = evaluate(start, sketched_);
   if (!state.valid) return outcome;
   const auto [low, high] = std::minmax_element(kappa_.begin(), kappa_.end());
-  Scales scales{std::max(0.05 * leastMoveMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length,
-                boundMm};
+  Scales scales{std::max(kLeastUnit * leastMoveMm_, kUnitShare * estimateMm),
+                kMargin * (*high - *low) / setup_.start.length, limits.boundMm};
   int stuck = 0;  // programs in a row
   for (; outcome.iterations < kIterations && !context_.isCancelled(); ++outcome.iterations) {
-    Program program(setup_, places_, state.jets, context_);
+    Program program(setup_, places_, state.samples, context_);
     if (context_.isCancelled()) break;
     addDistance(program, state, scales);
     addBend(program, state, scales);
     addSigns(program, state, structure, scales);
     if (context_.isCancelled()) break;
     const std::vector<Window> used = windows(structure);
-    const auto solution = program.solve(boundMm > 0.0);
+    const auto solution = program.solve(limits.boundMm.has_value());
     stuck = solution && solution->isStuck ? stuck + 1 : 0;
     if (!solution || stuck >= kMostStuck) break;
     double moved = 0.0;
     std::vector<Vec2> points = state.points;
+    std::vector<SpanPlace> feet;
+    for (const Sample& sample : state.samples) feet.push_back(sample.foot);
     setup_.unknowns.move(solution->step, points);
     for (std::size_t i = 0; i < points.size(); ++i) moved = std::max(moved, (points[i] - state.points[i]).norm());
     // The linear model of the curvature holds for small moves only.
@@ -262,17 +262,17 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
       for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = state.points[i] + share * (points[i] - state.points[i]);
     }
-    State next = evaluate(points, state.feet);
+    State next = evaluate(points, feet);
     if (!next.valid) break;
     state = std::move(next);
     if (outcome.iterations < kFreeIterations) recentre(structure, used, state);
-    const auto isFar = [giveUpMm](double distance) { return std::abs(distance) > giveUpMm; };
-    if (giveUpMm > 0.0 && std::any_of(state.distance.begin(), state.distance.end(), isFar)) {
+    const auto isFar = [&](const Sample& sample) { return std::abs(sample.distance) > *limits.giveUpMm; };
+    if (limits.giveUpMm && std::any_of(state.samples.begin(), state.samples.end(), isFar)) {
       outcome.found = false;
       break;
     }
     const bool settled = moved < kSettled * std::max(leastMoveMm_, estimateMm);
-    if (denseTurns(state.points) == static_cast<int>(structure.extrema.size())) {
+    if (countAllExtrema(state.points) == std::ssize(structure.extrema)) {
       outcome.found = true;
       outcome.points = state.points;
       if (settled) break;
@@ -284,7 +284,7 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
   return outcome;
 }
 
-int MonotoneSearch::denseTurns(const std::vector<Vec2>& points) const {
+int MonotoneSearch::countAllExtrema(const std::vector<Vec2>& points) const {
   const SpanCurve curve(setup_.basis, points);
   std::vector<double> kappa;
   for (const SpanPlace& place : checkPlaces(setup_.basis, kPlacesPerSpan * kDenseFactor)) {

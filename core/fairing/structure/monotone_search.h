@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -30,23 +31,37 @@ class MonotoneSearch {
     double deviationMm = 0.0;  ///< From the sketch, both ways.
     int iterations = 0;
   };
+  /// Of the distance from the sketch.
+  struct Limits {
+    std::optional<double> boundMm = {};   ///< No curve goes farther.
+    std::optional<double> giveUpMm = {};  ///< A curve that goes farther is not looked for to its end (not found).
+  };
   /// @param estimateMm about how far the curve will move: scales the problem.
-  /// @param boundMm > 0: the distance from the sketch is bounded.
-  /// @param giveUpMm > 0: a curve that goes farther than this is not looked for to its end (not found).
-  Outcome solve(CurvatureStructure structure, const std::vector<Vec2>& start, double estimateMm, double boundMm,
-                double giveUpMm) const;
+  Outcome solve(CurvatureStructure structure, const std::vector<Vec2>& start, double estimateMm,
+                const Limits& limits) const;
 
-  /// Turns of the curvature of the curve over `points`, sampled densely.
-  int denseTurns(const std::vector<Vec2>& points) const;
+  /// Extrema of the curvature of the curve over `points`, sampled densely: all, however small.
+  int countAllExtrema(const std::vector<Vec2>& points) const;
 
  private:
+  /// The curve on its way at one of the places.
+  struct Sample {
+    Jet jet;
+    CurvatureJet curvature;
+    SpanPlace foot;                                      ///< On the sketch.
+    Vec2 normal = Vec2::Zero(), tangent = Vec2::Zero();  ///< Of the sketch there.
+    double distance = 0.0, slide = 0.0;                  ///< [mm] From the foot across; from the start along it.
+    double step = 0.0;                                   ///< [mm] Arc length to the next place.
+    double weight = 0.0;                                 ///< Arc length that the place stands for, in mean spans.
+  };
   struct State;
   struct Window {
     int low = 0, high = 0;
     bool maximum = true;
   };
   struct Scales {
-    double distance = 1.0, margin = 0.0, bound = 0.0;
+    double distance = 1.0, margin = 0.0;
+    std::optional<double> bound;
   };
   class Program;
 

@@ -38,8 +38,8 @@ int sizeOf(const CurvatureStructure& structure) { return static_cast<int>(struct
 }  // namespace
 
 bool isTruerThan(const StructureCandidate& a, const StructureCandidate& b, int asked) {
-  const int turnsA = std::max(a.turns, asked), turnsB = std::max(b.turns, asked);
-  return turnsA != turnsB ? turnsA < turnsB : a.deviationMm < b.deviationMm;
+  const int allA = std::max(a.allExtrema, asked), allB = std::max(b.allExtrema, asked);
+  return allA != allB ? allA < allB : a.deviationMm < b.deviationMm;
 }
 
 bool isFairerThan(const StructureCandidate& a, const StructureCandidate& b) {
@@ -86,7 +86,7 @@ std::optional<StructureCandidate> StructureCandidates::candidate(const Basis& ba
   const auto curve = toCurve(*basis.setup, points);
   if (!curve) return std::nullopt;
   StructureCandidate result{
-      basis.setup, {}, countedExtrema(*curve, sketch_->closed, context_), 0.0, basis.search->denseTurns(points)};
+      basis.setup, {}, countedExtrema(*curve, sketch_->closed, context_), 0.0, basis.search->countAllExtrema(points)};
   result.points = std::move(points);
   if (basis.setup != sketch_ || result.points != sketch_->points)
     result.deviationMm = largestDeviation(*basis.setup, result.points, true);
@@ -94,8 +94,8 @@ std::optional<StructureCandidate> StructureCandidates::candidate(const Basis& ba
 }
 
 StructureCandidate StructureCandidates::overSketch(std::vector<Vec2> points, int extrema, double deviationMm) const {
-  const int turns = bases_.back().search->denseTurns(points);
-  return {sketch_, std::move(points), extrema, deviationMm, turns};
+  const int allExtrema = bases_.back().search->countAllExtrema(points);
+  return {sketch_, std::move(points), extrema, deviationMm, allExtrema};
 }
 
 /// Simplest first.
@@ -113,12 +113,12 @@ std::vector<std::size_t> StructureCandidates::levelsToTry(const Basis& basis) co
 }
 
 std::optional<StructureCandidate> StructureCandidates::solved(const Basis& basis, const CurvatureStructure& structure,
-                                                              double estimateMm, double giveUpMm) {
-  auto outcome = basis.search->solve(structure, basis.setup->points, estimateMm, 0.0, giveUpMm);
+                                                              double estimateMm, std::optional<double> giveUpMm) {
+  auto outcome = basis.search->solve(structure, basis.setup->points, estimateMm, {.giveUpMm = giveUpMm});
   iterations_ += outcome.iterations;
   if (!outcome.found || context_.isCancelled()) return std::nullopt;
   auto found = candidate(basis, std::move(outcome.points));
-  if (!found || (giveUpMm > 0.0 && found->deviationMm > giveUpMm)) return std::nullopt;
+  if (!found || (giveUpMm && found->deviationMm > *giveUpMm)) return std::nullopt;
   return found;
 }
 
@@ -126,7 +126,7 @@ StructureCandidate StructureCandidates::closer(const Basis& basis, const Curvatu
                                                StructureCandidate found, int mostExtrema) {
   for (int i = 0; i < kMostBounds && !context_.isCancelled(); ++i) {
     const double bound = kTighter * found.deviationMm;
-    auto outcome = basis.search->solve(structure, found.points, found.deviationMm, kBoundShare * bound, 0.0);
+    auto outcome = basis.search->solve(structure, found.points, found.deviationMm, {.boundMm = kBoundShare * bound});
     iterations_ += outcome.iterations;
     if (!outcome.found) break;
     auto nearer = candidate(basis, std::move(outcome.points));
@@ -137,18 +137,19 @@ StructureCandidate StructureCandidates::closer(const Basis& basis, const Curvatu
   return found;
 }
 
-StructureCandidate StructureCandidates::fewest(double toleranceMm, int moreThan) {
+StructureCandidate StructureCandidates::fewest(double toleranceMm, std::optional<int> moreThan) {
+  const auto isTooFew = [&](int extrema) { return moreThan && extrema <= *moreThan; };
   StructureCandidate best = open(bases_.size() - 1).start;
   const int sketched = best.extrema;
   const auto offer = [&](StructureCandidate found) {
-    if (found.deviationMm > toleranceMm || found.extrema <= moreThan) return;
+    if (found.deviationMm > toleranceMm || isTooFew(found.extrema)) return;
     if (found.extrema == sketched && best.extrema == sketched) return;
     if (isFairerThan(found, best)) best = std::move(found);
   };
-  // Bounds on the distance change neither the turns of the curvature nor, but rarely, the extrema.
+  // Bounds on the distance change neither the small extrema nor, but rarely, the others.
   const auto mayWin = [&](const StructureCandidate& found) {
-    if (found.extrema < best.extrema || found.turns < best.turns) return true;
-    return found.turns == best.turns && found.deviationMm < kWorthBounding * best.deviationMm;
+    if (found.extrema < best.extrema || found.allExtrema < best.allExtrema) return true;
+    return found.allExtrema == best.allExtrema && found.deviationMm < kWorthBounding * best.deviationMm;
   };
   for (std::size_t at = 0; at < bases_.size() && !context_.isCancelled(); ++at) {
     Basis& basis = open(at);
@@ -158,11 +159,11 @@ StructureCandidate StructureCandidates::fewest(double toleranceMm, int moreThan)
     for (const std::size_t level : levelsToTry(basis)) {
       const StructureLevel& tried = basis.levels[level];
       if (context_.isCancelled() || sizeOf(tried.structure) > best.extrema) break;
-      if (tried.estimateMm > worth || sizeOf(tried.structure) <= moreThan) continue;
+      if (tried.estimateMm > worth || isTooFew(sizeOf(tried.structure))) continue;
       auto found = solved(basis, tried.structure, tried.estimateMm, kWorthBounding * toleranceMm);
       if (!found) continue;
       if (found->deviationMm > toleranceMm || mayWin(*found)) found = closer(basis, tried.structure, std::move(*found));
-      if (found->deviationMm > toleranceMm || found->extrema <= moreThan) continue;
+      if (found->deviationMm > toleranceMm || isTooFew(found->extrema)) continue;
       offer(std::move(*found));
       break;
     }
@@ -183,7 +184,7 @@ std::optional<StructureCandidate> StructureCandidates::nearestOf(int most, const
     if (basis.levels.empty()) continue;
     if (!all.empty() && basis.setup == sketch_ && basis.setup->basis.spanCount() > kLongSpans) continue;
     for (StructureLevel& tried : structuresOf(basis)) {
-      auto found = solved(basis, tried.structure, tried.estimateMm, 0.0);
+      auto found = solved(basis, tried.structure, tried.estimateMm, std::nullopt);
       if (found && found->extrema <= most) all.push_back({std::move(*found), &basis, std::move(tried.structure)});
     }
   }
@@ -204,7 +205,7 @@ std::optional<StructureCandidate> StructureCandidates::nearest(int extrema) {
   auto best = nearestOf(extrema, [&](const Basis& basis) {
     std::size_t level = 0;
     while (level + 1 < basis.levels.size() && sizeOf(basis.levels[level].structure) > extrema) ++level;
-    // One more turn of the curvature may be too small for an extremum.
+    // One more of the curvature may be too small to count.
     const std::size_t first = level > 0 ? level - 1 : level;
     return std::vector(&basis.levels[first], &basis.levels[level] + 1);
   });

@@ -20,7 +20,7 @@ struct StructureCandidate {
   std::vector<Vec2> points;
   int extrema = 0;           ///< Of the usual prominence.
   double deviationMm = 0.0;  ///< From the sketched curve, both ways.
-  int turns = 0;             ///< Of the curvature, however small.
+  int allExtrema = 0;        ///< However small: the curvature turns back there.
 };
 
 /// The candidate as a result: objective, extrema and deviation are filled in.
@@ -42,9 +42,10 @@ class StructureCandidates {
 
   /// False for a curve with a cusp: there is nothing but the sketch.
   bool isValid() const { return !bases_.empty(); }
-  /// The curve with the fewest extrema within the tolerance, but more than these, and of equally many the truest;
-  /// the sketch itself if need be.
-  StructureCandidate fewest(double toleranceMm, int moreThan = -1);
+  /// The curve with the fewest extrema within the tolerance, and of equally many the truest; the sketch itself if need
+  /// be.
+  /// @param moreThan fewer than one more of them are not wanted.
+  StructureCandidate fewest(double toleranceMm, std::optional<int> moreThan = {});
   /// The nearest curve found with no more extrema than these; none when none was found.
   std::optional<StructureCandidate> nearest(int extrema);
   /// The same with the extrema nearest to these shares of the arc length.
@@ -65,9 +66,9 @@ class StructureCandidates {
   std::vector<std::size_t> levelsToTry(const Basis& basis) const;
   std::optional<StructureCandidate> candidate(const Basis& basis, std::vector<Vec2> points) const;
   /// The nearest curve in the mean.
-  /// @param giveUpMm > 0: one that goes farther than this is none.
+  /// @param giveUpMm one that goes farther than this is none.
   std::optional<StructureCandidate> solved(const Basis& basis, const CurvatureStructure& structure, double estimateMm,
-                                           double giveUpMm);
+                                           std::optional<double> giveUpMm);
   /// Bounds the distance closer and closer, as far as that goes with at most so many extrema.
   StructureCandidate closer(const Basis& basis, const CurvatureStructure& structure, StructureCandidate found,
                             int mostExtrema = std::numeric_limits<int>::max());

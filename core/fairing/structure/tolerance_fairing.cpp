@@ -20,6 +20,13 @@ constexpr double kBarrierStart = 0.3, kBarrierFactor = 0.2;
 constexpr int kMaxIterations = 120;
 /// Room between the barrier's bound at the samples and the tolerance, which holds between them too.
 constexpr double kRoom = 0.998;
+/// A distance that is bounded may be above the bound by this, for rounding.
+constexpr double kRounding = 1.001;
+/// Of the tolerance: a curve that uses more is limited by it.
+constexpr double kUsedShare = 0.9;
+/// With each weight of the barrier but the last, a few steps: the next one moves the curve again.
+constexpr FairingLimits kOnTheWay{4, 1e-2}, kLast{20, 1e-5};
+constexpr double kFirstDamping = 1e-3;  // no weight begins with more than the first one
 /// L^3 times the integral of (dkappa/ds)^2 below which nothing is left to improve.
 constexpr double kPerfect = 1e-12;
 
@@ -50,11 +57,12 @@ struct SmoothestCurve {
     from.deviationMm =
         isSketch ? keepWithin(setup, toleranceMm, from.points) : largestDeviation(setup, from.points, true);
     const auto curve = toCurve(setup, from.points);
-    if (!curve || from.deviationMm > kRoom * toleranceMm * 1.001) return;
+    if (!curve || from.deviationMm > kRoom * toleranceMm * kRounding) return;
     from.extrema = countedExtrema(*curve, setup.closed, setup.check);
     if (from.extrema != best.extrema || !(unevennessOf(from) < unevenness)) return;
     why = run.why;
-    if (from.deviationMm > 0.9 * toleranceMm && why != Termination::IterationLimit) why = Termination::ToleranceLimited;
+    if (from.deviationMm > kUsedShare * toleranceMm && why != Termination::IterationLimit)
+      why = Termination::ToleranceLimited;
     best = std::move(from);
   }
 };
@@ -66,24 +74,26 @@ BoundedRun minimiseWithin(const FairingSetup& setup, const FairingObjective& obj
   BoundedRun result;
   result.points = points;
   std::vector<SpanPlace> feet = setup.start.places;
-  FairingCorridor corridor{0.0, kBarrierStart, kRoom * toleranceMm};
-  if (const auto start = evaluate(setup, objective, {}, points, feet)) corridor.barrier *= start->misfit;
-  double damping = 1e-3;
+  FairingCorridor::Barrier barrier{kBarrierStart, kRoom * toleranceMm};
+  if (const auto start = evaluate(setup, objective, {}, points, feet)) barrier.weight *= start->misfit;
+  double damping = kFirstDamping;
   while (result.iterations < kMaxIterations && !context.isCancelled()) {
+    const FairingCorridor corridor{.barrier = barrier};
     auto next = evaluate(setup, objective, corridor, result.points, feet);
     if (!next) break;
-    const bool last = corridor.barrier <= kFinalGap * next->misfit;
-    const FairingLimits limits = last ? FairingLimits{20, 1e-5, damping} : FairingLimits{4, 1e-2, damping};
+    const bool last = barrier.weight <= kFinalGap * next->misfit;
+    const FairingLimits limits = last ? FairingLimits{kLast.iterations, kLast.relativeDecrease, damping}
+                                      : FairingLimits{kOnTheWay.iterations, kOnTheWay.relativeDecrease, damping};
     FairingRun run = minimise(setup, objective, corridor, std::move(*next), limits, context);
     result.iterations += std::max(run.iterations, 1);
-    damping = std::min(run.damping, 1e-3);
+    damping = std::min(run.damping, kFirstDamping);
     result.points = std::move(run.state.points);
-    feet = std::move(run.state.feet);
+    feet = run.state.feet();
     if (last) {
       result.why = run.why;
       break;
     }
-    corridor.barrier *= kBarrierFactor;
+    barrier.weight *= kBarrierFactor;
   }
   return result;
 }

@@ -10,7 +10,7 @@
 #include "core/curve/nurbs_curve.h"
 #include "core/fairing/fairing_params.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 namespace batten {
 

@@ -30,9 +30,9 @@ class NaturalSpans {
     samples_ = sampledCurvature(curve, kLeastSamples);
     if (!(samples_.lengthMm > 0.0)) return;
     // The last sample of a closed curve is the first one.
-    const std::size_t count = samples_.kappa.size() - (closed ? 1 : 0);
+    const int count = samples_.count() - (closed ? 1 : 0);
     std::vector<double> s;
-    for (std::size_t i = 0; i < count; ++i) s.push_back(samples_.perimeter[i] * samples_.lengthMm);
+    for (int i = 0; i < count; ++i) s.push_back(samples_.perimeter(i) * samples_.lengthMm);
     levels_ = structureLevels(s, std::span(samples_.kappa).first(count), samples_.lengthMm, closed);
   }
 
@@ -43,7 +43,7 @@ class NaturalSpans {
     while (level + 1 < levels_.size() && levels_[level + 1].estimateMm < kTriflingShare * toleranceMm) ++level;
     const auto& extrema = levels_[level].structure.extrema;
     if (closed_ && areTrifles(extrema, kTriflingShare * toleranceMm)) return result;
-    for (const StructureExtremum& extremum : extrema) result.push_back(samples_.perimeter[extremum.sample]);
+    for (const StructureExtremum& extremum : extrema) result.push_back(samples_.perimeter(extremum.sample));
     std::sort(result.begin(), result.end());
     std::erase_if(result, [this](double f) { return f <= (closed_ ? 0.0 : kLeastSpan) || f >= 1.0 - kLeastSpan; });
     const auto tooNear = [](double a, double b) { return b - a < kLeastSpan; };
@@ -58,7 +58,7 @@ class NaturalSpans {
     if (extrema.size() > kFewest) return false;
     for (std::size_t i = 0; i < extrema.size(); ++i) {
       const int a = extrema[i].sample, b = extrema[(i + 1) % extrema.size()].sample;
-      double share = samples_.perimeter[b] - samples_.perimeter[a];
+      double share = samples_.perimeter(b) - samples_.perimeter(a);
       if (share <= 0.0) share += 1.0;
       const double half = share * samples_.lengthMm;
       const double moved =

@@ -23,6 +23,10 @@ namespace {
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
 constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
 constexpr double kTargetUsedShare = 0.95;
+/// Weights whose ratio is less give the same curve; one that is too small grows by the other factor.
+constexpr double kSameWeight = 1.02, kWeightStep = 4.0;
+/// Of the way between two weights (logarithms): a step ends no nearer to either of them.
+constexpr double kNearestShare = 0.1;
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
@@ -117,7 +121,7 @@ class ShapeModification {
     report_.neededMm = full.deviationMm;
     metMisfit_ = full.misfit;
     if (!isFiltered_) takeUpTo(toleranceMm_);
-    report_.withinTolerance = !courses_.front().steps.endsEarly() && report_.neededMm <= kTargetRoom * toleranceMm_;
+    report_.withinTolerance = !courses_.front().steps.endsEarly() && full.deviationMm <= kTargetRoom * toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     if (isFiltered_) {
       useEach();
@@ -255,8 +259,9 @@ class ShapeModification {
     std::optional<TargetStep> near;
     if (sides.inside) near = *sides.inside;
     for (int i = 0; i < most && !context_.isCancelled(); ++i) {
-      if (near && (near->deviationMm >= kTargetUsedShare * toleranceMm || near->weight < 1.02 * wide.weight)) break;
-      const double weight = near ? weightBetween(wide, *near, toleranceMm) : 4.0 * wide.weight;
+      if (near && (near->deviationMm >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide.weight))
+        break;
+      const double weight = near ? weightBetween(wide, *near, toleranceMm) : kWeightStep * wide.weight;
       auto step = course.steps.between(near ? *near : wide, weight);
       if (!step) break;
       if (step->deviationMm <= kTargetRoom * toleranceMm) {
@@ -288,7 +293,7 @@ class ShapeModification {
     const double da = std::log(wide.deviationMm / toleranceMm);
     const double db =
         std::log(std::max(near.deviationMm / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kTargetUsedShare));
-    return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9) * (b - a));
+    return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), kNearestShare, 1.0 - kNearestShare) * (b - a));
   }
 
   void useBarrier(const Course& course) {

@@ -12,6 +12,7 @@
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/polynomial_fit.h"
 #include "core/fairing/profile/profile_data.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
 
@@ -22,7 +23,7 @@ namespace {
 constexpr int kLeastIntervals = 16;
 /// Of the mean knot interval: a knot nearer to another one is the same.
 constexpr double kSameKnot = 0.05;
-/// Cubic pieces that stand for a polynomial of degree 6 or less.
+/// Cubic pieces that stand for a target polynomial.
 constexpr int kNodesPerSpan = 60;
 
 /// The curve's own curvature over the perimeter, with its slopes.
@@ -40,16 +41,16 @@ class OwnProfile {
                  high = std::min(f + h, closed_ ? f + h : 1.0);
     return (at(high) - at(low < 0.0 ? low + 1.0 : low)) / (high - low);
   }
-  ProfileNode node(std::size_t i) const {
-    const auto count = samples_.kappa.size();
-    const std::size_t before = i > 0 ? i - 1 : closed_ ? count - 2 : 0, after = i + 1 < count ? i + 1 : closed_ ? 1 : i;
+  ProfileNode node(int i) const {
+    const int count = samples_.count();
+    const int before = i > 0 ? i - 1 : closed_ ? count - 2 : 0, after = i + 1 < count ? i + 1 : closed_ ? 1 : i;
     const double steps = (i > 0 || closed_ ? 1.0 : 0.0) + (i + 1 < count || closed_ ? 1.0 : 0.0);
     const double slope = (samples_.kappa[after] - samples_.kappa[before]) * intervals() / steps;
-    return {samples_.perimeter[i], samples_.kappa[i], slope};
+    return {samples_.perimeter(i), samples_.kappa[i], slope};
   }
 
  private:
-  double intervals() const { return static_cast<double>(samples_.kappa.size() - 1); }
+  double intervals() const { return samples_.count() - 1.0; }
   static double place(double f) { return f > 1.0 ? f - 1.0 : f; }
   const CurvatureSamples& samples_;
   bool closed_;
@@ -93,8 +94,8 @@ std::vector<ProfileNode> spanNodes(const CurvatureSamples& samples, bool closed,
                                    const std::vector<double>& polynomial, const Easing& easing) {
   const OwnProfile own(samples, closed);
   std::vector<ProfileNode> nodes;
-  for (std::size_t i = 0; i < samples.perimeter.size(); ++i)
-    if (!liesIn(span, samples.perimeter[i])) nodes.push_back(own.node(i));
+  for (int i = 0; i < samples.count(); ++i)
+    if (!liesIn(span, samples.perimeter(i))) nodes.push_back(own.node(i));
   const double width = span.to - span.from;
   const auto inside = [&](double x) {
     const double f = span.from + x * width;
@@ -120,8 +121,8 @@ std::vector<ProfileNode> spanNodes(const CurvatureSamples& samples, bool closed,
 ProfileSpan parametersOf(const NurbsCurve& curve, const ProfileSpan& span) {
   const ArcLength arc(curve);
   const auto at = [&](double f) {
-    const double turn = f > 1.0 ? curve.end() - curve.start() : 0.0;
-    return arc.parameter((f > 1.0 ? f - 1.0 : f) * arc.total()) + turn;
+    const double lap = f > 1.0 ? curve.end() - curve.start() : 0.0;
+    return arc.parameter((f > 1.0 ? f - 1.0 : f) * arc.total()) + lap;
   };
   return {at(span.from), at(span.to)};
 }
@@ -165,8 +166,7 @@ Result<NurbsCurve> refined(NurbsCurve curve, const ProfileSpan& range) {
 TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParams& params, const ProfileSpan& span) {
   TargetSet set;
   const CurvatureSamples samples = sampledCurvature(curve, params.samples);
-  set.perimeter = samples.perimeter;
-  set.kappa = samples.kappa;
+  set.samples = samples.places();
   const OwnProfile own(samples, closed);
   const double width = span.to - span.from;
   const int count = std::max(params.samples, 8);
@@ -179,8 +179,8 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
   const std::optional<double> end = closed || span.to < 1.0 ? std::optional(kappa.back()) : std::nullopt;
   const ProfileData data = profileData(x, kappa, extent(curve), TargetQuantity::Curvature);
   set.comparesCurvature = data.bendsBothWays;
-  for (int degree = 1; degree <= 6; ++degree) {
-    TargetProfile& profile = set.profiles[static_cast<std::size_t>(degree) - 1];
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
+    TargetProfile& profile = set.profiles[degree - 1];
     profile.degree = degree;
     const std::vector<double> c = fitPinnedPolynomial(x, kappa, degree, params.monotone, start, end);
     if (c.empty()) {
@@ -195,7 +195,7 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
     judgeProfile(profile, data, fitted, std::max(1, degree - (start ? 1 : 0) - (end ? 1 : 0)),
                  curve.controlPointCount());
     const std::optional<int> best = set.recommendedDegree;
-    if (!best || profile.aicc < set.profiles[*best - 1].aicc) set.recommendedDegree = degree;
+    if (!best || hasLowerAicc(profile, set.profiles[*best - 1])) set.recommendedDegree = degree;
   }
   return set;
 }
@@ -240,7 +240,7 @@ Result<FairedCurve> fairSpans(const NurbsCurve& curve, bool closed, const std::v
     };
     const ProfileSpan now = result.curve == curve ? span : ProfileSpan{shareOf(range.from), shareOf(range.to)};
     const TargetSet targets = fitSpanTargets(result.curve, closed, params.targets, now);
-    const TargetProfile& profile = targets.profiles[static_cast<std::size_t>(degree) - 1];
+    const TargetProfile& profile = targets.profiles[degree - 1];
     auto setup = makeSpanSetup(result.curve, closed, params, now, context);
     if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
     if (!setup || !profile.valid) {
@@ -255,7 +255,7 @@ Result<FairedCurve> fairSpans(const NurbsCurve& curve, bool closed, const std::v
     auto faired = tolerance > 0.0 ? modifyShape(*setup, profile, tolerance, context)
                                   : Result<FairedCurve>(withoutTolerance(result.curve, closed, params, context));
     if (!faired) return faired;
-    if (faired->report.neededMm > 0.0) faired->report.neededMm += (*setup)->takenMm;
+    if (std::optional<double>& needed = faired->report.neededMm; needed && *needed > 0.0) *needed += (*setup)->takenMm;
     addPart(result.report, faired->report);
     if (faired->report.maxDeviationMm > 0.0) result.curve = std::move(faired->curve);
   }

@@ -73,7 +73,7 @@ RecipeJson choiceToJson(const PieceChoice& choice) {
   if (choice.target) json["target"] = static_cast<int>(*choice.target);
   if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
   if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
-  if (choice.keepExtrema) json["keep_extrema"] = *choice.keepExtrema;
+  if (choice.keepExtrema) json["keep_extrema"] = numberOf(*choice.keepExtrema);
   for (const auto& [name, places] : {std::pair("keep", &choice.keepPx), std::pair("splits", &choice.splitsPx)}) {
     for (const Vec2& p : *places) json[name].push_back({p.x(), p.y()});
   }
@@ -108,7 +108,7 @@ Result<PieceChoice> readChoice(const RecipeJson& json) {
     } else if (name == "low_pass" && value.is_number()) {
       choice.lowPassMm = value.get<double>();
     } else if (whole && name == "keep_extrema") {
-      choice.keepExtrema = *whole;
+      choice.keepExtrema = keptExtremaOf(*whole);
     } else if (const auto pairs = pairsFromJson(value); pairs && name == "keep") {
       choice.keepPx = *pairs;
     } else if (pairs && name == "anchors") {

@@ -57,6 +57,25 @@ Parameter alphaParameter() {
   return p;
 }
 
+Parameter keepExtremaParameter() {
+  Parameter p = described(StageId::Faired,
+                          {"fairing.keep_extrema", "Extrema to keep", "",
+                           "Monotone: number of curvature extrema to keep; 0 is monotone from end to end, fewest "
+                           "(-1) keeps as few as the tolerance allows."},
+                          ParameterType::Integer);
+  setRange(p, {static_cast<double>(numberOf(KeptExtrema{})), 99.0, 1.0});
+  p.minimumWord = "fewest";
+  p.get = [](const Recipe& r) { return std::to_string(numberOf(r.fairing.keepExtrema)); };
+  p.set = [name = p.name, least = p.minimum, most = p.maximum, expected = rangeText(p)](
+              Recipe& r, std::string_view text) -> Result<void> {
+    const auto value = integerFromText(text);
+    if (!value || *value < least || *value > most) return refuse(name, text, expected);
+    r.fairing.keepExtrema = keptExtremaOf(*value);
+    return {};
+  };
+  return p;
+}
+
 void appendModeAndTarget(std::vector<Parameter>& table) {
   constexpr StageId kFaired = StageId::Faired;
   table.push_back(choice<FairingMode>(
@@ -120,14 +139,7 @@ void appendToleranceAndMeans(std::vector<Parameter>& table) {
       [](auto& r) -> auto& { return r.fairing.means; }));
   table.push_back(profileParameter());
   table.push_back(alphaParameter());
-  Parameter keep = integer(
-      kFaired,
-      {"fairing.keep_extrema", "Extrema to keep", "",
-       "Monotone: number of curvature extrema to keep; 0 is monotone from end to end, fewest "
-       "(-1) keeps as few as the tolerance allows."},
-      {-1, 99, 1}, [](auto& r) -> auto& { return r.fairing.keepExtrema; });
-  keep.minimumWord = "fewest";
-  table.push_back(std::move(keep));
+  table.push_back(keepExtremaParameter());
   table.push_back(real(
       kFaired,
       {"fairing.lowpass", "Wavelength", "mm",

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "core/fairing/profile/target_degrees.h"
+
 namespace batten {
 namespace {
 
@@ -54,7 +56,8 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
     if (!arePlaces(choice.splitsPx)) return badPlace("A split in a choice for a curve");
     for (const SpanChoice& span : choice.spanTargets) {
       if (!isPlace(span.placePx)) return badPlace("A span in a choice for a curve");
-      if (span.degree < 1 || span.degree > 6) return bad("The target of a span must be 1 to 6.");
+      if (!isTargetDegree(span.degree))
+        return bad("The target of a span must be 1 to " + std::to_string(kMostTargetDegree) + ".");
     }
   }
   for (const ExtremumChoice& choice : recipe.extremumChoices) {

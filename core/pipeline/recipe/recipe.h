@@ -27,7 +27,7 @@ namespace batten {
 /// The target that the user has chosen for one natural span of a curve.
 struct SpanChoice {
   Vec2 placePx = Vec2::Zero();  ///< In the span.
-  int degree = 1;               ///< 1..6.
+  int degree = 1;               ///< Of a target.
   bool operator==(const SpanChoice& o) const { return placePx == o.placePx && degree == o.degree; }
 };
 
@@ -40,7 +40,7 @@ struct PieceChoice {
   std::optional<FairingTarget> target{};  ///< Own target.
   std::optional<double> toleranceMm{};    ///< Own tolerance.
   std::optional<double> lowPassMm{};      ///< Own wavelength of the low-pass.
-  std::optional<int> keepExtrema{};       ///< Own number of extrema to keep.
+  std::optional<KeptExtrema> keepExtrema{};
   std::vector<Vec2> keepPx{};             ///< Extrema to keep, by place; not empty: counts instead of the number.
   std::vector<Vec2> splitsPx{};           ///< Where one target profile ends and the next begins.
   std::vector<ProfilePoint> profile{};    ///< Own drawn profile, from start to end of the piece.

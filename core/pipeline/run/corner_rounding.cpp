@@ -244,7 +244,7 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     const Neighbours at = neighboursOf(set, pieces, corner);
     if (!at.before || !at.behind) continue;
     for (const TracedCurve* curve : {at.before, at.behind}) {
-      NurbsCurve& before = unrounded[static_cast<std::size_t>(curve->piece)];
+      NurbsCurve& before = unrounded[curve->piece];
       if (before.isEmpty()) before = curve->faired;
     }
     const std::string note = roundOne(at, recipe.cornerMarks[mark], context);
@@ -253,7 +253,7 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     for (TracedCurve* curve : {at.before, at.behind}) addNote(curve->fairing.note, note);
   }
   for (TracedCurve& curve : set.curves) {
-    const auto piece = static_cast<std::size_t>(curve.piece);
+    const int piece = curve.piece;
     const NurbsCurve& before = unrounded[piece];
     if (!before.isEmpty() && !(before == curve.faired))
       measureAgain(curve, before, pieces.pieces[piece], frame, context);

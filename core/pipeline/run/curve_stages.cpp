@@ -162,7 +162,7 @@ class ContourBuilder {
     if (grouped || (segments.mode == SegmentMode::Stations && segments.count > 0)) params.maxDeviationPx = 0.0;
     ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
     const auto width = inkWidthPx_.find(contours_.contours[pieces_.pieces[range.first].contour].kind);
-    if (width != inkWidthPx_.end()) input.inkWidthPx = width->second;
+    if (width != inkWidthPx_.end() && width->second > 0.0) input.inkWidthPx = width->second;
     for (std::size_t i = range.first; i < range.last; ++i) {
       if (!choices_.empty() && choices_[i]) input.pieces[i - range.first].detail = own_[*choices_[i]].detail;
       input.pieces[i - range.first].breakpoints = breakpointsOf(breakpoints_[i], recipe_, frame_);
@@ -319,7 +319,7 @@ ConstructContour lineInput(const PipelineOutput& out, int contour) {
   if (!out.contours || !out.pieces || !out.segments) return {};
   if (out.segments->pieces.size() != out.pieces->pieces.size()) return {};
   const PieceRange range = rangeOf(*out.pieces, contour);
-  if (range.first == range.last || static_cast<std::size_t>(contour) >= out.contours->contours.size()) return {};
+  if (range.first == range.last || contour < 0 || contour >= std::ssize(out.contours->contours)) return {};
   return inputOf(*out.contours, *out.pieces, *out.segments, range, out.frame);
 }
 

@@ -116,9 +116,11 @@ class LineFairing {
     const double left = params.toleranceMm - params.takenMm;
     if (params.toleranceMm - closer.takenMm < kFairingShare * left || context_.isCancelled())
       return stayingDense(std::move(*faired));
-    if (const auto again = fairedWithin(closer)) {
+    const auto again = fairedWithin(closer);
+    if (again && isAsFair(again->report, faired->report)) {
       if (auto light = madeLight(*again)) {
-        if (light->report.withinTolerance) light->report.neededMm = faired->report.neededMm;
+        light->report.neededMm = faired->report.neededMm;
+        if (again->report.extremaAfter == faired->report.extremaAfter) light->report.note = faired->report.note;
         return *light;
       }
     }
@@ -132,6 +134,12 @@ class LineFairing {
   Result<FairedCurve> fairedWithin(const FairingParams& params) const {
     return movesEdgeLengths(params) ? fairByEdgeLengths(curve_.sketched, curve_.closed, params, context_)
                                     : fairBetweenCorners(curve_.fairingStart(), curve_.closed, params, context_, line_);
+  }
+
+  /// What the tolerance allows counts for more than few control points: what a note says is needed is enough.
+  bool isAsFair(const FairingReport& closer, const FairingReport& faired) const {
+    if (faired.withinTolerance && !closer.withinTolerance) return false;
+    return curve_.fairingUsed.mode != FairingMode::Monotone || closer.extremaAfter <= faired.extremaAfter;
   }
 
   bool isStill(const FairedCurve& faired) const {
@@ -234,7 +242,7 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& c
   const RunContext inner = itemContext(context, set.curves.size());
   forEachItem(context, set.curves.size(), [&](std::size_t i) {
     TracedCurve& curve = set.curves[i];
-    const auto piece = static_cast<std::size_t>(curve.piece);
+    const int piece = curve.piece;
     curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
     curve.fairingUsed = paramsFor(choices[piece], recipe, pieces.pieces[piece], curve.fairingStart(), frame);
     startFromSeenEnds(curve, lightOptions(recipe.construct, frame.mmPerPx));

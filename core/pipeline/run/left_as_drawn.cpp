@@ -36,7 +36,7 @@ std::string leftAsDrawnReason(const TracedCurve& curve) {
                  ? "Unchanged: every extremum of the curvature is supported by the line."
                  : "Unchanged: no move within the tolerance reduces the variation of curvature.";
     case FairingMode::Monotone:
-      return curve.fairingUsed.keepExtrema > 0 || !curve.fairingUsed.keptAt.empty()
+      return curve.fairingUsed.keepExtrema.count.value_or(0) > 0 || !curve.fairingUsed.keptAt.empty()
                  ? "Unchanged: it has no more curvature extrema than are to be kept."
                  : "Unchanged: it has no curvature extremum to remove.";
     case FairingMode::LowPass:

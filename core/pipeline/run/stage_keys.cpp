@@ -11,6 +11,8 @@
 namespace batten {
 namespace {
 
+constexpr int kNoNumber = -2;  // no number of its own: none that KeptExtrema has
+
 void add(HashBuilder& h, const std::optional<double>& v) {
   h.integer(v.has_value());
   if (v) h.number(*v);
@@ -33,7 +35,7 @@ void add(HashBuilder& h, const PieceChoice& c) {
       .integer(c.target ? static_cast<int>(*c.target) : -1);
   add(h, c.toleranceMm);
   add(h, c.lowPassMm);
-  h.integer(c.keepExtrema.value_or(-2));
+  h.integer(c.keepExtrema ? numberOf(*c.keepExtrema) : kNoNumber);
   h.integer(c.tolerancePolicy ? static_cast<int>(*c.tolerancePolicy) : -1)
       .integer(c.means ? static_cast<int>(*c.means) : -1);
   for (const auto& hold : {c.startHold, c.endHold})

@@ -78,7 +78,7 @@ TEST(ParallelFor, DoesWithoutThreadsThatCannotBeStarted) {
     context.threads = 64;
     std::vector<int> seen(1000, 0);
     parallelFor(context, 1000, 1, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) ++seen[static_cast<std::size_t>(i)];
+      for (int i = begin; i < end; ++i) ++seen[i];
     });
     _exit(seen == std::vector<int>(1000, 1) ? 0 : 1);
   }

@@ -26,8 +26,7 @@ TEST(Statistics, RanksAreThoseOfTheSortedValues) {
     const std::vector<double> values = shuffled(count, 7u);
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
-    for (int rank = 0; rank < count; ++rank)
-      EXPECT_EQ(elementOfRank(std::vector<double>(values), rank), sorted[static_cast<std::size_t>(rank)]);
+    for (int rank = 0; rank < count; ++rank) EXPECT_EQ(elementOfRank(std::vector<double>(values), rank), sorted[rank]);
   }
 }
 

@@ -87,8 +87,7 @@ TEST(CloserStations, AddNoneWhereTheCurveIsNear) {
     EXPECT_EQ(a[0].report.stationsAdded, 0);
     ASSERT_EQ(a[0].curve.controlPointCount(), b[0].curve.controlPointCount());
     for (int i = 0; i < a[0].curve.controlPointCount(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      EXPECT_EQ(a[0].curve.controlPoints()[at], b[0].curve.controlPoints()[at]);
+      EXPECT_EQ(a[0].curve.controlPoints()[i], b[0].curve.controlPoints()[i]);
     }
   }
 }
@@ -104,7 +103,6 @@ TEST(CloserStations, StandEvenlyAndInOrder) {
   };
   const auto set = adaptiveStations(piece, givenStations(piece.stations), 1.0, 0.5, chords, {});
   ASSERT_EQ(set.stations.size(), piece.stations.size() + static_cast<std::size_t>(set.added));
-  ASSERT_EQ(set.share.size(), set.stations.size());
   EXPECT_GT(set.added, 4);
   double last = -1.0;
   for (std::size_t i = 0; i < set.stations.size(); ++i) {
@@ -119,10 +117,10 @@ TEST(CloserStations, StandEvenlyAndInOrder) {
     last = at;
     // The last one has no interval after it.
     if (i > 0 && i + 1 < set.stations.size()) {
-      EXPECT_LE(std::abs(set.halvings[i] - set.halvings[i - 1]), 1);
+      EXPECT_LE(std::abs(set.stations[i].halvings - set.stations[i - 1].halvings), 1);
     }
-    EXPECT_GT(set.share[i], 0.0);
-    EXPECT_LE(set.share[i], 1.0);
+    EXPECT_GT(set.stations[i].share, 0.0);
+    EXPECT_LE(set.stations[i].share, 1.0);
   }
 }
 

@@ -136,7 +136,7 @@ TEST(TypicalSegments, TwoPlacesMeanOneSegmentBetweenThem) {
     ASSERT_FALSE(chain->report.segments.empty()) << chain->report.note;
     int from = -1, to = -1;
     for (int i = 0; i < std::ssize(chain->report.segments); ++i) {
-      const Vec2& start = chain->report.segments[static_cast<std::size_t>(i)].startMm;
+      const Vec2& start = chain->report.segments[i].startMm;
       if ((start - first).norm() < 3.0) from = i;
       if ((start - second).norm() < 3.0) to = i;
     }

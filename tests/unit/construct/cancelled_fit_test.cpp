@@ -14,7 +14,7 @@
 #include "core/construct/fair/fair_prepare.h"
 #include "core/construct/fair/fair_structure.h"
 #include "core/construct/fair/fair_structure_search.h"
-#include "core/construct/fair/knot_removal.h"
+#include "core/construct/fair/fewest_knots.h"
 #include "core/construct/fair/sharp_features.h"
 #include "core/construct/fair/smooth_sections.h"
 #include "core/construct/light/light_curve.h"
@@ -88,8 +88,8 @@ TEST_F(CancelledFit, HasNoPosteriorAndNoStructure) {
 TEST_F(CancelledFit, RemovesNoKnot) {
   const auto curve = offsetCurve(frame_.base, posterior_->mean, running_);
   ASSERT_TRUE(curve);
-  const std::vector<KnotRemovalLimit> stations(4 * curve->knots().spans + 1, {0.5, 1e-3});
-  KnotRemovalLimits limits;
+  const std::vector<FewestKnotsLimit> stations(4 * curve->knots().spans + 1, {0.5, 1e-3});
+  FewestKnotsLimits limits;
   limits.stations = stations;
   EXPECT_TRUE(withFewestKnots(*curve, limits, running_));
   EXPECT_FALSE(withFewestKnots(*curve, limits, cancelled_));

@@ -32,7 +32,7 @@ TEST_P(FairKnownAnswer, FindsTheDrawnExtremaAndLiesOnThePoints) {
     }
     EXPECT_LE(nearest, tolerance) << "extremum at " << e.at(0);
   }
-  EXPECT_NEAR(piece.report.noisePx, 0.127, 0.02);
+  EXPECT_NEAR(piece.report.noisePx.value(), 0.127, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, FairKnownAnswer,

@@ -149,9 +149,8 @@ TEST(LightCurve, IsTheSameCurveWhateverTheUnit) {
   ASSERT_TRUE(light && scaled);
   ASSERT_EQ(light->curve.controlPointCount(), scaled->curve.controlPointCount());
   for (int i = 0; i < light->curve.controlPointCount(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Vec2 expected = mm * light->curve.controlPoints()[k] + Vec2(3.0, -2.0);
-    EXPECT_LT((scaled->curve.controlPoints()[k] - expected).norm(), 1e-3);
+    const Vec2 expected = mm * light->curve.controlPoints()[i] + Vec2(3.0, -2.0);
+    EXPECT_LT((scaled->curve.controlPoints()[i] - expected).norm(), 1e-3);
   }
 }
 

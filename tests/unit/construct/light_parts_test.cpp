@@ -263,9 +263,9 @@ void expectGradient(const LightReference& reference, LightShape shape, const Lig
   const auto costOf = [&](Eigen::Index unknown, double step) {
     LightShape moved = shape;
     if (unknown < system.firstLength()) {
-      moved.points[static_cast<std::size_t>(unknown / 2)][unknown % 2] += step;
+      moved.points[unknown / 2][unknown % 2] += step;
     } else {
-      moved.logLengths[static_cast<std::size_t>(unknown - system.firstLength())] += step;
+      moved.logLengths[unknown - system.firstLength()] += step;
     }
     return 0.5 * system.evaluate(moved, weights).squares;
   };

@@ -106,8 +106,7 @@ TEST(LinePolygon, ThePiecesJoinedAreTheWholeCurve) {
       const auto whole = polygonCurve(linePolygon(contour, params), degree, SharpKnots::Degree).value();
       ASSERT_EQ(joined.controlPointCount(), whole.curve.controlPointCount());
       for (int i = 0; i < joined.controlPointCount(); ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        EXPECT_LT((joined.controlPoints()[at] - whole.curve.controlPoints()[at]).norm(), 1e-9);
+        EXPECT_LT((joined.controlPoints()[i] - whole.curve.controlPoints()[i]).norm(), 1e-9);
       }
     }
   }
@@ -190,8 +189,8 @@ TEST(ConstructControlPolygon, APenStrokeUsesOnlyItsDrawnPoints) {
   for (PiecePoint& p : piece.points) p.refined = false;
   for (const int i : drawn) piece.points[i].refined = true;
   const auto made = constructControlPolygon(piece, 1.0, polygonParams(2), {}).value();
-  EXPECT_EQ(made.report.pointsBefore, 5);
-  EXPECT_EQ(made.report.pointsAfter, 5);
+  EXPECT_EQ(made.report.polygon.value().before, 5);
+  EXPECT_EQ(made.report.polygon.value().after, 5);
   ASSERT_EQ(made.curve.controlPointCount(), 5);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(made.curve.controlPoints()[i], piece.points[drawn[i]].at);

@@ -122,8 +122,7 @@ TEST(SharpFeatures, TightCurvesMeetTheirNeighbours) {
 /// The points of a piece moved aside about one place, so that a fit of the others leaves them there.
 std::vector<Vec2> bulged(std::vector<Vec2> points, const std::vector<Vec2>& normals, int at) {
   for (int i = at - 12; i <= at + 12; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    points[k] += 3.0 * std::exp(-0.02 * (i - at) * (i - at)) * normals[k];
+    points[i] += 3.0 * std::exp(-0.02 * (i - at) * (i - at)) * normals[i];
   }
   return points;
 }

@@ -125,7 +125,7 @@ TEST(ConstructTypical, MakesMostOfASmoothLineOfTypicalCurves) {
                      kLengthPx / kSteps * Vec2(std::cos(angle + turn / 2.0), std::sin(angle + turn / 2.0)));
     angle += turn;
   }
-  const auto at = [&](double t) { return course[static_cast<std::size_t>(std::lround(t * kSteps))]; };
+  const auto at = [&](double t) { return course[std::lround(t * kSteps)]; };
   for (const unsigned seed : {1u, 2u, 3u}) {
     auto piece = test::pieceOf(at, 0.0, 1.0, 16, false);
     const auto truth = positionsOf(piece.points);

@@ -33,7 +33,7 @@ GreyImage weakPage(float weak, std::uint32_t seed) {
   std::vector<float> cover = test::coverageOf(weakLines(), kWeakPencilPx, kWeakWidth, kWeakHeight);
   for (int y = 0; y < kWeakHeight; ++y) {
     for (int x = 0; x < kWeakWidth; ++x) {
-      if (x > kWeakFrom) cover[static_cast<std::size_t>(y * kWeakWidth + x)] *= weak;
+      if (x > kWeakFrom) cover[y * kWeakWidth + x] *= weak;
     }
   }
   test::grainCoverage(

@@ -70,7 +70,7 @@ TEST(RegionOfInterest, LinesEndWhereTheyLeave) {
   EXPECT_NEAR(kept.contours[1].lengthPx, std::numbers::pi * 30.0, 3.0);
   for (std::size_t i = 0; i < half.points.size(); ++i) {
     EXPECT_LT(half.points[i].at.x(), 200.0);
-    const auto original = static_cast<std::size_t>(half.points[i].widthPx.value());
+    const auto original = half.points[i].widthPx.value();
     EXPECT_EQ(half.points[i], set.contours[0].points[original]) << "what belongs to a point stays with it";
     const Vec2 before = half.points[i > 0 ? i - 1 : 0].at;
     EXPECT_LT((half.points[i].at - before).norm(), 1.5) << "in order, without a jump";

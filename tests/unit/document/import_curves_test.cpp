@@ -174,10 +174,7 @@ TEST(ImportedCurves, ACsvOfThemComesBackAtItsPlace) {
   }
   // The corner between the pieces is where it was.
   ASSERT_EQ(back->file.lines[0].corners.size(), 1u);
-  EXPECT_LT((back->file.lines[0].points[static_cast<std::size_t>(back->file.lines[0].corners[0])] -
-             Vec2(-2100.25 + 40, 850.5 + 6))
-                .norm(),
-            1e-9);
+  EXPECT_LT((back->file.lines[0].points[back->file.lines[0].corners[0]] - Vec2(-2100.25 + 40, 850.5 + 6)).norm(), 1e-9);
 }
 
 TEST(ImportedCurves, DamagedImportsInARecipeAreRefusedWithAReason) {

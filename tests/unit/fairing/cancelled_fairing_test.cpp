@@ -86,12 +86,12 @@ TEST_F(CancelledFairing, MeasuresNothing) {
 TEST_F(CancelledFairing, LooksForNoStructure) {
   const MonotoneSearch search(*setup_, 0.01, context_);
   EXPECT_FALSE(search.arcLength().empty());
-  EXPECT_GT(search.denseTurns(setup_->points), 10);
+  EXPECT_GT(search.countAllExtrema(setup_->points), 10);
   StructureCandidates candidates(setup_, context_);
   EXPECT_TRUE(candidates.isValid());
   cancel();
   EXPECT_TRUE(MonotoneSearch(*setup_, 0.01, context_).arcLength().empty());
-  EXPECT_EQ(search.denseTurns(setup_->points), 0);
+  EXPECT_EQ(search.countAllExtrema(setup_->points), 0);
   EXPECT_FALSE(StructureCandidates(setup_, context_).isValid());
 }
 

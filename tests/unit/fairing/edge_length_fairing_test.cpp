@@ -131,7 +131,7 @@ TEST(EdgeLengthFairing, IsWhatTheTargetsShow) {
   const auto outcomes = targetsFor(curve, {});
   ASSERT_TRUE(outcomes) << outcomes.error().message;
   for (int degree = 1; degree <= 6; ++degree) {
-    const auto at = static_cast<std::size_t>(degree - 1);
+    const int at = degree - 1;
     if (!outcomes->targets.profiles[at].valid) continue;
     FairingParams params = edges(0.5);
     params.target = targetOfDegree(degree);

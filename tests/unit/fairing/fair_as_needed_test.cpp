@@ -56,7 +56,7 @@ TEST(FairAsNeeded, ComesNearerToTheTruthWhateverTheTolerance) {
       EXPECT_LT(deviation(truth, faired->curve).rms, 0.06);
       EXPECT_LT(deviation(truth, faired->curve).rms, 0.8 * deviation(truth, sketch).rms);
       // Means of 8 points of noise 0.3.
-      EXPECT_NEAR(faired->report.noiseMm, 0.3 / std::sqrt(8.0), 0.035);
+      EXPECT_NEAR(faired->report.noiseMm.value(), 0.3 / std::sqrt(8.0), 0.035);
       EXPECT_EQ(faired->report.why, Termination::Converged);
     }
   }
@@ -99,7 +99,7 @@ TEST(FairAsNeeded, WithoutPointsMovesLessThanTheWholeToleranceForAsFewExtrema) {
   EXPECT_LE(needed->report.extremaAfter, all->report.extremaAfter);
   EXPECT_LT(needed->report.extremaAfter, needed->report.extremaBefore);
   EXPECT_LT(needed->report.maxDeviationMm, 0.7 * all->report.maxDeviationMm);
-  EXPECT_EQ(needed->report.noiseMm, 0.0);
+  EXPECT_FALSE(needed->report.noiseMm);
 }
 
 TEST(FairAsNeeded, KeepsATightToleranceAndClosedCurves) {

@@ -84,11 +84,11 @@ int turnsBeyond(const std::vector<double>& values, double prominence) {
   return turns;
 }
 
-FairingParams monotone(double tolerance, int keep) {
+FairingParams monotone(double tolerance, std::optional<int> keep) {
   FairingParams params;
   params.mode = FairingMode::Monotone;
   params.toleranceMm = tolerance;
-  params.keepExtrema = keep;
+  params.keepExtrema = {keep};
   return params;
 }
 
@@ -140,9 +140,39 @@ TEST(Monotone, KeepsTheExtremaThatAreAskedFor) {
   EXPECT_NE(none->report.why, Termination::Converged);
 }
 
+TEST(Monotone, SaysWhatHeldEndsForbid) {
+  // The pointed end of an ellipse: both ends have the same curvature, so that only a circle of it could be monotone
+  // between them, and that does not reach from the one to the other.
+  const auto tip = [](double t) {
+    const double a = std::numbers::pi / 2.0 + 2.0 * (t - 0.5);
+    return Vec2(70.0 * std::cos(a), 150.0 * std::sin(a));
+  };
+  const NurbsCurve start = test::fitted(tip, 40);
+  for (const int keep : {0, kKeepSignificant}) {
+    FairingParams params = monotone(0.01, keep);
+    params.startHold = params.endHold = {true, true};
+    const auto held = fair(start, false, params, {});
+    ASSERT_TRUE(held);
+    EXPECT_EQ(held->report.maxDeviationMm, 0.0);
+    const std::string& note = held->report.note;
+    const auto told = note.find("; with free ends it needs a tolerance of ");
+    if (keep == 0) {
+      ASSERT_NE(told, std::string::npos) << note;
+      params.startHold = params.endHold = {};
+      const auto free = fair(start, false, params, {});
+      ASSERT_TRUE(free);
+      EXPECT_NEAR(std::stod(note.substr(note.find("of ", told) + 3)), free->report.neededMm,
+                  0.01 * free->report.neededMm);
+    } else {
+      EXPECT_NE(note, "No extremum can be removed within the tolerance.") << "no word of what it would take";
+      EXPECT_NE(note.find("a tolerance of "), std::string::npos) << note;
+    }
+  }
+}
+
 TEST(Monotone, BySignificanceReachesTheNumberThatTheTruthHas) {
   const NurbsCurve start = test::noisy(test::wave(240, 18, 40), 0.06, 4);
-  FairingParams params = monotone(0.4, kKeepSignificant);
+  FairingParams params = monotone(0.4, std::nullopt);
   const auto faired = fair(start, false, params, {});
   ASSERT_TRUE(faired);
   // One period of a sine: the curvature is 0 at the ends and has one minimum and one maximum.
@@ -153,7 +183,7 @@ TEST(Monotone, BySignificanceReachesTheNumberThatTheTruthHas) {
 
 TEST(Monotone, KeepsExtremaByPlace) {
   const NurbsCurve start = test::noisy(test::wave(240, 18, 40), 0.06, 4);
-  FairingParams params = monotone(20.0, kKeepSignificant);
+  FairingParams params = monotone(20.0, std::nullopt);
   params.keptAt = {0.25, 0.75};
   const auto faired = fair(start, false, params, {});
   ASSERT_TRUE(faired);
@@ -171,7 +201,7 @@ TEST(Monotone, ClosedCurvesKeepFourExtremaAndMeet) {
     return Vec2(100.0 * r * std::cos(a), 70.0 * r * std::sin(a));
   };
   const NurbsCurve start = test::closedCurve(bumpy, 40);
-  const auto faired = fair(start, true, monotone(1.0, kKeepSignificant), {});
+  const auto faired = fair(start, true, monotone(1.0, std::nullopt), {});
   ASSERT_TRUE(faired) << faired.error().message;
   std::vector<double> kappa = denseCurvature(faired->curve);
   // From the smallest value on around: three turns between it and itself.
@@ -258,7 +288,7 @@ TEST(LowPassMode, KeepsItsShareOfEveryWaveAtAnyTolerance) {
       const double a = angle(kLength * (i + 0.5) / kSteps);
       course.push_back(course.back() + kLength / kSteps * Vec2(std::cos(a), std::sin(a)));
     }
-    const auto shape = [&](double t) { return course[static_cast<std::size_t>(std::lround(t * kSteps))]; };
+    const auto shape = [&](double t) { return course[std::lround(t * kSteps)]; };
     const NurbsCurve start = test::fitted(shape, 100);
     const auto amplitude = [&](const NurbsCurve& curve) {
       double sum = 0.0;
@@ -355,7 +385,7 @@ TEST(FairingModes, LeaveWhatIsTakenOfTheTolerance) {
     EXPECT_LE(deviation(rest->curve, start).max, 0.3);
     EXPECT_GT(rest->report.maxDeviationMm, 0.0) << static_cast<int>(mode);
     if (mode == FairingMode::Target && rest->report.targetDegree == whole->report.targetDegree) {
-      EXPECT_NEAR(rest->report.neededMm, whole->report.neededMm + 0.2, 1e-9);
+      EXPECT_NEAR(rest->report.neededMm.value(), whole->report.neededMm.value() + 0.2, 1e-9);
     }
     if (mode == FairingMode::Target) {
       EXPECT_EQ(rest->report.targetSplits, whole->report.targetSplits) << "spans go by the whole tolerance";

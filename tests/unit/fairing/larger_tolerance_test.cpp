@@ -72,7 +72,7 @@ FairingParams paramsOf(FairingMode mode, int choice) {
   FairingParams params;
   params.mode = mode;
   if (mode == FairingMode::Target) params.target = *targetOfNumber(choice);
-  if (mode == FairingMode::Monotone) params.keepExtrema = choice;
+  if (mode == FairingMode::Monotone) params.keepExtrema = keptExtremaOf(choice);
   if (mode == FairingMode::Tolerance)
     params.tolerancePolicy = choice > 0 ? TolerancePolicy::All : TolerancePolicy::AsNeeded;
   return params;
@@ -82,14 +82,10 @@ struct Asked {
   FairingMode mode;
   int choice;
 };
-constexpr std::array kAsked = {Asked{FairingMode::Monotone, kKeepSignificant},
-                               Asked{FairingMode::Monotone, 0},
-                               Asked{FairingMode::Target, 0},
-                               Asked{FairingMode::Target, 1},
-                               Asked{FairingMode::Target, 4},
-                               Asked{FairingMode::Tolerance, 0},
-                               Asked{FairingMode::Tolerance, 1},
-                               Asked{FairingMode::LowPass, 0}};
+constexpr std::array kAsked = {Asked{FairingMode::Monotone, -1}, Asked{FairingMode::Monotone, 0},
+                               Asked{FairingMode::Target, 0},    Asked{FairingMode::Target, 1},
+                               Asked{FairingMode::Target, 4},    Asked{FairingMode::Tolerance, 0},
+                               Asked{FairingMode::Tolerance, 1}, Asked{FairingMode::LowPass, 0}};
 
 TEST(LargerTolerance, NeverGivesMoreExtremaInAnyMode) {
   std::mt19937 random(414);
@@ -145,17 +141,18 @@ TEST(LargerTolerance, WhatATargetOrANumberOfExtremaNeedsDoesNotDependOnIt) {
          {Asked{FairingMode::Target, 1}, Asked{FairingMode::Target, 4}, Asked{FairingMode::Monotone, i % 4}}) {
       FairingParams params = paramsOf(asked.mode, asked.choice);
       params.targets.spans = i % 4 == 0 ? TargetSpans::Natural : TargetSpans::Whole;
-      double needed = -1.0;
+      std::optional<double> needed;
       for (const double tolerance : kTolerances) {
         params.toleranceMm = tolerance;
         SCOPED_TRACE(testing::Message() << "line " << i << ", mode " << static_cast<int>(asked.mode) << " "
                                         << asked.choice << ", tolerance " << tolerance);
         const auto faired = fair(line, false, params, {});
         ASSERT_TRUE(faired);
-        if (needed < 0.0) needed = faired->report.neededMm;
-        EXPECT_DOUBLE_EQ(faired->report.neededMm, needed);
+        const double now = faired->report.neededMm.value_or(0.0);
+        if (!needed) needed = now;
+        EXPECT_DOUBLE_EQ(now, *needed);
         // Of natural spans it may be the tolerance from which on there are these.
-        if (needed > (i % 4 == 0 ? 1.0 : 0.999) * tolerance) {
+        if (*needed > (i % 4 == 0 ? 1.0 : 0.999) * tolerance) {
           EXPECT_FALSE(faired->report.withinTolerance);
         } else if (!faired->report.withinTolerance) {
           EXPECT_NE(faired->report.note.find("curvature extrem"), std::string::npos) << faired->report.note;
@@ -171,11 +168,11 @@ TEST(LargerTolerance, KeepsWhatASmallerOneFindsUnlessItFindsBetter) {
   std::mt19937 random(818);
   for (int i = 0; i < (lineCount() + 1) / 2; ++i) {
     const NurbsCurve line = randomLine(random);
-    FairingParams params = paramsOf(FairingMode::Monotone, i % 3 == 0 ? i / 3 % 4 : kKeepSignificant);
+    FairingParams params = paramsOf(FairingMode::Monotone, i % 3 == 0 ? i / 3 % 4 : -1);
     std::optional<FairedCurve> before;
     for (double tolerance = 0.02 * std::pow(1.7, i % 4); tolerance < 8.0; tolerance *= 4.9) {
       params.toleranceMm = tolerance;
-      SCOPED_TRACE(testing::Message() << "line " << i << ", extrema " << params.keepExtrema << ", tolerance "
+      SCOPED_TRACE(testing::Message() << "line " << i << ", extrema " << numberOf(params.keepExtrema) << ", tolerance "
                                       << tolerance);
       const auto faired = fair(line, false, params, {});
       ASSERT_TRUE(faired) << faired.error().message;
@@ -196,15 +193,15 @@ TEST(LargerTolerance, ANumberOfExtremaNeedsNoMoreThanTheWayThatReachesIt) {
   std::mt19937 random(919);
   for (int i = 0; i < (lineCount() + 1) / 2; ++i) {
     const NurbsCurve line = randomLine(random);
-    FairingParams params = paramsOf(FairingMode::Monotone, kKeepSignificant);
+    FairingParams params = paramsOf(FairingMode::Monotone, -1);
     params.toleranceMm = 0.05 * std::pow(3.0, i % 4);
     SCOPED_TRACE(testing::Message() << "line " << i << ", tolerance " << params.toleranceMm);
     const auto fewest = fair(line, false, params, {});
     ASSERT_TRUE(fewest);
-    params.keepExtrema = fewest->report.extremaAfter;
+    params.keepExtrema = {fewest->report.extremaAfter};
     const auto asked = fair(line, false, params, {});
     ASSERT_TRUE(asked);
-    EXPECT_LE(asked->report.neededMm, fewest->report.maxDeviationMm * (1.0 + 1e-9));
+    EXPECT_LE(asked->report.neededMm.value(), fewest->report.maxDeviationMm * (1.0 + 1e-9));
     EXPECT_TRUE(asked->report.withinTolerance);
   }
 }
@@ -214,7 +211,7 @@ TEST(LargerTolerance, MonotoneReachesWhatATargetReaches) {
   for (int i = 0; i < lineCount(); ++i) {
     const NurbsCurve line = randomLine(random);
     for (const double tolerance : {0.1, 0.5, 3.0}) {
-      FairingParams params = paramsOf(FairingMode::Monotone, kKeepSignificant);
+      FairingParams params = paramsOf(FairingMode::Monotone, -1);
       params.toleranceMm = tolerance;
       const auto monotone = fair(line, false, params, {});
       ASSERT_TRUE(monotone);
@@ -239,9 +236,9 @@ TEST(LargerTolerance, WhatANumberOfExtremaNeedsIsEnough) {
     const auto tight = fair(line, false, params, {});
     ASSERT_TRUE(tight);
     if (tight->report.withinTolerance) continue;
-    ASSERT_GT(tight->report.neededMm, 0.0) << "line " << i << ": " << tight->report.note;
-    params.toleranceMm = std::min(20.0, 1.002 * tight->report.neededMm);
-    if (params.toleranceMm < tight->report.neededMm) continue;
+    ASSERT_GT(tight->report.neededMm.value_or(0.0), 0.0) << "line " << i << ": " << tight->report.note;
+    params.toleranceMm = std::min(20.0, 1.002 * *tight->report.neededMm);
+    if (params.toleranceMm < *tight->report.neededMm) continue;
     const auto wide = fair(line, false, params, {});
     ASSERT_TRUE(wide);
     EXPECT_EQ(wide->report.extremaAfter, 0) << "line " << i << ": " << wide->report.note;

@@ -114,7 +114,7 @@ TEST(NaturalTargets, NeedLessThanOnePolynomialForTheWholeCurve) {
   ASSERT_TRUE(natural && whole);
   for (std::size_t i = 0; i < 6; ++i) {
     ASSERT_TRUE(natural->faired[i] && whole->faired[i]);
-    EXPECT_LT(natural->faired[i]->report.neededMm, 0.5 * whole->faired[i]->report.neededMm) << i;
+    EXPECT_LT(natural->faired[i]->report.neededMm.value(), 0.5 * whole->faired[i]->report.neededMm.value()) << i;
     EXPECT_LE(natural->faired[i]->report.extremaAfter, 3) << i;
     EXPECT_TRUE(natural->targets.profiles[i].isMonotone) << "between its splits";
   }
@@ -154,7 +154,7 @@ double neededByTrial(const NurbsCurve& line, int degree) {
     if (params.targets.splits.empty()) params.targets.spans = TargetSpans::Whole;
     const auto faired = fair(line, false, params, {});
     if (!faired) return -1.0;
-    needed = std::min(needed, std::max(tolerance > 0.001 ? tolerance : 0.0, faired->report.neededMm));
+    needed = std::min(needed, std::max(tolerance > 0.001 ? tolerance : 0.0, faired->report.neededMm.value()));
   }
   return needed;
 }
@@ -166,8 +166,7 @@ TEST(NaturalTargets, NeedTheSameWhateverTheTolerance) {
     std::array<double, 6> needed{};
     std::array<int, 6> extrema{};
     extrema.fill(countedExtrema(line, false));
-    for (int degree = 1; degree <= 6; ++degree)
-      needed[static_cast<std::size_t>(degree - 1)] = neededByTrial(line, degree);
+    for (int degree = 1; degree <= 6; ++degree) needed[degree - 1] = neededByTrial(line, degree);
     for (const double tolerance : {0.05, 0.13, 0.5, 0.9, 2.0, 7.0, 20.0}) {
       const auto targets = fairAllTargets(line, false, toTarget(1, tolerance), {});
       ASSERT_TRUE(targets);
@@ -175,12 +174,13 @@ TEST(NaturalTargets, NeedTheSameWhateverTheTolerance) {
         SCOPED_TRACE(testing::Message() << "target " << i + 1 << ", tolerance " << tolerance);
         ASSERT_TRUE(targets->faired[i]);
         const FairingReport& report = targets->faired[i]->report;
-        EXPECT_NEAR(report.neededMm, needed[i], 1e-9);
+        const double now = report.neededMm.value();
+        EXPECT_NEAR(now, needed[i], 1e-9);
         EXPECT_LE(report.extremaAfter, extrema[i]);
         extrema[i] = std::min(extrema[i], report.extremaAfter);
-        if (report.neededMm > tolerance) {
+        if (now > tolerance) {
           EXPECT_FALSE(report.withinTolerance);
-        } else if (report.neededMm < 0.998 * tolerance && !report.withinTolerance) {
+        } else if (now < 0.998 * tolerance && !report.withinTolerance) {
           EXPECT_NE(report.note.find("curvature extrem"), std::string::npos) << report.note;
         }
         const auto chosen = fair(line, false, toTarget(static_cast<int>(i) + 1, tolerance), {});
@@ -258,10 +258,9 @@ TEST(FairSpans, TheTileShowsWhatChoosingItGives) {
   EXPECT_EQ(chosen->report.neededMm, tiles->faired[2]->report.neededMm);
   // Outside of the span the profile is the curve's own curvature.
   const TargetProfile& profile = tiles->targets.profiles[2];
-  for (std::size_t i = 0; i < tiles->targets.perimeter.size(); ++i) {
-    const double f = tiles->targets.perimeter[i];
+  for (const auto& [f, kappa] : tiles->targets.samples) {
     if (f >= tiles->span->from && f <= tiles->span->to) continue;
-    EXPECT_NEAR(profile.curvatureAt(f), tiles->targets.kappa[i], 1e-4) << f;
+    EXPECT_NEAR(profile.curvatureAt(f), kappa, 1e-4) << f;
   }
 }
 

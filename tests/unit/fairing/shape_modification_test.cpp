@@ -121,7 +121,7 @@ TEST(ModifyShape, FindsTheKnownCurves) {
   objective.reference = std::sqrt(sum / 101);
   for (const auto& known : data.at("results")) {
     SCOPED_TRACE(known.at("wpos").get<double>());
-    const FairingCorridor corridor{known.at("wpos").get<double>(), 0.0, 0.0};
+    const FairingCorridor corridor{.weight = known.at("wpos").get<double>()};
     auto state = evaluate(**setup, objective, corridor, (*setup)->points, (*setup)->start.places);
     ASSERT_TRUE(state);
     const double startMisfit = std::sqrt(state->misfit);
@@ -156,7 +156,7 @@ TEST(ModifyShape, NeverLeavesTheToleranceAndSaysWhy) {
     ASSERT_TRUE(faired) << faired.error().message;
     EXPECT_LE(deviation(faired->curve, start).max, tolerance);
     EXPECT_LE(deviation(start, faired->curve).max, tolerance);
-    EXPECT_EQ(faired->report.withinTolerance, faired->report.neededMm <= tolerance);
+    EXPECT_EQ(faired->report.withinTolerance, faired->report.neededMm.value() <= tolerance);
     EXPECT_EQ(faired->report.why == Termination::ToleranceLimited, !faired->report.withinTolerance);
     // Farther from the profile only for fewer extrema.
     EXPECT_TRUE(faired->report.objectiveAfter <= before * 1.001 || faired->report.extremaAfter < extrema)

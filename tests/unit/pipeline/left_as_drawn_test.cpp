@@ -7,13 +7,13 @@ namespace batten {
 namespace {
 
 /// A curve that fairing gave back as it was.
-TracedCurve leftBy(FairingMode mode, int keepExtrema) {
+TracedCurve leftBy(FairingMode mode, std::optional<int> keepExtrema) {
   TracedCurve curve;
   curve.sketched =
       NurbsCurve::make(2, {0.0, 0.0, 0.0, 1.0, 1.0, 1.0}, {Vec2(0.0, 0.0), Vec2(5.0, 4.0), Vec2(12.0, 0.0)}).value();
   curve.faired = curve.sketched;
   curve.fairingUsed.mode = mode;
-  curve.fairingUsed.keepExtrema = keepExtrema;
+  curve.fairingUsed.keepExtrema = {keepExtrema};
   return curve;
 }
 
@@ -21,7 +21,7 @@ TEST(LeftAsDrawn, MonotoneSaysWhetherThereWasAnExtremumOrOneThatIsKept) {
   EXPECT_EQ(leftAsDrawnReason(leftBy(FairingMode::Monotone, 0)), "Unchanged: it has no curvature extremum to remove.");
   EXPECT_EQ(leftAsDrawnReason(leftBy(FairingMode::Monotone, 5)),
             "Unchanged: it has no more curvature extrema than are to be kept.");
-  TracedCurve chosen = leftBy(FairingMode::Monotone, kKeepSignificant);
+  TracedCurve chosen = leftBy(FairingMode::Monotone, std::nullopt);
   chosen.fairingUsed.keptAt = {0.5};
   EXPECT_EQ(leftAsDrawnReason(chosen), "Unchanged: it has no more curvature extrema than are to be kept.");
 }

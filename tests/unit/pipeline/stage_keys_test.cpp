@@ -46,7 +46,7 @@ TEST(StageKeys, EveryChoiceForACurveChangesItsFairing) {
   EXPECT_TRUE(differs([](PieceChoice& c) { c.target = FairingTarget::Recommended; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.toleranceMm = 0.2; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.lowPassMm = 20.0; }));
-  EXPECT_TRUE(differs([](PieceChoice& c) { c.keepExtrema = -1; }));
+  EXPECT_TRUE(differs([](PieceChoice& c) { c.keepExtrema = KeptExtrema{}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.keepPx = {Vec2(1, 1)}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.splitsPx = {Vec2(1, 1)}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.profile = {{0.0, 0.1}, {1.0, 0.2}}; }));

@@ -23,7 +23,7 @@ struct Rows {
     std::vector<Eigen::VectorXd> all;
     for (const int size : {12, 12, 5, 12, 17, 1, 12}) {
       std::vector<int> index(kUnknowns);
-      for (int i = 0; i < kUnknowns; ++i) index[static_cast<std::size_t>(i)] = i;
+      for (int i = 0; i < kUnknowns; ++i) index[i] = i;
       std::shuffle(index.begin(), index.end(), random);
       index.resize(static_cast<std::size_t>(size));
       std::sort(index.begin(), index.end());
@@ -36,7 +36,7 @@ struct Rows {
       }
     }
     dense.resize(std::ssize(all), kUnknowns);
-    for (Eigen::Index i = 0; i < dense.rows(); ++i) dense.row(i) = all[static_cast<std::size_t>(i)].transpose();
+    for (Eigen::Index i = 0; i < dense.rows(); ++i) dense.row(i) = all[i].transpose();
   }
 };
 

@@ -43,7 +43,7 @@ void paintCorners(QPainter& painter, const CanvasScene& scene) {
       }
     }
     for (const int lost : pieces->lostMarks) {
-      if (lost < 0 || static_cast<std::size_t>(lost) >= marks.size()) continue;
+      if (lost < 0 || lost >= std::ssize(marks)) continue;
       const QPointF at = scene.transform.toWidget(marks[lost].positionPx);
       paintCornerSquare(painter, at, 5.0, colors::lost(), false);
       painter.drawLine(at + QPointF(-5, -5), at + QPointF(5, 5));

@@ -71,7 +71,7 @@ void paintStrokes(QPainter& painter, const CanvasScene& scene) {
     image.fill(ribbon(line, widthAt), QColor(20, 130, 80, 60));
     for (const auto& [first, last] : line.bridges) {
       QPainterPath bridge;
-      for (int i = std::max(0, first); i <= last && i < static_cast<int>(line.points.size()); ++i) {
+      for (int i = std::max(0, first); i <= last && i < std::ssize(line.points); ++i) {
         const Vec2& p = line.points[i].at;
         if (bridge.elementCount() == 0) bridge.moveTo(p.x(), p.y());
         bridge.lineTo(p.x(), p.y());

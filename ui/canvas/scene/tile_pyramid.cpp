@@ -80,16 +80,15 @@ Axis axisFor(int from, int count, double zoom, int shift, int size, int scanSize
     if (scanPlace < 0.0 || scanPlace >= scanSize) continue;
     axis.begin = std::min(axis.begin, i);
     axis.end = i + 1;
-    const auto k = static_cast<std::size_t>(i);
     if (zoom >= kPixelatedZoom) {
-      axis.first[k] = axis.second[k] = std::min(size - 1, static_cast<int>(scanPlace * scale));
+      axis.first[i] = axis.second[i] = std::min(size - 1, static_cast<int>(scanPlace * scale));
       continue;
     }
     const double place = scanPlace * scale - 0.5;
     const double cell = std::floor(place);
-    axis.first[k] = std::clamp(static_cast<int>(cell), 0, size - 1);
-    axis.second[k] = std::clamp(static_cast<int>(cell) + 1, 0, size - 1);
-    axis.weight[k] = static_cast<int>(256.0 * (place - cell));
+    axis.first[i] = std::clamp(static_cast<int>(cell), 0, size - 1);
+    axis.second[i] = std::clamp(static_cast<int>(cell) + 1, 0, size - 1);
+    axis.weight[i] = static_cast<int>(256.0 * (place - cell));
   }
   return axis;
 }
@@ -101,7 +100,7 @@ void blend(const Axis& columns, const Axis& rows, int width, std::uint8_t* out, 
     const int wy = rows.weight[r], y0 = rows.first[r], y1 = rows.second[r];
     std::uint8_t* to = out + r * static_cast<std::size_t>(width);
     for (int i = columns.begin; i < columns.end; ++i) {
-      const auto c = static_cast<std::size_t>(i);
+      const int c = i;
       const int wx = columns.weight[c], x0 = columns.first[c], x1 = columns.second[c];
       const int upper = at(x0, y0) * (256 - wx) + at(x1, y0) * wx;
       const int lower = at(x0, y1) * (256 - wx) + at(x1, y1) * wx;

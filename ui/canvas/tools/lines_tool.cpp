@@ -50,7 +50,7 @@ class LinesTool final : public CanvasTool {
   void paint(QPainter& painter) override {
     if (!scene_.shapes) return;
     paintLeftOut(painter, scene_);
-    if (over_ && static_cast<std::size_t>(*over_) < scene_.shapes->curves.size())
+    if (over_ && *over_ < std::ssize(scene_.shapes->curves))
       paintChoice(painter, scene_, scene_.shapes->curves[*over_]);
   }
 

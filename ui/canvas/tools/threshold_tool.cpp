@@ -165,12 +165,11 @@ class ThresholdTool final : public CanvasTool {
 
   /// The threshold that acts in a region now.
   double level(int region) const {
-    const auto r = static_cast<std::size_t>(region);
     const ThresholdParams& params = scene_.session.recipe().threshold;
-    if (params.grid[r]) return *params.grid[r];
+    if (params.grid[region]) return *params.grid[region];
     if (params.mode == ThresholdMode::Manual) return params.manualLevel;
     const auto& found = scene_.session.output().thresholds;
-    return found ? found->automatic[r] : params.manualLevel;
+    return found ? found->automatic[region] : params.manualLevel;
   }
 
   /// The selected region, or the rectangle from it to where Shift was clicked.
@@ -225,13 +224,12 @@ class ThresholdTool final : public CanvasTool {
     const GreyScale scale(scene_.session, scene_.view);
     const bool roomy = rectOf(0).width() >= kNumbersFromPx;
     for (int r = 0; r < kRegions; ++r) {
-      const auto k = static_cast<std::size_t>(r);
-      const bool isOwn = grid[k].has_value();
+      const bool isOwn = grid[r].has_value();
       if (!roomy && !isOwn && r != hovered_) continue;
       if (!isOwn && !found) continue;
       font.setBold(isOwn);
       painter.setFont(font);
-      const bool isCertain = isOwn || (found && found->measured[k]);
+      const bool isCertain = isOwn || (found && found->measured[r]);
       const QString number = QString::number(scale.shown(level(r)), 'f', 0);
       // On a light ground of its own: there may be ink below.
       const QRectF text(rectOf(r).topLeft() + QPointF(5.0, 3.0), QSizeF(painter.fontMetrics().size(0, number)));
@@ -243,7 +241,7 @@ class ThresholdTool final : public CanvasTool {
       painter.drawText(text, Qt::AlignCenter, number);
     }
     if (!hovered_) return;
-    const auto h = static_cast<std::size_t>(*hovered_);
+    const int h = *hovered_;
     const QString kind = grid[h]                        ? tr("set by hand")
                          : found && !found->measured[h] ? tr("automatic, from neighbouring regions")
                                                         : tr("automatic");

@@ -8,9 +8,9 @@
 #include <QPainter>
 #include <QPushButton>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "core/fairing/profile/target_degrees.h"
 #include "ui/theme/theme.h"
 #include "ui/theme/tool_tips.h"
 
@@ -24,6 +24,8 @@ void addLaidOut(QLayout* layout, std::vector<QWidget*>& found);
 
 void addLaidOut(QWidget* widget, std::vector<QWidget*>& found) {
   if (widget->focusPolicy() & Qt::TabFocus) return found.push_back(widget);
+  // What hands the keyboard on to a part of it is a stop of its own for Qt, wherever it stands: just before that part.
+  if (widget->focusProxy() != nullptr) found.push_back(widget);
   if (widget->layout() != nullptr) return addLaidOut(widget->layout(), found);
   // What places its parts by itself has made them in their order.
   for (auto* part : widget->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) addLaidOut(part, found);
@@ -149,7 +151,7 @@ bool FigureTable::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     const int index = help->pos().y() / kRowHeight - (columns_.isEmpty() ? 0 : 1);
-    const bool inside = index >= 0 && index < static_cast<int>(rows_.size());
+    const bool inside = index >= 0 && index < std::ssize(rows_);
     showToolTip(help->globalPos(), inside ? rows_[index].help : QString(), this);
     return true;
   }
@@ -194,11 +196,11 @@ QString counted(qint64 count, const QString& one, const QString& many) {
 }
 
 QString degreeName(int degree) {
-  static const std::array<const char*, 6> kNames = {
+  static const PerTarget<const char*> kNames = {
       QT_TRANSLATE_NOOP("Degree", "linear"),  QT_TRANSLATE_NOOP("Degree", "quadratic"),
       QT_TRANSLATE_NOOP("Degree", "cubic"),   QT_TRANSLATE_NOOP("Degree", "quartic"),
       QT_TRANSLATE_NOOP("Degree", "quintic"), QT_TRANSLATE_NOOP("Degree", "sextic")};
-  if (degree < 1 || degree > 6) return {};
+  if (!isTargetDegree(degree)) return {};
   return QCoreApplication::translate("Degree", kNames[degree - 1]);
 }
 

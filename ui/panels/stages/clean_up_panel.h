@@ -2,19 +2,14 @@
 #pragma once
 
 #include <QWidget>
-#include <vector>
 
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
 
-class QCheckBox;
 class QLabel;
-class QPushButton;
 
 namespace batten {
 
 class FigureTable;
-class SegmentedControl;
 
 /// The neighbourhood filter and what it did to the ink.
 class CleanUpPanel : public QWidget {
@@ -27,33 +22,6 @@ class CleanUpPanel : public QWidget {
   EditorSession& session_;
   FigureTable* figures_;
   QLabel* warning_;
-};
-
-/// Which lines are followed, what of the page is traced, and how many lines that gave.
-class EdgesPanel : public QWidget {
-  Q_OBJECT
- public:
-  EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
-
- private:
-  void buildChoice();
-  void refresh();
-  void buildJunctions();
-  void refreshChoice();
-  void refreshJunctions();
-  EditorSession& session_;
-  std::vector<QWidget*> tracing_;  ///< What is about the lines of the scan.
-  ViewSettings& view_;
-  SegmentedControl* tools_;
-  QLabel* regions_;
-  QPushButton* clear_;
-  QCheckBox* strokes_;
-  QCheckBox* fallback_;
-  QCheckBox* junctions_;
-  QPushButton* pair_;
-  QPushButton* unpair_;
-  FigureTable* figures_;
-  QLabel* note_;
 };
 
 }  // namespace batten

@@ -22,6 +22,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/slider_track.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/corner_rounding.h"
 #include "ui/session/suggestion_source.h"
 #include "ui/theme/theme.h"
@@ -75,10 +76,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
       takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(14, 12, 14, 12);
-  column->setSpacing(8);
-  column->addWidget(heading(tr("Corners"), this));
+  auto* column = panelColumn(this, tr("Corners"));
   column->addWidget(note(tr("Click a sharp corner of a line to mark it; click a mark to select it, and again to "
                             "remove it."),
                          this));
@@ -211,7 +209,7 @@ void CornersPanel::buildSuggestions() {
   connect(scaleTrack_, &QSlider::valueChanged, this, setScale);
   connect(take_, &QPushButton::clicked, this, [this] {
     const int at = suggested_->currentRow();
-    if (at >= 0 && at < static_cast<int>(suggestions_.size())) mark({suggestions_[at].positionPx});
+    if (at >= 0 && at < std::ssize(suggestions_)) mark({suggestions_[at].positionPx});
   });
   connect(suggested_, &QListWidget::itemActivated, take_, &QPushButton::click);
   connect(takeAll_, &QPushButton::clicked, this, [this] {
@@ -361,7 +359,7 @@ void CornersPanel::mark(const std::vector<Vec2>& positions) {
 void CornersPanel::editSelected(const QString& what, const std::function<void(CornerMark&)>& change) {
   const int row = marks_->currentRow();
   Recipe after = session_.recipe();
-  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  if (row < 0 || row >= std::ssize(after.cornerMarks)) return;
   change(after.cornerMarks[row]);
   session_.change(what, std::move(after));
 }
@@ -369,7 +367,7 @@ void CornersPanel::editSelected(const QString& what, const std::function<void(Co
 void CornersPanel::removeSelected() {
   const int row = marks_->currentRow();
   Recipe after = session_.recipe();
-  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  if (row < 0 || row >= std::ssize(after.cornerMarks)) return;
   after.cornerMarks.erase(after.cornerMarks.begin() + row);
   session_.change(tr("Remove corner"), std::move(after));
 }

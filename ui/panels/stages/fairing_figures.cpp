@@ -98,12 +98,13 @@ FairingNote fairingNote(const TracedCurve& curve) {
     said.text = curve.fairingUsed.mode == FairingMode::LowPass
                     ? FairingPanel::tr("The tolerance is too small to follow the filtered curvature.")
                     : FairingPanel::tr("The tolerance is too small to reach the target.");
-  const bool isMore = report.neededMm > curve.fairingUsed.toleranceMm;
-  const bool isSensible = report.neededMm <= mostSensibleToleranceMm(curve.sketched);
-  if (isMore && isSensible) said.neededMm = report.neededMm;
+  const double needed = report.neededMm.value_or(0.0);
+  const bool isMore = needed > curve.fairingUsed.toleranceMm;
+  const bool isSensible = needed <= mostSensibleToleranceMm(curve.sketched);
+  if (isMore && isSensible) said.neededMm = needed;
   if (isMore && !isSensible && curve.fairingUsed.mode == FairingMode::Target)
     said.text += FairingPanel::tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
-                     .arg(millimetres(report.neededMm), insteadOf(curve.fairingUsed.target));
+                     .arg(millimetres(needed), insteadOf(curve.fairingUsed.target));
   return said;
 }
 

@@ -14,6 +14,7 @@
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/setting_name.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
 #include "ui/panels/stages/fairing_figures.h"
@@ -90,10 +91,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       figures_(new FigureTable(this)),
       ends_(new EndsTable([this] { return shown(session_.recipe()); },
                           [this](int end, EndHold hold) { setHold(end, hold); }, this)) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(14, 12, 14, 12);
-  column->setSpacing(8);
-  column->addWidget(heading(tr("Fairing"), this));
+  auto* column = panelColumn(this, tr("Fairing"));
   buildScopeAndMode();
   buildTolerance();
   buildSettingsOfModes();
@@ -308,10 +306,10 @@ void FairingPanel::setHold(int end, EndHold hold) {
 
 void FairingPanel::raiseTolerance() {
   const TracedCurve* curve = session_.selected();
-  if (!curve) return;
+  if (!curve || !curve->fairing.neededMm) return;
   Recipe after = session_.recipe();
   // Rounded up to what the field shows, so that the target really fits.
-  const double needed = std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0;
+  const double needed = std::ceil(*curve->fairing.neededMm * 1000.0) / 1000.0;
   if (hasOwnFairing(session_, session_.selectedCurve()))
     after =
         withChoice(session_, session_.selectedCurve(), [needed](PieceChoice& choice) { choice.toleranceMm = needed; });

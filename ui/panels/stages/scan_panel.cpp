@@ -16,6 +16,7 @@
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/import_units.h"
 #include "ui/panels/stages/scale_controls.h"
 #include "ui/session/page_text.h"
@@ -71,10 +72,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
       swatch_(new ToneSwatch(this)),
       paperNote_(note({}, this)),
       inkBox_(new QWidget(this)) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(14, 12, 14, 12);
-  column->setSpacing(8);
-  column->addWidget(heading(tr("Scan"), this));
+  auto* column = panelColumn(this, tr("Scan"));
   column->addWidget(facts_);
   buildPages();
   buildScale(view);

@@ -22,6 +22,7 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/region_histogram.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -44,10 +45,7 @@ ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidg
       table_(new QTableWidget(kRegionsPerSide, kRegionsPerSide, this)),
       showRegions_(new QCheckBox(tr("Show the regions on the picture"), this)),
       note_(note({}, this)) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(14, 12, 14, 12);
-  layout->setSpacing(8);
-  layout->addWidget(heading(tr("Threshold"), this));
+  auto* layout = panelColumn(this, tr("Threshold"));
   layout->addWidget(editor_);
   layout->addWidget(note_);
   // The panel's title says it already.
@@ -129,11 +127,10 @@ void ThresholdPanel::buildRegion() {
 }
 
 double ThresholdPanel::levelOf(int region) const {
-  const auto at = static_cast<std::size_t>(region);
-  const auto& own = session_.recipe().threshold.grid[at];
+  const auto& own = session_.recipe().threshold.grid[region];
   if (own) return *own;
   if (session_.recipe().threshold.mode == ThresholdMode::Manual) return session_.recipe().threshold.manualLevel;
-  return session_.output().thresholds ? session_.output().thresholds->automatic[at] : 128.0;
+  return session_.output().thresholds ? session_.output().thresholds->automatic[region] : 128.0;
 }
 
 void ThresholdPanel::setRegion(std::optional<int> region, std::optional<double> grey, GestureId gesture) {

@@ -10,10 +10,10 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/curve/curvature.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target_advice.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
@@ -93,7 +93,7 @@ void ShapeWindow::showEvent(QShowEvent* event) {
 std::vector<ShapeWindow::Entry> ShapeWindow::entries() const {
   std::vector<Entry> all;
   const auto curves = session_.curves();
-  for (int i = 0; i < static_cast<int>(curves.size()); ++i) {
+  for (int i = 0; i < std::ssize(curves); ++i) {
     const TracedCurve& curve = curves[i];
     if (curve.sketched.isEmpty()) continue;
     all.push_back({Entry::Kind::Sketched, i});
@@ -127,7 +127,7 @@ ShapeProfile ShapeWindow::profileOf(const Entry& entry) const {
                         selected->sketchedFigures.lengthMm, extent(selected->sketched));
   }
   const auto curves = session_.curves();
-  if (entry.number < 0 || static_cast<std::size_t>(entry.number) >= curves.size()) return {};
+  if (entry.number < 0 || entry.number >= std::ssize(curves)) return {};
   const TracedCurve& curve = curves[entry.number];
   return shapeProfile(entry.kind == Entry::Kind::Faired ? curve.faired : curve.sketched, curve.closed);
 }
@@ -135,8 +135,7 @@ ShapeProfile ShapeWindow::profileOf(const Entry& entry) const {
 void ShapeWindow::refill() {
   const auto chosen = [this](const QComboBox* box) {
     const int index = box->currentIndex();
-    return index >= 0 && static_cast<std::size_t>(index) < entries_.size() ? std::optional(entries_[index])
-                                                                           : std::nullopt;
+    return index >= 0 && index < std::ssize(entries_) ? std::optional(entries_[index]) : std::nullopt;
   };
   const auto first = chosen(first_), second = chosen(second_);
   entries_ = entries();
@@ -159,7 +158,7 @@ void ShapeWindow::refill() {
 
 void ShapeWindow::compare() {
   const int a = first_->currentIndex(), b = second_->currentIndex();
-  if (a < 0 || b < 0 || static_cast<std::size_t>(std::max(a, b)) >= entries_.size()) {
+  if (a < 0 || b < 0 || std::max(a, b) >= std::ssize(entries_)) {
     view_->show({}, true);
     figures_->setRows({{tr("No curve yet"), {{QStringLiteral("–")}, {QStringLiteral("–")}}, {}}});
     return;
@@ -189,23 +188,24 @@ void ShapeWindow::refreshTable() {
   const int nearest = isFound ? targets->recommendedDegree.value() : 1;
   const bool isAdvised = isFound && isAdvisable(*targets, nearest, fairingAsked(session_).toleranceMm);
   std::vector<FigureTable::Row> rows;
-  for (int degree = 1; targets && degree <= 6; ++degree) {
-    const auto at = static_cast<std::size_t>(degree - 1);
+  for (int degree = 1; targets && degree <= kMostTargetDegree; ++degree) {
+    const int at = degree - 1;
     const TargetProfile& p = targets->targets.profiles[at];
     const QString none = QStringLiteral("–");
     const auto& faired = targets->faired[at];
     QString name = QStringLiteral("%1 %2").arg(degree).arg(degreeName(degree));
     if (isAdvised && degree == nearest) name += QStringLiteral(" ✓");
-    const bool usable = p.valid && p.aicc < std::numeric_limits<double>::max();
-    rows.push_back({name,
-                    {{p.valid ? number(p.similarity, 5) : none},
-                     {p.valid ? number(p.pearson, 3) : none},
-                     {p.valid ? number(p.rmsPercent, 1) : none},
-                     {faired ? number(faired->report.neededMm, 3) : none, faired && !faired->report.withinTolerance},
-                     {faired ? QString::number(faired->report.extremaAfter) : none},
-                     {usable ? number(p.aicc, 1) : none}},
-                    p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile is not monotone."))
-                            : QString::fromStdString(p.problem)});
+    const bool usable = p.valid && p.aicc;
+    rows.push_back(
+        {name,
+         {{p.valid ? number(p.similarity, 5) : none},
+          {p.valid ? number(p.pearson, 3) : none},
+          {p.valid ? number(p.rmsPercent, 1) : none},
+          {faired ? number(faired->report.neededMm.value_or(0.0), 3) : none, faired && !faired->report.withinTolerance},
+          {faired ? QString::number(faired->report.extremaAfter) : none},
+          {usable ? number(*p.aicc, 1) : none}},
+         p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile is not monotone."))
+                 : QString::fromStdString(p.problem)});
   }
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));

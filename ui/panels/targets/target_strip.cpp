@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/fairing/fairing.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
 #include "ui/theme/theme.h"
@@ -19,7 +20,7 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 7);
   layout->setSpacing(6);
-  for (int degree = 1; degree <= 6; ++degree) {
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
     auto* tile = new TargetTile(degree, this);
     tiles_[degree - 1] = tile;
     layout->addWidget(tile, 1);
@@ -69,7 +70,7 @@ void TargetStrip::refresh() {
                           : session_.isTargeting() ? tr("computing…")
                           : session_.isStopped()   ? tr("stopped")
                                                    : QString();
-  for (int degree = 1; degree <= 6; ++degree)
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree)
     tiles_[degree - 1]->show(curve ? targets : nullptr, tolerance, degree == chosen, choosesForOneCurve(session_),
                              waiting);
   alignFigures();

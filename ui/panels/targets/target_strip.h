@@ -2,8 +2,8 @@
 #pragma once
 
 #include <QWidget>
-#include <array>
 
+#include "core/fairing/profile/target_degrees.h"
 #include "ui/panels/targets/target_tile.h"
 #include "ui/session/editor_session.h"
 
@@ -30,7 +30,7 @@ class TargetStrip : public QWidget {
   void refresh();
   void alignFigures();
   EditorSession& session_;
-  std::array<TargetTile*, 6> tiles_{};
+  PerTarget<TargetTile*> tiles_{};
 };
 
 }  // namespace batten

@@ -28,11 +28,11 @@ constexpr double kTitleHeight = 17.0;
 std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* profile) {
   const TargetSet& set = outcomes.targets;
   double turn = 0.0;
-  for (const double kappa : set.kappa) turn += std::isfinite(kappa) ? kappa : 0.0;
+  for (const CurvatureSample& sample : set.samples) turn += std::isfinite(sample.kappa) ? sample.kappa : 0.0;
   const double sign = turn < 0.0 ? -1.0 : 1.0;
-  std::vector<double> values(set.perimeter.size());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = sign * (profile ? profile->curvatureAt(set.perimeter[i]) : set.kappa[i]);
+  std::vector<double> values;
+  for (const auto& [perimeter, kappa] : set.samples)
+    values.push_back(sign * (profile ? profile->curvatureAt(perimeter) : kappa));
   return values;
 }
 
@@ -58,7 +58,7 @@ TargetTile::TargetTile(int degree, QWidget* parent) : QAbstractButton(parent), d
 
 QString TargetTile::problem() const {
   if (!outcomes_) return {};
-  const auto index = static_cast<std::size_t>(degree_ - 1);
+  const int index = degree_ - 1;
   const TargetProfile& profile = outcomes_->targets.profiles[index];
   if (!profile.valid)
     return profile.problem.empty() ? tr("does not fit this curve") : QString::fromStdString(profile.problem);
@@ -97,8 +97,9 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
       tip += tr("\nS of the faired curve against the sketch: %1.").arg(similarityText(*faired.report.similarityAfter));
     if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
       tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
-    if (!faired.report.withinTolerance && faired.report.neededMm > toleranceMm)
-      tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(faired.report.neededMm));
+    if (const double needed = faired.report.neededMm.value_or(0.0);
+        !faired.report.withinTolerance && needed > toleranceMm)
+      tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(needed));
     else if (!faired.report.withinTolerance)
       tip += faired.report.maxDeviationMm > 0.0
                  ? tr("\nReaching it would add curvature extrema; the curve follows it in part.")
@@ -237,7 +238,7 @@ QPainterPath TargetTile::pathOf(const std::vector<double>& values, const QRectF&
       pen = false;
       continue;
     }
-    const auto share = shareOfSpan(*outcomes_, outcomes_->targets.perimeter[i]);
+    const auto share = shareOfSpan(*outcomes_, outcomes_->targets.samples[i].perimeter);
     if (!share) {
       pen = false;
       continue;
@@ -260,7 +261,7 @@ std::optional<std::pair<double, double>> TargetTile::range(const std::vector<dou
   // Same axes in every tile: the range of the data without its two outermost percent, so one spike cannot flatten all.
   std::vector<double> sorted;
   for (std::size_t i = 0; i < sketched.size(); ++i) {
-    if (std::isfinite(sketched[i]) && shareOfSpan(*outcomes_, outcomes_->targets.perimeter[i]))
+    if (std::isfinite(sketched[i]) && shareOfSpan(*outcomes_, outcomes_->targets.samples[i].perimeter))
       sorted.push_back(sketched[i]);
   }
   if (sorted.size() < 2) return std::nullopt;
@@ -309,16 +310,17 @@ void TargetTile::paintProfiles(QPainter& painter, const QRectF& box) const {
 }
 
 TargetTile::FigureTexts TargetTile::figureTexts() const {
-  const auto index = static_cast<std::size_t>(degree_ - 1);
+  const int index = degree_ - 1;
   const FairingReport& report = outcomes_->faired[index]->report;
   FigureTexts texts;
   texts.isOver = !isWithinTolerance(*outcomes_, degree_, toleranceMm_);
   texts.hasMoreExtrema = report.extremaAfter > report.extremaBefore;
   // What meeting the target takes is the number that decides; the curve itself never leaves the tolerance.
-  const double mm = texts.isOver ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
+  const double needed = report.neededMm.value_or(0.0);
+  const double mm = texts.isOver ? std::max(needed, report.maxDeviationMm) : report.maxDeviationMm;
   texts.similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
   texts.length = shortMillimetres(mm);
-  const bool wouldAdd = texts.isOver && report.neededMm <= toleranceMm_;
+  const bool wouldAdd = texts.isOver && needed <= toleranceMm_;
   texts.needs = wouldAdd ? tr("adds extrema") : texts.isOver ? tr("needs %1").arg(texts.length) : texts.length;
   texts.extrema = tr("%1 extr.").arg(report.extremaAfter);
   return texts;

@@ -14,6 +14,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/followed_target.h"
 #include "core/fairing/profile/profile_points.h"
+#include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
 #include "ui/session/edits/piece_choice.h"
@@ -168,7 +169,7 @@ void pointAtSpanNear(EditorSession& session, const Vec2& px) {
 
 void chooseSpanTarget(EditorSession& session, int degree) {
   const auto share = session.pointedSpan();
-  if (!isUsable(session) || !share || degree < 1 || degree > 6) return;
+  if (!isUsable(session) || !share || !isTargetDegree(degree)) return;
   const TracedCurve& curve = *session.selected();
   std::vector<double> splits = splitsOf(session);
   std::sort(splits.begin(), splits.end());

@@ -16,7 +16,7 @@ std::optional<std::size_t> pieceOf(const EditorSession& session, std::optional<i
   const auto& pieces = session.output().pieces;
   if (!pieces || !of) return std::nullopt;
   const int piece = of->piece;
-  if (piece < 0 || static_cast<std::size_t>(piece) >= pieces->pieces.size()) return std::nullopt;
+  if (piece < 0 || piece >= std::ssize(pieces->pieces)) return std::nullopt;
   return static_cast<std::size_t>(piece);
 }
 

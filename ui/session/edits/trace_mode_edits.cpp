@@ -20,7 +20,7 @@ const Contour* tracedLineOf(const EditorSession& session, std::optional<int> cur
   if (!set || session.isStale(StageId::Contours) != session.isStale(StageId::Faired)) return nullptr;
   if (!of) return nullptr;
   const int contour = of->contour;
-  if (contour < 0 || static_cast<std::size_t>(contour) >= set->contours.size()) return nullptr;
+  if (contour < 0 || contour >= std::ssize(set->contours)) return nullptr;
   const Contour& line = set->contours[contour];
   return isDrawn(line.kind) || line.points.empty() ? nullptr : &line;
 }

@@ -163,8 +163,8 @@ void CurveList::refresh() {
   filling_ = true;
   const auto curves = session_.curves();
   if (count() != std::ssize(curves)) showFromTop();
-  while (count() > static_cast<int>(curves.size())) delete takeItem(count() - 1);
-  while (count() < static_cast<int>(curves.size())) addItem(QString());
+  while (count() > std::ssize(curves)) delete takeItem(count() - 1);
+  while (count() < std::ssize(curves)) addItem(QString());
   for (int i = 0; i < count(); ++i) {
     const TracedCurve& curve = curves[i];
     const CurveFigures& figures = judgedFigures(curve, curve.included ? judged_ : Judged::Sketched);
@@ -367,7 +367,7 @@ void CurveList::take(const std::shared_ptr<const Judgements>& found, bool isAll)
 
 void CurveList::keyPressEvent(QKeyEvent* event) {
   const auto curves = session_.curves();
-  if (event->key() == Qt::Key_Space && currentRow() >= 0 && currentRow() < static_cast<int>(curves.size()))
+  if (event->key() == Qt::Key_Space && currentRow() >= 0 && currentRow() < std::ssize(curves))
     return setIncluded(session_, currentRow(), !curves[currentRow()].included);
   QListWidget::keyPressEvent(event);
 }
@@ -375,7 +375,7 @@ void CurveList::keyPressEvent(QKeyEvent* event) {
 void CurveList::mousePressEvent(QMouseEvent* event) {
   const int row = indexAt(event->pos()).row();
   const auto curves = session_.curves();
-  if (row >= 0 && row < static_cast<int>(curves.size()) && event->pos().x() < kEyeWidth)
+  if (row >= 0 && row < std::ssize(curves) && event->pos().x() < kEyeWidth)
     return setIncluded(session_, row, !curves[row].included);
   QListWidget::mousePressEvent(event);
 }

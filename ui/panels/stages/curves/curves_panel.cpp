@@ -12,6 +12,7 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/curves/comb_controls.h"
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/stages/curves/growing_controls.h"
@@ -64,10 +65,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
       forget_(linkButton(tr("Forget"), QStringLiteral("curves.forgetWaiting"), this)),
       segmentsNote_(note({}, this)),
       growing_(new GrowingControls(session.growing(), this)) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(14, 12, 14, 12);
-  layout->setSpacing(8);
-  layout->addWidget(heading(tr("Curves"), this));
+  auto* layout = panelColumn(this, tr("Curves"));
   layout->addWidget(methods_);
   layout->addWidget(new PaperRow(session, this));
   layout->addWidget(new PinPanel(session, this));
@@ -178,11 +176,11 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
                                tr("The scan does not differ from the exact shape by more than its noise.")});
   if (fit.noisePx > 0.0)
     rows.push_back({tr("Edge noise"),
-                    {{length(fit.noisePx)}},
+                    {{length(*fit.noisePx)}},
                     tr("Standard deviation of the scan's edge points from the curve.")});
-  if (fit.fullControlPoints > curve.sketchedFigures.controlPoints) {
+  if (fit.fullControlPoints.value_or(0) > curve.sketchedFigures.controlPoints) {
     rows.push_back({tr("Before knot removal"),
-                    {{tr("%1 points").arg(fit.fullControlPoints)}},
+                    {{tr("%1 points").arg(*fit.fullControlPoints)}},
                     tr("Control points before knot removal.")});
     rows.push_back({tr("Moved by knot removal"),
                     {{length(fit.knotRemovalMovedPx)}},
@@ -215,7 +213,7 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
                     {{tr("%1 extrema").arg(dropped)}},
                     tr("Hollow marks on the curve: click one to keep it.")});
   const auto& pieces = session_.output().pieces;
-  if (!pieces || curve.piece < 0 || static_cast<std::size_t>(curve.piece) >= pieces->pieces.size()) return;
+  if (!pieces || curve.piece < 0 || curve.piece >= std::ssize(pieces->pieces)) return;
   const auto& points = pieces->pieces[curve.piece].points;
   const auto fallback = std::ranges::count(points, false, &PiecePoint::refined);
   // A line drawn by hand is where the hand drew it.

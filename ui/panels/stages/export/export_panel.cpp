@@ -16,6 +16,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/path_edit.h"
 #include "ui/panels/controls/save_dialog.h"
+#include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/export/export_choice.h"
 #include "ui/panels/stages/export/export_folder.h"
 #include "ui/panels/stages/export/export_options.h"
@@ -105,10 +106,7 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
 ExportPanel::~ExportPanel() = default;
 
 void ExportPanel::buildForm() {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(14, 12, 14, 12);
-  layout->setSpacing(8);
-  layout->addWidget(heading(tr("Export"), this));
+  auto* layout = panelColumn(this, tr("Export"));
   layout->addWidget(options_);
   layout->addWidget(choice_, 1);
   layout->addWidget(caption(tr("What will be written"), this));

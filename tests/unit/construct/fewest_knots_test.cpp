@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/fair/knot_removal.h"
+#include "core/construct/fair/fewest_knots.h"
 
 #include <gtest/gtest.h>
 
@@ -70,21 +70,21 @@ double farthest(const NurbsCurve& a, const NurbsCurve& b) {
   return worst;
 }
 
-TEST(FairReduce, FewerPointsWithinTheNoiseAndWithTheSameExtrema) {
+TEST(FewestKnots, FewerPointsWithinTheNoiseAndWithTheSameExtrema) {
   for (const Shape& shape : shapes()) {
     const auto full = fitWith(shape, 0.0), fewer = fitWith(shape, 0.25);
     EXPECT_EQ(fewer.report.fullControlPoints, full.curve.controlPointCount()) << shape.name;
     EXPECT_LT(fewer.curve.controlPointCount(), 0.75 * full.curve.controlPointCount()) << shape.name;
     EXPECT_EQ(fewer.curve.degree(), 5);
     const double movedPx = farthest(fewer.curve, full.curve) / 0.1;
-    EXPECT_LT(movedPx, 0.25 * fewer.report.noisePx * 1.05) << shape.name;
+    EXPECT_LT(movedPx, 0.25 * fewer.report.noisePx.value() * 1.05) << shape.name;
     EXPECT_NEAR(movedPx, fewer.report.knotRemovalMovedPx, 0.35 * fewer.report.knotRemovalMovedPx + 5e-4) << shape.name;
     EXPECT_EQ(test::extremaOf(fewer.curve, shape.closed).size(), test::extremaOf(full.curve, shape.closed).size())
         << shape.name;
   }
 }
 
-TEST(FairReduce, MoreNoiseAllowedMeansFewerPoints) {
+TEST(FewestKnots, MoreNoiseAllowedMeansFewerPoints) {
   for (const Shape& shape : shapes()) {
     int last = 1 << 20;
     for (const double share : {0.0, 0.05, 0.25, 1.0}) {
@@ -95,7 +95,7 @@ TEST(FairReduce, MoreNoiseAllowedMeansFewerPoints) {
   }
 }
 
-TEST(FairReduce, EndsStayExactAndClosedCurvesMeet) {
+TEST(FewestKnots, EndsStayExactAndClosedCurvesMeet) {
   for (const Shape& shape : shapes()) {
     const auto fewer = fitWith(shape, 0.25, !shape.closed);
     const NurbsCurve& c = fewer.curve;
@@ -111,7 +111,7 @@ TEST(FairReduce, EndsStayExactAndClosedCurvesMeet) {
   }
 }
 
-TEST(FairReduce, CountsTurnsBeyondTheThreshold) {
+TEST(FewestKnots, CountsTurnsBeyondTheThreshold) {
   const std::vector<double> kappa = {0.0, 1.0, 0.95, 2.0, 1.0, 1.5, 1.45, 3.0};
   EXPECT_EQ(countExtrema(kappa, 0.1), 2);
   EXPECT_EQ(countExtrema(kappa, 0.01), 6);

@@ -13,19 +13,19 @@
 namespace batten {
 
 /// What is asked at one station.
-struct KnotRemovalLimit {
+struct FewestKnotsLimit {
   double distancePx = 0.0;  ///< > 0: farthest from the curve …
   double kappaSigma = 0.0;  ///< [1/px] … and noise of the curvature there.
 };
 /// What a curve with fewer control points has to keep of the one that it stands for; px.
-struct KnotRemovalLimits {
-  std::span<const KnotRemovalLimit> stations;               ///< At `checkStations(curve, perSpan)`.
+struct FewestKnotsLimits {
+  std::span<const FewestKnotsLimit> stations;               ///< At `checkStations(curve, perSpan)`.
   int perSpan = 4;                                          ///< Of these stations.
   double kappaShare = 0.5;                                  ///< Part of the noise by which the curvature may differ.
   Vec2 startShift = Vec2::Zero(), endShift = Vec2::Zero();  ///< As UniformQuintic::toNurbs; open curves.
 };
 
-struct KnotRemovalResult {
+struct FewestKnotsResult {
   NurbsCurve curve;      ///< px, clamped; ends exactly where the full curve, shifted, does; closed: periodic.
   double movedPx = 0.0;  ///< Farthest that it lies from the full curve.
 };
@@ -33,7 +33,7 @@ struct KnotRemovalResult {
 /// The quintic with the fewest spans that stays within the limits and whose curvature has as many extrema as that of
 /// the full curve: least squares on knots that share out the sixth derivative evenly (de Boor, A Practical Guide to
 /// Splines, ch. XII), their number found by trial. Absent when nothing is gained.
-std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits&,
+std::optional<FewestKnotsResult> withFewestKnots(const UniformQuintic& full, const FewestKnotsLimits&,
                                                  CancelCheck check = {});
 
 /// The extrema of sampled curvature that rise or fall by more than `least`: indices, ascending.

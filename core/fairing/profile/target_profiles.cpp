@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,25 +136,23 @@ double TargetProfile::curvatureAt(double f) const {
 TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool closed) {
   TargetSet set;
   if (curve.isEmpty()) {
-    for (int d = 1; d <= 6; ++d) {
+    for (int d = 1; d <= kMostTargetDegree; ++d) {
       set.profiles[d - 1].degree = d;
       set.profiles[d - 1].problem = "There is no curve.";
     }
     return set;
   }
-  CurvatureSamples samples = sampledCurvature(curve, params.samples);
-  const ProfileData data =
-      profileData(std::move(samples.perimeter), std::move(samples.kappa), extent(curve), params.quantity);
-  set.perimeter = data.perimeter;
-  set.kappa = data.kappa;
+  const CurvatureSamples samples = sampledCurvature(curve, params.samples);
+  const ProfileData data = profileData(samples.perimeters(), samples.kappa, extent(curve), params.quantity);
+  set.samples = samples.places();
   set.comparesCurvature = data.bendsBothWays;
-  for (int degree = 1; degree <= 6; ++degree) {
-    const auto at = static_cast<std::size_t>(degree - 1);
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
+    const int at = degree - 1;
     set.profiles[at] = fitProfile(data, params, closed, degree, curve.controlPointCount());
     const TargetProfile& profile = set.profiles[at];
     if (!profile.valid) continue;
     const std::optional<int> best = set.recommendedDegree;
-    if (!best || profile.aicc < set.profiles[*best - 1].aicc) set.recommendedDegree = degree;
+    if (!best || hasLowerAicc(profile, set.profiles[*best - 1])) set.recommendedDegree = degree;
   }
   return set;
 }

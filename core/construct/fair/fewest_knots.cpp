@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/fair/knot_removal.h"
+#include "core/construct/fair/fewest_knots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ class KnotPlacing {
 
 class KnotRemoval {
  public:
-  KnotRemoval(const UniformQuintic& full, const KnotRemovalLimits& limits, CancelCheck check)
+  KnotRemoval(const UniformQuintic& full, const FewestKnotsLimits& limits, CancelCheck check)
       : full_(full), limits_(limits), check_(check), placing_(full), closed_(full.knots().closed) {
     const UniformKnots& knots = full.knots();
     const int count = limits.perSpan * knots.spans + (closed_ ? 0 : 1);
@@ -105,16 +105,16 @@ class KnotRemoval {
     const std::vector<int> extrema = extremaOfSamples(kappas, least_);
     extrema_ = static_cast<int>(extrema.size());
     if (!limits.stations.empty())
-      nearest_ = std::ranges::min(limits.stations, {}, &KnotRemovalLimit::distancePx).distancePx;
+      nearest_ = std::ranges::min(limits.stations, {}, &FewestKnotsLimit::distancePx).distancePx;
     findDirections(extrema);
   }
 
-  std::optional<KnotRemovalResult> run() {
+  std::optional<FewestKnotsResult> run() {
     const int n = full_.knots().spans;
     const int most = static_cast<int>(kLeastGain * n);
     int low = closed_ ? kFewestClosed : 1, high = most;  // what is still to be tried
     if (high < low || limits_.stations.size() != stations_.size()) return std::nullopt;
-    std::optional<KnotRemovalResult> best;
+    std::optional<FewestKnotsResult> best;
     int spans = std::clamp(static_cast<int>(kFirstGuess * n), low, high);
     for (int trial = 0; trial < kTrials && low <= high; ++trial) {
       if (best && high - low < kCloseEnough * high) break;
@@ -316,7 +316,7 @@ class KnotRemoval {
     fit.keepsExtrema = countExtrema(kappa, least_) == extrema_;
   }
 
-  std::optional<KnotRemovalResult> made(const Fit& fit, int spans) const {
+  std::optional<FewestKnotsResult> made(const Fit& fit, int spans) const {
     const std::vector<double> knots = knotsFor(spans);
     std::vector<Vec2> controls;
     const auto count = static_cast<Eigen::Index>(knots.size()) - 6;
@@ -328,11 +328,11 @@ class KnotRemoval {
     auto curve = NurbsCurve::make(5, knots, std::move(controls));
     if (curve && closed_) curve = clamped(*curve);
     if (!curve) return std::nullopt;
-    return KnotRemovalResult{std::move(*curve), fit.moved};
+    return FewestKnotsResult{std::move(*curve), fit.moved};
   }
 
   const UniformQuintic& full_;
-  const KnotRemovalLimits& limits_;
+  const FewestKnotsLimits& limits_;
   CancelCheck check_;
   KnotPlacing placing_;
   bool closed_;
@@ -343,9 +343,9 @@ class KnotRemoval {
 
 }  // namespace
 
-std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits& limits,
+std::optional<FewestKnotsResult> withFewestKnots(const UniformQuintic& full, const FewestKnotsLimits& limits,
                                                  CancelCheck check) {
-  const auto isPositive = [](const KnotRemovalLimit& limit) { return limit.distancePx > 0.0; };
+  const auto isPositive = [](const FewestKnotsLimit& limit) { return limit.distancePx > 0.0; };
   if (!std::ranges::all_of(limits.stations, isPositive)) return std::nullopt;
   return KnotRemoval(full, limits, check).run();
 }

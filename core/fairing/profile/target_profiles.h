@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/curve/curvature.h"
+#include "core/fairing/profile/target_degrees.h"
 
 namespace batten {
 
@@ -47,9 +47,9 @@ struct ProfileNode {
   double f = 0.0, value = 0.0, slope = 0.0;  ///< Slope with respect to f.
 };
 
-/// One of the six target profiles, or any other: where `nodes` are given, they count instead of the coefficients.
+/// One of the target profiles, or any other: where `nodes` are given, they count instead of the coefficients.
 struct TargetProfile {
-  int degree = 1;  ///< 1..6.
+  int degree = 1;  ///< 1..kMostTargetDegree.
   TargetQuantity quantity = TargetQuantity::Curvature;
   std::vector<double> coefficients;  ///< Ascending powers of the perimeter f in 0..1, [1/mm] or [mm].
   std::vector<ProfileNode> nodes;    ///< Ascending f from 0 to 1, cubic between two; a kink is two nodes of the same f.
@@ -61,26 +61,38 @@ struct TargetProfile {
   double similarity = 0.0;
   double pearson = 0.0;     ///< Pearson r of the same, -1..1.
   double rmsPercent = 0.0;  ///< rms difference in % of the range of the data.
-  double aicc = 0.0;        ///< Smaller is better; n_eff = number of control points.
+  /// Smaller is better; n_eff = number of control points. Absent: too few of them for the degree.
+  std::optional<double> aicc;
   /// Target value at perimeter f; curvature() converts a radius target.
   double value(double f) const;
   double curvatureAt(double f) const;
 };
 
-struct TargetSet {
-  std::array<TargetProfile, 6> profiles;  ///< Degree 1..6.
-  std::vector<double> perimeter;          ///< 0..1, the sample positions.
-  std::vector<double> kappa;              ///< [1/mm] of the curve there.
-  bool comparesCurvature = false;         ///< Similarities are of the curvature, for the radius has no end somewhere.
-  std::optional<int> recommendedDegree;   ///< By AICc; absent: none is valid.
+/// Whether a profile explains the curve better than another by AICc; one without is never better.
+inline bool hasLowerAicc(const TargetProfile& one, const TargetProfile& other) {
+  return one.aicc && (!other.aicc || *one.aicc < *other.aicc);
+}
+
+/// The curvature of a curve at one place.
+struct CurvatureSample {
+  double perimeter = 0.0;  ///< 0..1, share of the arc length.
+  double kappa = 0.0;      ///< [1/mm]
 };
 
-/// Least-squares polynomials of degree 1..6 over the perimeter (000 VI, 003 section 4), monotone by non-negative least
-/// squares on a grid of 200 (Bernstein coefficients as fallback), with their similarity to the curve. A monotone
-/// profile of data that turn back stays monotone and lies far off: S, Pearson and rms tell. S and Pearson compare
-/// radii, which have no end where the curve is straight: |rho| counts as at most ten times the extent of the curve
-/// (sagitta 1/80 of it), with the sign of kappa. rms and AICc refer to the fitted quantity; for AICc a residual below
-/// 1e-6 of the data's rms counts as this, so that exact data choose the lowest degree and not the rounding.
+struct TargetSet {
+  PerTarget<TargetProfile> profiles;
+  std::vector<CurvatureSample> samples;  ///< Of the curve.
+  bool comparesCurvature = false;        ///< Similarities are of the curvature, for the radius has no end somewhere.
+  std::optional<int> recommendedDegree;  ///< By AICc; absent: none is valid.
+};
+
+/// Least-squares polynomials of degree 1..kMostTargetDegree over the perimeter (000 VI, 003 section 4), monotone by
+/// non-negative least squares on a grid of 200 (Bernstein coefficients as fallback), with their similarity to the
+/// curve. A monotone profile of data that turn back stays monotone and lies far off: S, Pearson and rms tell. S and
+/// Pearson compare radii, which have no end where the curve is straight: |rho| counts as at most ten times the extent
+/// of the curve (sagitta 1/80 of it), with the sign of kappa. rms and AICc refer to the fitted quantity; for AICc a
+/// residual below 1e-6 of the data's rms counts as this, so that exact data choose the lowest degree and not the
+/// rounding.
 /// @param closed value and slope of the profile at f = 1 equal those at 0 (degrees 1 and 2: a circle); `monotone` is
 /// off.
 TargetSet fitTargets(const NurbsCurve&, const TargetParams&, bool closed = false);

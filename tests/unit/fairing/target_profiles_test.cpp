@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/profile/radius_target.h"
+#include "core/fairing/profile/target_profiles.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ double rms(const std::vector<double>& c, const std::vector<double>& f, const std
   return std::sqrt(sum / static_cast<double>(f.size()));
 }
 
-TEST(RadiusTarget, MatchesTheKnownPolynomialsAndTheirSimilarity) {
+TEST(TargetProfiles, MatchesTheKnownPolynomialsAndTheirSimilarity) {
   const auto data = test::knownAnswer(BATTEN_TEST_DATA, "06_target_similarity.json");
   for (const auto& curve : data.at("curves")) {
     const auto rho = curve.at("rho").get<std::vector<double>>();
@@ -47,7 +47,7 @@ TEST(RadiusTarget, MatchesTheKnownPolynomialsAndTheirSimilarity) {
       EXPECT_NEAR(similarity(fitted, rho), known.at("similarity_S").get<double>(), 1e-12);
       EXPECT_NEAR(pearson(fitted, rho), known.at("pearson").get<double>(), 1e-9);
       const double residual = rms(c, f, rho);
-      EXPECT_NEAR(aicc(residual * residual, degree, 14), known.at("aicc_neff14").get<double>(), 1e-6);
+      EXPECT_NEAR(aicc(residual * residual, degree, 14).value(), known.at("aicc_neff14").get<double>(), 1e-6);
       EXPECT_EQ(isMonotonePolynomial(c), known.at("lsq_monotone").get<bool>());
       const bool rising = rho.back() > rho.front();
       const auto monotone = fitMonotonePolynomial(f, rho, degree, rising);
@@ -61,7 +61,7 @@ TEST(RadiusTarget, MatchesTheKnownPolynomialsAndTheirSimilarity) {
   }
 }
 
-TEST(RadiusTarget, MonotoneProfileOfPositiveDataStaysPositive) {
+TEST(TargetProfiles, MonotoneProfileOfPositiveDataStaysPositive) {
   std::vector<double> f, y;
   for (int i = 0; i <= 100; ++i) {
     f.push_back(i / 100.0);
@@ -74,7 +74,7 @@ TEST(RadiusTarget, MonotoneProfileOfPositiveDataStaysPositive) {
   }
 }
 
-TEST(RadiusTarget, PeriodicProfileMeetsItselfWithItsSlope) {
+TEST(TargetProfiles, PeriodicProfileMeetsItselfWithItsSlope) {
   std::vector<double> f, y;
   for (int i = 0; i <= 120; ++i) {
     f.push_back(i / 120.0);
@@ -90,7 +90,7 @@ TEST(RadiusTarget, PeriodicProfileMeetsItselfWithItsSlope) {
   EXPECT_LT(rms(fitPeriodicPolynomial(f, y, 6), f, y), 0.05);
 }
 
-TEST(RadiusTarget, TakesTheLowestDegreeOnACircleAndTheExactOneOnAnExactProfile) {
+TEST(TargetProfiles, TakesTheLowestDegreeOnACircleAndTheExactOneOnAnExactProfile) {
   const TargetSet circle = fitTargets(test::arc(50.0, 1.5, 20), {});
   EXPECT_EQ(circle.recommendedDegree, 1);
   for (const TargetProfile& p : circle.profiles) {
@@ -100,7 +100,7 @@ TEST(RadiusTarget, TakesTheLowestDegreeOnACircleAndTheExactOneOnAnExactProfile) 
   }
 }
 
-TEST(RadiusTarget, RefusesRadiusProfilesThroughInflections) {
+TEST(TargetProfiles, RefusesRadiusProfilesThroughInflections) {
   TargetParams params;
   params.quantity = TargetQuantity::Radius;
   const TargetSet set = fitTargets(test::wave(200.0, 10.0, 30), params);
@@ -111,7 +111,7 @@ TEST(RadiusTarget, RefusesRadiusProfilesThroughInflections) {
   }
 }
 
-TEST(RadiusTarget, SimilarityRisesWithTheDegreeOfThePlainFit) {
+TEST(TargetProfiles, SimilarityRisesWithTheDegreeOfThePlainFit) {
   TargetParams params;
   params.monotone = false;
   params.quantity = TargetQuantity::Radius;
