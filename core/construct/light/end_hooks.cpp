@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/construct/light/light_check.h"
 #include "core/curve/curvature.h"
 
 namespace batten {
@@ -13,9 +14,8 @@ constexpr double kEndShare = 0.1;  // of the length: what counts as an end, two 
 // [1/diagonal] A smaller change of the curvature turns the end by less than a degree (a tenth of 0.2 rad), and no comb
 // shows it.
 constexpr double kSeenChange = 0.2;
-constexpr double kSharper = 2.0;                         // times the change of the dense curve: no longer its own
-constexpr double kMeasured = 0.99;                       // what lies between two places is not seen
-constexpr int kFewestPlaces = 400, kPlacesPerSpan = 40;  // as many as the strict check looks at
+constexpr double kSharper = 2.0;    // times the change of the dense curve: no longer its own
+constexpr double kMeasured = 0.99;  // what lies between two places is not seen
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -45,7 +45,7 @@ Range rangeOf(const NurbsCurve& light, const LightReference& dense, bool atEnd) 
   Range range;
   const std::vector<double> breaks = light.breaks();
   const int spans = static_cast<int>(breaks.size()) - 1;
-  const int places = std::max(kPlacesPerSpan, kFewestPlaces / spans);
+  const int places = placesPerSpan(spans);
   int foot = atEnd ? dense.size() - 1 : 0;
   for (int i = 0; i < spans; ++i) {
     const double outer = breaks[atEnd ? spans - i : i], inner = breaks[atEnd ? spans - 1 - i : i + 1];

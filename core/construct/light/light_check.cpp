@@ -10,7 +10,6 @@
 namespace batten {
 namespace {
 
-constexpr int kFewestPlaces = 400, kPlacesPerSpan = 40;
 constexpr double kLeastSpeed = 0.1;  // of the mean
 constexpr double kJump = 3.0;        // steps of the curve that its foot may run on at once, and two samples
 
@@ -22,7 +21,7 @@ struct CheckedPlace {
 std::vector<CheckedPlace> placesOf(const NurbsCurve& curve, bool closed) {
   const std::vector<double> breaks = curve.breaks();
   const int spans = static_cast<int>(breaks.size()) - 1;
-  const int perSpan = std::max(kPlacesPerSpan, (kFewestPlaces + spans - 1) / spans);
+  const int perSpan = placesPerSpan(spans);
   std::vector<CheckedPlace> places;
   places.reserve(perSpan * spans + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
@@ -82,6 +81,11 @@ std::optional<double> worstOffset(const std::vector<CheckedPlace>& places, const
 }
 
 }  // namespace
+
+int placesPerSpan(int spans) {
+  constexpr int kFewestPlaces = 400, kPerSpan = 40;
+  return std::max(kPerSpan, (kFewestPlaces + spans - 1) / spans);
+}
 
 double lightProminence(const LightReference& reference) { return kExtremumProminence / reference.diagonal(); }
 

@@ -148,21 +148,22 @@ TEST(Monotone, SaysWhatHeldEndsForbid) {
     return Vec2(70.0 * std::cos(a), 150.0 * std::sin(a));
   };
   const NurbsCurve start = test::fitted(tip, 40);
-  for (const int keep : {0, kKeepSignificant}) {
-    FairingParams params = monotone(0.01, keep);
+  for (const KeptExtrema keep : {KeptExtrema{0}, KeptExtrema{}}) {
+    FairingParams params = monotone(0.01, 0);
+    params.keepExtrema = keep;
     params.startHold = params.endHold = {true, true};
     const auto held = fair(start, false, params, {});
     ASSERT_TRUE(held);
     EXPECT_EQ(held->report.maxDeviationMm, 0.0);
     const std::string& note = held->report.note;
     const auto told = note.find("; with free ends it needs a tolerance of ");
-    if (keep == 0) {
+    if (keep.count) {
       ASSERT_NE(told, std::string::npos) << note;
       params.startHold = params.endHold = {};
       const auto free = fair(start, false, params, {});
       ASSERT_TRUE(free);
-      EXPECT_NEAR(std::stod(note.substr(note.find("of ", told) + 3)), free->report.neededMm,
-                  0.01 * free->report.neededMm);
+      EXPECT_NEAR(std::stod(note.substr(note.find("of ", told) + 3)), free->report.neededMm.value(),
+                  0.01 * free->report.neededMm.value());
     } else {
       EXPECT_NE(note, "No extremum can be removed within the tolerance.") << "no word of what it would take";
       EXPECT_NE(note.find("a tolerance of "), std::string::npos) << note;

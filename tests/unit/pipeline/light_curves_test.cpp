@@ -309,11 +309,11 @@ TEST(LightCurves, MonotoneIsReachedWithTheToleranceThatItSaysItNeeds) {
   recipe.construct.detail = 0.5;
   recipe.fairing.mode = FairingMode::Monotone;
   for (const int keep : {0, 1, 2}) {
-    recipe.fairing.keepExtrema = keep;
+    recipe.fairing.keepExtrema = {keep};
     recipe.fairing.toleranceMm = 0.01;
     const auto small = runPipeline(scan, recipe, cache, {}, {});
     ASSERT_FALSE(small.error);
-    const double needed = small.faired->curves.front().fairing.neededMm;
+    const double needed = small.faired->curves.front().fairing.neededMm.value_or(0.0);
     ASSERT_GT(needed, 0.01);
     // As the link in the panel raises it: up to three digits.
     recipe.fairing.toleranceMm = std::ceil(1000.0 * needed / 0.999) / 1000.0;
