@@ -2,9 +2,13 @@
 #include "app/cli/curve_notes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "app/cli/note_list.h"
+#include "core/base/number_text.h"
+#include "core/construct/typical/typical_chain.h"
 #include "core/pipeline/run/left_as_drawn.h"
 
 namespace batten::cli {
@@ -35,8 +39,14 @@ void add(std::vector<Kind>& kinds, const std::string& kind, const std::string& n
   same->curves.push_back(curve);
 }
 
-/// "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind.
-std::string kindOf(const std::string& note) { return note.starts_with("Turns sharply at ") ? "Turns sharply" : note; }
+constexpr std::string_view kTurnsSharply = "Turns sharply at ", kFewTypical = "Typical curves make ";
+
+/// "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind; so are all shares of typical curves.
+std::string kindOf(const std::string& note) {
+  for (const std::string_view kind : {kTurnsSharply, kFewTypical})
+    if (note.starts_with(kind)) return std::string(kind);
+  return note;
+}
 
 /// What fairing refused, or did in part; what a target would have taken beyond the tolerance differs for every curve.
 std::string fairingNote(const TracedCurve& curve) {
@@ -50,22 +60,29 @@ std::string fairingNote(const TracedCurve& curve) {
 
 /// Of what typical chains are made; empty where there are none.
 std::string typicalNote(const std::vector<TracedCurve>& curves) {
-  int typical = 0, monotone = 0, transitions = 0;
+  std::vector<SegmentNote> segments;
   for (const TracedCurve& curve : curves) {
-    if (!curve.included) continue;
-    for (const SegmentNote& segment : curve.construct.segments) {
-      ++(segment.typical ? typical : transitions);
-      monotone += segment.typical && segment.monotone ? 1 : 0;
-    }
+    if (curve.included)
+      segments.insert(segments.end(), curve.construct.segments.begin(), curve.construct.segments.end());
   }
-  if (typical + transitions == 0) return {};
-  return std::to_string(typical) + (typical == 1 ? " typical curve, " : " typical curves, ") +
-         std::to_string(monotone) + " of them monotone, and " + std::to_string(transitions) +
-         (transitions == 1 ? " transition." : " transitions.");
+  if (segments.empty()) return {};
+  int typical = 0, monotone = 0;
+  for (const SegmentNote& segment : segments) {
+    typical += segment.typical ? 1 : 0;
+    monotone += segment.typical && segment.monotone ? 1 : 0;
+  }
+  const std::string causes = transitionCauses(segments);
+  return counted(typical, "typical curve, ", "typical curves, ") + std::to_string(monotone) +
+         " of them monotone, and " +
+         counted(static_cast<int>(segments.size()) - typical, "transition; typical: ", "transitions; typical: ") +
+         std::to_string(std::lround(100.0 * typicalShare(segments))) + " % of the length" +
+         (causes.empty() ? std::string() : "; transitions: " + causes) + ".";
 }
 
 std::string constructionLine(const Kind& k) {
-  if (k.kind != "Turns sharply") return named(k.curves) + ": " + k.note;
+  if (k.kind == kFewTypical && k.curves.size() > 1)
+    return named(k.curves) + ": Typical curves make less than 60 % of the length; the report has it for each.";
+  if (k.kind != kTurnsSharply) return named(k.curves) + ": " + k.note;
   return named(k.curves) + (k.curves.size() == 1 ? " turns" : " turn") +
          " sharply where no corner is marked: add --corner there (suggest lists the places); where the line "
          "trembles, raise construct.detail instead.";

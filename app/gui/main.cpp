@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/platform.h"
+#include "core/base/platform_memory.h"
 #include "ui/main_window.h"
 #include "ui/session/path_text.h"
 
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   if (answeredInWords(argc, argv)) return 0;
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the work.
   batten::reportLargeFilesAsErrors();
+  batten::keepFewHeaps();
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("Batten"));
   QCoreApplication::setApplicationName(QStringLiteral("batten"));

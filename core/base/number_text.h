@@ -14,6 +14,8 @@ std::string numberToText(double value);
 std::string roundedText(double value, int decimals);
 /// The same, rounded to so many digits that count: "0.00123", "9.36", "1200".
 std::string significantText(double value, int digits);
+/// "1 line was", "4 lines were".
+std::string counted(int count, std::string_view one, std::string_view many);
 /// A whole text as a finite number, C locale, blanks at the ends allowed; nullopt for anything else.
 std::optional<double> numberFromText(std::string_view text);
 /// Same for whole numbers.

@@ -113,6 +113,8 @@ std::optional<std::uint64_t> residentMemoryBytes(std::int64_t processId) {
 
 void returnFreeMemory() {}
 
+void keepFewHeaps() {}
+
 std::optional<int> threadsWithinLimits() { return std::nullopt; }
 
 bool isProcessRunning(std::int64_t processId) {

@@ -79,15 +79,17 @@ struct SegmentNote {
   bool monotone = false;                    ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
 };
 
-/// Part of the length of a chain that typical curves make, 0..1.
-inline double typicalShare(std::span<const SegmentNote> segments) {
-  double typical = 0.0, all = 0.0;
+/// Part of the length of a chain that its segments of one kind make, 0..1.
+inline double shareOf(SegmentCause cause, std::span<const SegmentNote> segments) {
+  double part = 0.0, all = 0.0;
   for (const SegmentNote& one : segments) {
     all += one.lengthMm;
-    if (one.typical) typical += one.lengthMm;
+    if (one.cause == cause) part += one.lengthMm;
   }
-  return all > 0.0 ? typical / all : 0.0;
+  return all > 0.0 ? part / all : 0.0;
 }
+/// The part that typical curves make.
+inline double typicalShare(std::span<const SegmentNote> segments) { return shareOf(SegmentCause::None, segments); }
 
 /// Result of making a curve light (construct.light).
 struct LightNote {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/number_text.h"
 #include "core/contour/line_choices.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -97,14 +98,12 @@ struct PenReport {
   int beside = 0, cut = 0, tooMany = 0;
 };
 
-std::string strokesOf(int count) { return std::to_string(count) + (count == 1 ? " pen stroke" : " pen strokes"); }
-
 std::string noteOf(const PenReport& report) {
   std::string note;
   const auto add = [&](int count, const std::string& one, const std::string& several) {
     if (count == 0) return;
     if (!note.empty()) note += ' ';
-    note += strokesOf(count) + (count == 1 ? one : several);
+    note += counted(count, "pen stroke", "pen strokes") + (count == 1 ? one : several);
   };
   add(report.cut, " leaves the page: only its longest part on the page is used.",
       " leave the page: only the longest part of each on the page is used.");

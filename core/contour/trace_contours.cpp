@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "core/base/number_text.h"
 #include "core/base/parallel.h"
 #include "core/contour/blots.h"
 #include "core/contour/centreline/centreline.h"
@@ -44,30 +45,31 @@ bool hasInnerBorders(const EdgeParams& edges) {
   return edges.internal == InnerBorders::On;
 }
 
-std::string counted(int count, const char* one, const char* many) {
-  return count == 1 ? std::string("One ") + one + " was" : std::to_string(count) + " " + many + " were";
+std::string countedWere(int count, const char* one, const char* many) {
+  return count == 1 ? std::string("One ") + one + " was" : counted(count, one, many) + " were";
 }
 
 // Notes on contours that were dropped.
 void tellDropped(ContourSet& set, const EdgeParams& edges) {
   const ContourReport& report = set.report;
   if (report.droppedShort > 0)
-    addNote(set, counted(report.droppedShort, "short line", "short lines") +
+    addNote(set, countedWere(report.droppedShort, "short line", "short lines") +
                      " dropped (contours.min_widths, contours.min_length).");
   if (report.droppedHoles > 0 && edges.internal == InnerBorders::Automatic)
-    addNote(set,
-            counted(report.droppedHoles, "inner border", "inner borders") + " dropped: edges.internal=on keeps them.");
+    addNote(set, countedWere(report.droppedHoles, "inner border", "inner borders") +
+                     " dropped: edges.internal=on keeps them.");
   if (report.droppedMargins > 0)
-    addNote(set,
-            counted(report.droppedMargins, "line along the page border", "lines along the page border") + " dropped.");
+    addNote(set, countedWere(report.droppedMargins, "line along the page border", "lines along the page border") +
+                     " dropped.");
 }
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
   const auto most = static_cast<std::size_t>(params.maxCount);
   if (most == 0 || set.contours.size() <= most) return;
-  addNote(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
-                   " lines are kept: raise contours.max_count to keep more.");
+  addNote(set, "Only the " + (most == 1 ? std::string() : std::to_string(most) + ' ') + "longest of " +
+                   std::to_string(set.contours.size()) + (most == 1 ? " lines is" : " lines are") +
+                   " kept: raise contours.max_count to keep more.");
   set.contours.resize(most);
 }
 
@@ -337,8 +339,11 @@ void noteJunctionChoices(ContourSet& set, const EdgeParams& edges) {
                        ") was left out: its two places are not on two branches of it.");
     }
   }
-  if (missing > kTold) addNote(set, std::to_string(missing - kTold) + " more paired junctions are not found.");
-  if (unmatched > kTold) addNote(set, "The same is true of " + std::to_string(unmatched - kTold) + " more junctions.");
+  if (missing > kTold)
+    addNote(set,
+            counted(missing - kTold, "more paired junction is not found.", "more paired junctions are not found."));
+  if (unmatched > kTold)
+    addNote(set, "The same is true of " + counted(unmatched - kTold, "more junction.", "more junctions."));
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,

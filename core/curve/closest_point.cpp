@@ -13,6 +13,7 @@
 #include "core/curve/foot_step.h"
 #include "core/curve/sample_tree.h"
 #include "core/curve/span_polynomials.h"
+#include "core/solve/golden_section.h"
 
 namespace batten {
 
@@ -233,10 +234,8 @@ struct DistanceAt {
 /// the distance comes to a point between two places, and is sought there.
 std::vector<DistanceAt> highestPeaks(std::vector<DistanceAt> places, const NurbsCurve& a, const StartTable& table,
                                      CancelCheck check) {
-  constexpr std::size_t kPeaks = 8;     // that are looked at, the highest ones
-  constexpr int kSteps = 20;            // of golden section: 1/15000 of two places
-  constexpr double kGolden = 0.618034;  // part of a stretch that is left by a step
-  const auto at = [&](double u) { return DistanceAt{u, closestWith(table, a.point(u)).distance}; };
+  constexpr std::size_t kPeaks = 8;  // that are looked at, the highest ones
+  constexpr int kSteps = 20;         // of golden section: 1/15000 of two places
   std::vector<std::size_t> peaks;
   for (std::size_t i = 1; i + 1 < places.size(); ++i) {
     const double here = places[i].distance;
@@ -249,22 +248,22 @@ std::vector<DistanceAt> highestPeaks(std::vector<DistanceAt> places, const Nurbs
                     });
   std::vector<DistanceAt> found;
   for (std::size_t k = 0; k < count; ++k) {
-    double low = places[peaks[k] - 1].u, high = places[peaks[k] + 1].u;
-    DistanceAt left = at(high - kGolden * (high - low)), right = at(low + kGolden * (high - low));
-    for (int step = 0; step < kSteps && !check.isCancelled(); ++step) {
-      if (left.distance > right.distance) {
-        high = right.u;
-        right = left;
-        left = at(high - kGolden * (high - low));
-      } else {
-        low = left.u;
-        left = right;
-        right = at(low + kGolden * (high - low));
-      }
-    }
-    found.push_back(left.distance > right.distance ? left : right);
+    const auto nearness = [&](double u) { return -closestWith(table, a.point(u)).distance; };
+    const ValueAt peak = goldenSection(nearness, places[peaks[k] - 1].u, places[peaks[k] + 1].u, kSteps, check);
+    found.push_back({peak.at, -peak.value});
   }
   return found;
+}
+
+/// The distances of points that are in order along the curve; fewer where the work was cancelled.
+std::vector<double> distancesAlong(Follower& follower, std::span<const Vec2> points, CancelCheck check) {
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const Vec2& p : points) {
+    if (check.isCancelled()) break;
+    distances.push_back(follower.next(p).distance);
+  }
+  return distances;
 }
 
 }  // namespace
@@ -272,20 +271,17 @@ std::vector<DistanceAt> highestPeaks(std::vector<DistanceAt> places, const Nurbs
 ClosestPoint closestPoint(const NurbsCurve& curve, const Vec2& p) { return closestWith(StartTable(curve), p); }
 
 Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool ordered, CancelCheck check) {
-  std::vector<double> distances;
-  distances.reserve(points.size());
   if (ordered) {
     Follower follower(curve, check);
-    for (const Vec2& p : points) {
-      if (check.isCancelled()) return {};
-      distances.push_back(follower.next(p).distance);
-    }
-  } else {
-    const StartTable table(curve, check);
-    for (const Vec2& p : points) {
-      if (check.isCancelled()) return {};
-      distances.push_back(closestWith(table, p).distance);
-    }
+    std::vector<double> distances = distancesAlong(follower, points, check);
+    return distances.size() < points.size() ? Deviation{} : summary(points, std::move(distances));
+  }
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  const StartTable table(curve, check);
+  for (const Vec2& p : points) {
+    if (check.isCancelled()) return {};
+    distances.push_back(closestWith(table, p).distance);
   }
   return summary(points, std::move(distances));
 }
@@ -293,16 +289,14 @@ Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool 
 Deviation deviation(const NurbsCurve& a, const NurbsCurve& b, CancelCheck check) {
   const int spans = static_cast<int>(std::max(a.breaks().size(), b.breaks().size())) - 1;
   Follower follower(b, check);
+  const std::vector<CurveSample> samples = sampleByArcLength(a, std::max(201, 10 * spans + 1), check);
   std::vector<Vec2> points;
-  std::vector<double> distances;
+  for (const CurveSample& sample : samples) points.push_back(sample.point);
+  const std::vector<double> distances = distancesAlong(follower, points, check);
+  if (distances.size() < points.size()) return {};
   std::vector<DistanceAt> places;
-  for (const CurveSample& sample : sampleByArcLength(a, std::max(201, 10 * spans + 1), check)) {
-    if (check.isCancelled()) return {};
-    points.push_back(sample.point);
-    distances.push_back(follower.next(sample.point).distance);
-    places.push_back({sample.u, distances.back()});
-  }
-  Deviation result = summary(points, std::move(distances));
+  for (std::size_t i = 0; i < points.size(); ++i) places.push_back({samples[i].u, distances[i]});
+  Deviation result = summary(points, distances);
   for (const DistanceAt& peak : highestPeaks(std::move(places), a, follower.table(), check)) {
     if (peak.distance <= result.max) continue;
     result.max = peak.distance;

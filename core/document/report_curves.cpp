@@ -77,7 +77,11 @@ ReportJson constructToJson(const ConstructReport& r, const PageFrame& frame) {
   if (r.polygon) {
     json["polygon_points"] = {{"before", r.polygon->before}, {"after", r.polygon->after}, {"added", r.polygon->added}};
   }
-  if (!r.segments.empty()) json["typical_share"] = numberToJson(typicalShare(r.segments));
+  if (!r.segments.empty()) {
+    json["typical_share"] = numberToJson(typicalShare(r.segments));
+    for (const SegmentCause cause : {SegmentCause::Straight, SegmentCause::Inflection, SegmentCause::Even})
+      json["transition_shares"][causeName(cause)] = numberToJson(shareOf(cause, r.segments));
+  }
   for (const SegmentNote& n : r.segments) {
     json["segments"].push_back({{"kind", n.typical ? "typical" : "transition"},
                                 {"cause", causeName(n.cause)},
@@ -148,7 +152,7 @@ ReportJson targetsToJson(const TargetOutcomes& outcomes, double toleranceMm) {
                     {"pearson", numberToJson(p.pearson)},
                     {"rms_percent", numberToJson(p.rmsPercent)},
                     {"monotone", p.isMonotone},
-                    {"aicc", numberToJson(p.aicc)},
+                    {"aicc", p.aicc ? numberToJson(*p.aicc) : ReportJson()},
                     {"recommended", advised == i + 1}};
     if (!p.valid) json["problem"] = p.problem;
     if (outcomes.faired[i]) {

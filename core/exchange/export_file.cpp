@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/number_text.h"
 #include "core/base/partial_context.h"
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
@@ -210,8 +211,6 @@ std::string shortNumber(double value) {
   return {buffer.data(), end};
 }
 
-std::string countOf(int count, const char* one) { return std::to_string(count) + " " + one + (count == 1 ? "" : "s"); }
-
 /// The numbers of a list like "1,3-5"; nothing if it is none.
 std::optional<std::set<int>> numbersOf(const std::string& list) {
   std::set<int> numbers;
@@ -290,34 +289,34 @@ namespace {
 /// What follows the number of curves.
 std::string resultOf(const ExportReport& report) {
   std::string text;
-  if (report.vertices > 0) text += " as " + std::to_string(report.vertices) + " vertices";
-  if (report.cubics > 0) text += " as " + countOf(report.cubics, "cubic");
+  if (report.vertices > 0) text += " as " + counted(report.vertices, "vertex", "vertices");
+  if (report.cubics > 0) text += " as " + counted(report.cubics, "cubic", "cubics");
   if (report.largestErrorMm) text += ", within " + shortNumber(*report.largestErrorMm) + " mm of the exact ones";
   if (report.largestJump) text += ", curvature jumps by " + shortNumber(100.0 * *report.largestJump) + " % at most";
   if (report.outlines > 0) {
-    text += ", " + countOf(report.outlines, "stroke") + " outlined within " + shortNumber(report.largestWidthErrorMm) +
-            " mm of " + (report.outlines == 1 ? "its" : "their") + " width";
+    text += ", " + counted(report.outlines, "stroke outlined within ", "strokes outlined within ") +
+            shortNumber(report.largestWidthErrorMm) + " mm of " + (report.outlines == 1 ? "its" : "their") + " width";
   }
   return text + ", read back, largest difference " + shortNumber(report.largestDifferenceMm) + " mm";
 }
 
-std::string leftOut(int count, const char* one) {
-  return count > 0 ? "; " + countOf(count, one) + " on top of another left out" : std::string();
+std::string leftOut(int count, const char* one, const char* many) {
+  return count > 0 ? "; " + counted(count, one, many) + " on top of another left out" : std::string();
 }
 
 }  // namespace
 
 std::string sentenceOf(const ExportReport& report) {
-  std::string text = countOf(report.curves, "curve");
-  if (report.pieces != report.curves) text += " in " + countOf(report.pieces, "piece");
+  std::string text = counted(report.curves, "curve", "curves");
+  if (report.pieces != report.curves) text += " in " + counted(report.pieces, "piece", "pieces");
   if (report.entities > 0 && report.entities < report.curves) text += " joined into " + std::to_string(report.entities);
-  return text + resultOf(report) + leftOut(report.doubles, "piece");
+  return text + resultOf(report) + leftOut(report.doubles, "piece", "pieces");
 }
 
 std::string sentenceByNumbers(const ExportReport& report) {
-  std::string text = countOf(report.pieces, "curve");
+  std::string text = counted(report.pieces, "curve", "curves");
   if (report.entities > 0 && report.entities < report.pieces) text += " joined into " + std::to_string(report.entities);
-  return text + resultOf(report) + leftOut(report.doubles, "curve");
+  return text + resultOf(report) + leftOut(report.doubles, "curve", "curves");
 }
 
 namespace {

@@ -56,7 +56,7 @@ void tellLeft(int left, ImportReport& report) {
   report.skipped += left;
   if (left == 0) return;
   report.notes.push_back(
-      std::to_string(left) + (left == 1 ? " entity of " : " entities of ") + report.file.source +
+      counted(left, "entity of ", "entities of ") + report.file.source +
       (left == 1 ? " could not be imported and was skipped." : " could not be imported and were skipped."));
 }
 
@@ -101,10 +101,6 @@ void takePoints(PointFile points, std::optional<double> asked, ImportReport& rep
   }
   const auto erased = std::erase_if(report.file.lines, [](const ImportedLine& line) { return line.points.size() < 2; });
   tellLeft(points.left + static_cast<int>(erased), report);
-}
-
-std::string counted(int count, const char* one, const char* more) {
-  return std::to_string(count) + " " + (count == 1 ? one : more);
 }
 
 /// The exact curves of one of Batten's own SVG files where its paths still show them, else the paths.

@@ -178,7 +178,10 @@ void addProfile(TargetProfile& whole, const TargetProfile& part, const ProfileSp
   whole.similarity = isFirst ? part.similarity : std::min(whole.similarity, part.similarity);
   whole.pearson = isFirst ? part.pearson : std::min(whole.pearson, part.pearson);
   whole.rmsPercent = std::max(whole.rmsPercent, part.rmsPercent);
-  whole.aicc += part.aicc;
+  if (isFirst)
+    whole.aicc = part.aicc;
+  else if (whole.aicc)
+    whole.aicc = part.aicc ? std::optional(*whole.aicc + *part.aicc) : std::nullopt;
 }
 
 Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<CornerSection>& sections,

@@ -9,6 +9,7 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
+#include "core/base/number_text.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/colour/coloured_ink.h"
 #include "core/image/ruling/find_rulings.h"
@@ -28,11 +29,12 @@ void takeColouredInk(const Scan& scan, PreparedPage& page, const RunContext& con
 std::string rulingNote(const std::vector<RulingFamily>& families) {
   std::string counts;
   for (const bool runsDown : {false, true}) {
-    std::size_t lines = 0;
-    for (const RulingFamily& family : families) lines += family.runsDown == runsDown ? family.lines.size() : 0;
+    int lines = 0;
+    for (const RulingFamily& family : families)
+      lines += family.runsDown == runsDown ? static_cast<int>(family.lines.size()) : 0;
     if (lines == 0) continue;
-    counts += (counts.empty() ? "" : " and ") + std::to_string(lines) +
-              (runsDown ? " ruled lines down" : " ruled lines across");
+    counts += (counts.empty() ? "" : " and ") + (runsDown ? counted(lines, "ruled line down", "ruled lines down")
+                                                          : counted(lines, "ruled line across", "ruled lines across"));
   }
   return counts + " the page were removed; paper.rulings=keep restores them.";
 }

@@ -59,7 +59,8 @@ class Heartbeat {
   qint64 longest_ = 0;
 };
 
-void timeOpening(MainWindow& window, const QString& path) {
+/// False where the scan could not be opened.
+bool timeOpening(MainWindow& window, const QString& path) {
   EditorSession& session = window.session();
   QElapsedTimer clock;
   qint64 picture = -1, coarse = -1, ink = -1, curves = -1;
@@ -76,16 +77,20 @@ void timeOpening(MainWindow& window, const QString& path) {
   Heartbeat heart;
   clock.start();
   window.openPath(path);
-  turnUntil([&] { return session.hasScan() && !session.isBusy(); });
+  turnUntil([&] { return !session.isBusy(); });
+  if (!session.hasScan()) return false;
   std::printf(
       "opening: picture %.2f s, coarse result %.2f s, ink %.2f s, curves %.2f s, done %.2f s; longest pause %lld ms; "
       "%.0f MB now, %.0f MB at most; %zu curves\n",
       picture / 1e3, coarse / 1e3, ink / 1e3, curves / 1e3, clock.elapsed() / 1e3,
       static_cast<long long>(heart.longestMs()), nowMb(), peakMb(), session.curves().size());
   turnUntil([&] { return !session.isWorking() && !session.hasRunningJobs(); });
+  return true;
 }
 
-void timeDrag(MainWindow& window) {
+using Step = std::function<void(Recipe&, int)>;  ///< Sets the value of a step of the drag, 1..60.
+
+void timeDrag(MainWindow& window, const char* what, const Step& set) {
   EditorSession& session = window.session();
   QObject scope;
   QElapsedTimer clock;
@@ -107,8 +112,8 @@ void timeDrag(MainWindow& window) {
   clock.start();
   Recipe recipe = start;
   for (int step = 1; step <= 60; ++step) {
-    recipe.threshold.strength = 1.0 + 0.005 * step;
-    session.change(QStringLiteral("Strength"), recipe, gesture);
+    set(recipe, step);
+    session.change(QString::fromLatin1(what), recipe, gesture);
     turnUntil([&] { return clock.elapsed() >= 33 * step; });
   }
   const int during = shown;
@@ -116,14 +121,16 @@ void timeDrag(MainWindow& window) {
   clock.restart();
   turnUntil([&] { return !session.isBusy(); });
   std::printf(
-      "a drag of 2 s: %d pictures while it goes on; after it coarse %.2f s, ink %.2f s, done %.2f s; longest pause "
-      "%lld ms; %.0f MB at most\n",
-      during, coarse / 1e3, ink / 1e3, clock.elapsed() / 1e3, static_cast<long long>(heart.longestMs()), peakMb());
+      "%s dragged for 2 s: %d pictures while it goes on; after it coarse %.2f s, ink %.2f s, done %.2f s; longest "
+      "pause %lld ms; %.0f MB at most\n",
+      what, during, coarse / 1e3, ink / 1e3, clock.elapsed() / 1e3, static_cast<long long>(heart.longestMs()),
+      peakMb());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  keepFewHeaps();
   QStandardPaths::setTestModeEnabled(true);
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("batten-bench"));
@@ -145,8 +152,14 @@ int main(int argc, char** argv) {
   window.resize(1920, 1040);
   window.show();
   std::printf("%.0f MB before\n", nowMb());
-  timeOpening(window, path);
+  if (!timeOpening(window, path)) {
+    std::fprintf(stderr, "%s cannot be opened.\n", qPrintable(path));
+    return 1;
+  }
   window.setStage(PanelStage::Threshold);
-  timeDrag(window);
+  timeDrag(window, "Strength", [](Recipe& recipe, int step) { recipe.threshold.strength = 1.0 + 0.005 * step; });
+  window.setStage(PanelStage::CleanUp);
+  timeDrag(window, "Neighbourhood coefficient",
+           [](Recipe& recipe, int step) { recipe.filter.coefficient = step / 12 % 5; });
   return 0;
 }

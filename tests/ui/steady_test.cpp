@@ -264,9 +264,10 @@ TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {
     std::vector<Part> walked;
     std::set<const QWidget*> seen;
     std::string names;
+    const QWidget* now = nullptr;
     for (int i = 0; i < 200; ++i) {
       QTest::keyClick(window_->focusWidget(), Qt::Key_Tab);
-      const QWidget* now = window_->focusWidget();
+      now = window_->focusWidget();
       ASSERT_NE(now, nullptr);
       if (now == canvas || !seen.insert(now).second) break;  // once round
       for (const auto& [part, name] : parts) {
@@ -275,6 +276,8 @@ TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {
       }
       names += now->objectName().toStdString() + " (" + now->metaObject()->className() + "), ";
     }
+    EXPECT_EQ(now, canvas) << label(stage).toStdString() << " ends at " << now->objectName().toStdString() << ": "
+                           << names;
     ASSERT_GT(walked.size(), 5u) << label(stage).toStdString();
     EXPECT_EQ(walked.front(), Panel) << label(stage).toStdString();
     EXPECT_EQ(walked.back(), Top) << label(stage).toStdString();

@@ -19,7 +19,7 @@ namespace {
 /// [bytes] Of the outputs that are kept: the prepared page at two bytes a pixel, and masks and lines of a few runs, so
 /// that undoing finds them. Every value that a slider passes leaves some, too, which nobody asks for again.
 std::size_t cacheBytes(const Scan& scan) {
-  constexpr std::size_t kBytesPerPixel = 3, kLeastBytes = std::size_t{96} << 20;
+  constexpr std::size_t kBytesPerPixel = 2, kLeastBytes = std::size_t{64} << 20;
   return std::max(kLeastBytes, kBytesPerPixel * static_cast<std::size_t>(scan.grey.width) *
                                    static_cast<std::size_t>(scan.grey.height));
 }

@@ -12,6 +12,14 @@ namespace batten {
 /// What is held at an end of an open curve beside its position.
 enum class LightHold { Position, Tangent, Curvature };
 
+/// Curvatures that an end may have.
+struct CurvatureBand {
+  double low = 0.0, high = 0.0;
+
+  /// By how much a curvature lies above the band, or below it (negative).
+  double beyond(double kappa) const { return kappa > high ? kappa - high : kappa < low ? kappa - low : 0.0; }
+};
+
 /// What one fit is asked for.
 struct LightAsk {
   double tolerance = 0.0;  ///< > 0, unit of the reference.
@@ -23,6 +31,7 @@ struct LightAsk {
   int firstKappaSign = 0;
   int inflections = 0;
   LightHold start = LightHold::Position, end = LightHold::Position;
+  std::optional<CurvatureBand> startBand = {}, endBand = {};  ///< Absent: any curvature. Ends without a held one only.
   /// The first phase, without walls and signs, comes first: needed by most, worse for some single spans.
   bool firstPhase = true;
   double reach = 1.0;         ///< Part of the tolerance to be reached at the places of the fit.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/construct/light/end_hooks.h"
 #include "core/construct/light/exact_shape.h"
 #include "core/construct/light/held_ends.h"
 #include "core/construct/light/light_check.h"
@@ -30,6 +31,9 @@ constexpr double kAskedLess = 0.98;      // of the tolerance over what was misse
 constexpr double kMoreSignMargin = 5.0;  // times the margin of the signs, in the next round
 constexpr double kMoreSigns = 3.0;       // their weight then
 constexpr int kLightQuintic = 5, kLightCubic = 3;
+constexpr double kCalmShare = 0.75;  // of the curvature that an end may have more: beside it the curves differ, too
+constexpr int kWorthCalmEnds = 5;    // control points more for ends without hooks: a quintic span of their own
+constexpr double kMoreWorkForCalmEnds = 3.0;  // times kWorkPerPoint: ends that are held make a fit harder
 
 class LightSearch {
  public:
@@ -122,8 +126,9 @@ class LightSearch {
     const int changes = changes_ + (changes_ > 0 ? 3 : 0);
     int fewest = reference_.isClosed() ? std::max(kFewestClosedPoints, changes_) : std::max(kFewestOpenPoints, changes);
     if (task_.forms == LightForms::Quintic) fewest = std::max(fewest, kLightQuintic + 1);
+    fewest = std::max(fewest, task_.fewestPoints);
     const int most = task_.mostPoints.value_or(result_.report.pointsBefore - 1);
-    mostWork_ = kWorkPerPoint * (most - fewest + 1);
+    mostWork_ = (task_.calm.any() ? kMoreWorkForCalmEnds : 1.0) * kWorkPerPoint * (most - fewest + 1);
     int failed = fewest - 1;
     for (int count = fewest; count <= most && mayGoOn(); count = nextCount(count, most)) {
       if (isBeyond(failed)) return false;
@@ -196,7 +201,10 @@ class LightSearch {
     ask.start = options_.start;
     ask.end = options_.end;
     ask.firstPhase = firstPhase;
+    double calmShare = kCalmShare;
     for (int round = 0; round < kCheckRounds && !context_.isCancelled(); ++round) {
+      if (task_.calm.atStart) ask.startBand = calmBand(reference_, false, calmShare);
+      if (task_.calm.atEnd) ask.endBand = calmBand(reference_, true, calmShare);
       const LightFit fitted = fitLight(reference_, std::move(*start), ask, context_);
       iterations_ += fitted.iterations;
       ++tries_;
@@ -216,6 +224,7 @@ class LightSearch {
         ask.reach *= kAskedLess * options_.tolerance / verdict.worst;
       } else {
         ask.signMargin *= kMoreSignMargin;
+        calmShare *= kCalmShare;
       }
       ask.firstPhase = false;
       ask.signs = kMoreSigns;
@@ -229,7 +238,7 @@ class LightSearch {
   }
   /// A curve that lost an extremum is kept for the case that none has them all.
   bool take(const NurbsCurve& curve, const LightVerdict& verdict, LightKind kind, int points) {
-    if (!verdict.holds) return false;
+    if (!verdict.holds || hasHook(curve)) return false;
     if (task_.keepStructure && verdict.extrema > 0 && verdict.extrema > mostExtrema()) return false;
     const bool all =
         !task_.keepStructure || kind == LightKind::Line || kind == LightKind::Arc || verdict.extrema == mostExtrema();
@@ -247,6 +256,13 @@ class LightSearch {
     return all;
   }
 
+  /// Where it was to have none.
+  bool hasHook(const NurbsCurve& curve) const {
+    if (!task_.calm.any()) return false;
+    const EndHooks hooks = endHooks(curve, reference_);
+    return (task_.calm.atStart && hooks.atStart) || (task_.calm.atEnd && hooks.atEnd);
+  }
+
   const NurbsCurve& dense_;
   const LightReference& reference_;
   const LightOptions& options_;
@@ -262,11 +278,33 @@ class LightSearch {
   double leastOff_ = 0.0;  // tolerances, of the fits with one number of points
 };
 
+/// The curve, or one without its hooks at open ends that needs few control points more.
+LightCurve withCalmEnds(LightCurve found, const NurbsCurve& dense, const LightReference& reference,
+                        const LightOptions& options, LightTask task, const RunContext& context) {
+  const bool isFitted = found.report.kind == LightKind::Span || found.report.kind == LightKind::Spline;
+  if (!isFitted || reference.isClosed() || context.isCancelled()) return found;
+  const EndHooks hooks = endHooks(found.curve, reference);
+  if (!hooks.any()) return found;
+  // Where the curvature is held, it is the dense curve's anyhow.
+  task.calm = {options.start != LightHold::Curvature, options.end != LightHold::Curvature};
+  if (!task.calm.any()) return found;
+  const LightReport& report = found.report;
+  task.fewestPoints = report.points;
+  task.mostPoints = std::min(
+      {report.points + kWorthCalmEnds, report.pointsBefore - 1, task.mostPoints.value_or(report.pointsBefore)});
+  LightCurve calm = LightSearch(dense, reference, options, task, context).run();
+  if (calm.report.kind == LightKind::Dense || calm.report.extrema < report.extrema) return found;
+  calm.report.iterations += report.iterations;
+  calm.report.tries += report.tries;
+  return calm;
+}
+
 }  // namespace
 
 LightCurve searchLight(const NurbsCurve& dense, const LightReference& reference, const LightOptions& options,
                        const LightTask& task, const RunContext& context) {
-  return LightSearch(dense, reference, options, task, context).run();
+  LightCurve found = LightSearch(dense, reference, options, task, context).run();
+  return task.keepStructure ? withCalmEnds(std::move(found), dense, reference, options, task, context) : found;
 }
 
 }  // namespace batten

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/construct/light/end_hooks.h"
 #include "core/construct/light/light_curve.h"
 #include "core/construct/light/light_reference.h"
 
@@ -20,10 +21,14 @@ struct LightTask {
   LightForms forms = LightForms::All;
   bool keepStructure = true;           ///< False: whatever extrema and inflections the fewest control points give.
   std::optional<int> mostPoints = {};  ///< Tried; absent: one fewer than those of the dense curve.
+  int fewestPoints = 0;                ///< Tried, where no fewer are known to be enough.
+  EndHooks calm = {};                  ///< Ends that are to have none (calmBand).
 };
 
 /// One light curve for all of a reference: exact shapes, then single spans and quintics of rising number of control
-/// points; LightKind::Dense when none holds what it must.
+/// points; LightKind::Dense when none holds what it must. Where the curvature then hooks at an open end at which it
+/// is calm in the dense curve (EndHooks), a curve without such hooks is taken instead if it needs few control points
+/// more.
 LightCurve searchLight(const NurbsCurve& dense, const LightReference&, const LightOptions&, const LightTask&,
                        const RunContext&);
 

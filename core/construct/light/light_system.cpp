@@ -164,7 +164,7 @@ double LightSystem::endRows(const LightShape& shape, const LightWeights& weights
   double sum = 0.0;
   for (const bool atEnd : {false, true}) {
     const LightHold hold = holdAt(atEnd);
-    if (shape.closed || hold == LightHold::Position) continue;
+    if (shape.closed || isFree(atEnd)) continue;
     const PlaceState state = endState(shape, atEnd);
     const LightSample& wanted = atEnd ? reference_.samples().back() : reference_.samples().front();
     const double l = (atEnd ? places_.back() : places_.front()).scale;
@@ -172,8 +172,9 @@ double LightSystem::endRows(const LightShape& shape, const LightWeights& weights
       cost.ends = std::max(cost.ends, kHeldEnds * std::abs(residual));
       sum += weights.ends * weights.ends * residual * residual;
     };
-    row(state.d[1].dot(leftNormal(wanted.tangent)) / state.speed * l / ask_.tolerance);
+    if (hold != LightHold::Position) row(state.d[1].dot(leftNormal(wanted.tangent)) / state.speed * l / ask_.tolerance);
     if (hold == LightHold::Curvature) row((state.kappa - wanted.kappa) * l * l / ask_.tolerance);
+    if (const auto& band = bandAt(atEnd)) row(band->beyond(state.kappa) * l * l / ask_.tolerance);
   }
   return sum;
 }
@@ -233,7 +234,7 @@ void LightSystem::addPlace(const Place& place, const LightWeights& weights) {
 
 void LightSystem::addEnds(const LightShape& shape, const LightWeights& weights, int span) {
   for (const bool atEnd : {false, true}) {
-    if (shape.closed || span != (atEnd ? shape.spans() - 1 : 0) || holdAt(atEnd) == LightHold::Position) continue;
+    if (shape.closed || span != (atEnd ? shape.spans() - 1 : 0) || isFree(atEnd)) continue;
     const PlaceState state = endState(shape, atEnd);
     const LightSample& wanted = atEnd ? reference_.samples().back() : reference_.samples().front();
     const PlaceTable::Place& table = ends_[atEnd ? 1 : 0];
@@ -243,10 +244,13 @@ void LightSystem::addEnds(const LightShape& shape, const LightWeights& weights, 
       local_.add(table, state, gradients, weight, weight * residual * factor);
     };
     const Vec2 across = leftNormal(wanted.tangent);
-    row(state.d[1].dot(across) / state.speed, l / ask_.tolerance, tangentGradient(state, across));
+    if (holdAt(atEnd) != LightHold::Position)
+      row(state.d[1].dot(across) / state.speed, l / ask_.tolerance, tangentGradient(state, across));
     if (holdAt(atEnd) == LightHold::Curvature) {
       row(state.kappa - wanted.kappa, l * l / ask_.tolerance, kappaGradient(state));
     }
+    const double beyond = bandAt(atEnd) ? bandAt(atEnd)->beyond(state.kappa) : 0.0;
+    if (beyond != 0.0) row(beyond, l * l / ask_.tolerance, kappaGradient(state));
   }
 }
 

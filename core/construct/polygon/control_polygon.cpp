@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/number_text.h"
 #include "core/construct/stations/piece_stations.h"
 #include "core/curve/knot_operations.h"
 #include "core/polyline/polyline_tools.h"
@@ -142,7 +143,8 @@ Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span
   if (kind == SharpKnots::Order && !sharp.empty()) {
     result.warning = "Knots of multiplicity = order break the curve just before each sharp point.";
   } else if (polygon.added > 0) {
-    result.warning = "Between close sharp points " + std::to_string(polygon.added) + " control points were doubled.";
+    result.warning = "Between close sharp points " +
+                     counted(polygon.added, "control point was doubled.", "control points were doubled.");
   }
   return result;
 }
@@ -220,7 +222,7 @@ Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, do
     result.curve = std::move(*curve);
     note.added = made->added;
     if (made->added > 0) {
-      result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were doubled.";
+      result.report.note = "Too few points for this degree: " + counted(made->added, "was doubled.", "were doubled.");
     }
     if (isFree) result.report.note = "Uniform knots: the curve ends short of the ends of its line.";
     if (breaks) result.report.note = "Multiplicity = order: the curve is broken just before its last corner.";

@@ -2,6 +2,7 @@
 #include "core/construct/typical/typical_chain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -239,23 +240,14 @@ std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const
   return !tidy.path || (stays && countedExtrema(*curve, line.closed) < tidy.falseExtrema) ? grown : tidy.path;
 }
 
+std::string percentText(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+
 /// What a chain with few typical curves says of the rest; empty where they are most of it.
 std::string typicalNote(const std::vector<SegmentNote>& segments) {
   const double share = typicalShare(segments);
   if (segments.empty() || share >= kMostOfIt) return {};
-  const auto counted = [&](SegmentCause cause) {
-    return std::count_if(segments.begin(), segments.end(),
-                         [&](const SegmentNote& one) { return !one.typical && one.cause == cause; });
-  };
-  std::string why;
-  const auto add = [&](std::ptrdiff_t count, const char* what) {
-    if (count > 0) why.append(why.empty() ? "" : ", ").append(std::to_string(count)).append(what);
-  };
-  add(counted(SegmentCause::Straight), " nearly straight");
-  add(counted(SegmentCause::Inflection), " at inflections");
-  add(counted(SegmentCause::Even), " that one typical curve does not follow as closely");
-  return "Typical curves make " + std::to_string(static_cast<int>(std::lround(100.0 * share))) +
-         " % of the length; the other segments are transitions: " + why + ".";
+  return "Typical curves make " + percentText(share) +
+         " of the length; the rest are transitions: " + transitionCauses(segments) + ".";
 }
 
 /// The Bezier path of a piece, with the reason why it took the place of the chain.
@@ -270,6 +262,22 @@ Result<ConstructedPiece> pathInstead(const ConstructPiece& piece, double pixelMm
 }
 
 }  // namespace
+
+std::string transitionCauses(std::span<const SegmentNote> segments) {
+  struct Class {
+    SegmentCause cause;
+    const char* what;
+  };
+  constexpr std::array kClasses{Class{SegmentCause::Straight, "nearly straight"},
+                                Class{SegmentCause::Inflection, "at inflections"},
+                                Class{SegmentCause::Even, "that one typical curve does not follow as closely"}};
+  std::string text;
+  for (const Class& one : kClasses) {
+    const double share = shareOf(one.cause, segments);
+    if (share > 0.0) text.append(text.empty() ? "" : ", ").append(percentText(share)).append(" ").append(one.what);
+  }
+  return text;
+}
 
 Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                                           const RunContext& context) {

@@ -47,9 +47,9 @@ double pearson(std::span<const double> a, std::span<const double> b) {
   return cosine(a, b, meanOf(a, count), meanOf(b, count));
 }
 
-double aicc(double meanSquareResidual, int degree, int effectiveSamples) {
+std::optional<double> aicc(double meanSquareResidual, int degree, int effectiveSamples) {
   const double n = effectiveSamples, k = degree + 2;
-  if (!(n - k - 1 > 0) || !std::isfinite(meanSquareResidual)) return std::numeric_limits<double>::max();
+  if (!(n - k - 1 > 0) || !std::isfinite(meanSquareResidual)) return std::nullopt;
   const double meanSquare = std::max(meanSquareResidual, std::numeric_limits<double>::min());
   return n * std::log(meanSquare) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }

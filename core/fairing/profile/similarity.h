@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 
 namespace batten {
@@ -10,8 +11,7 @@ double similarity(std::span<const double> a, std::span<const double> b);
 /// Mean-centred S. 0 where either is constant.
 double pearson(std::span<const double> a, std::span<const double> b);
 /// Akaike's criterion for least squares with small-sample correction: n ln(meanSquare) + 2k + 2k(k+1)/(n-k-1), k =
-/// degree + 2. The largest double where n is too small for the degree (n <= k + 1), so that such a degree is never
-/// chosen.
-double aicc(double meanSquareResidual, int degree, int effectiveSamples);
+/// degree + 2. Absent where n is too small for the degree (n <= k + 1).
+std::optional<double> aicc(double meanSquareResidual, int degree, int effectiveSamples);
 
 }  // namespace batten

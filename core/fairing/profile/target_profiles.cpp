@@ -152,7 +152,7 @@ TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool c
     const TargetProfile& profile = set.profiles[at];
     if (!profile.valid) continue;
     const std::optional<int> best = set.recommendedDegree;
-    if (!best || profile.aicc < set.profiles[*best - 1].aicc) set.recommendedDegree = degree;
+    if (!best || hasLowerAicc(profile, set.profiles[*best - 1])) set.recommendedDegree = degree;
   }
   return set;
 }

@@ -61,11 +61,17 @@ struct TargetProfile {
   double similarity = 0.0;
   double pearson = 0.0;     ///< Pearson r of the same, -1..1.
   double rmsPercent = 0.0;  ///< rms difference in % of the range of the data.
-  double aicc = 0.0;        ///< Smaller is better; n_eff = number of control points.
+  /// Smaller is better; n_eff = number of control points. Absent: too few of them for the degree.
+  std::optional<double> aicc;
   /// Target value at perimeter f; curvature() converts a radius target.
   double value(double f) const;
   double curvatureAt(double f) const;
 };
+
+/// Whether a profile explains the curve better than another by AICc; one without is never better.
+inline bool hasLowerAicc(const TargetProfile& one, const TargetProfile& other) {
+  return one.aicc && (!other.aicc || *one.aicc < *other.aicc);
+}
 
 /// The curvature of a curve at one place.
 struct CurvatureSample {

@@ -28,7 +28,7 @@ std::string millimetres(double mm) { return significantText(mm, 3) + " mm"; }
 
 std::string extremaText(int count) {
   if (count == 0) return "monotone curvature";
-  return count == 1 ? "1 curvature extremum" : std::to_string(count) + " curvature extrema";
+  return counted(count, "curvature extremum", "curvature extrema");
 }
 
 class MonotoneFairing {
@@ -127,18 +127,41 @@ class MonotoneFairing {
     const int sketched = countedExtrema(setup_.original, setup_.closed, context_);
     report.why = found.deviationMm > 0.0 ? Termination::Converged : Termination::FixedPoint;
     if (found.deviationMm == 0.0 && sketched > 0 && params_.keptAt.empty() && !params_.keepExtrema.count)
-      report.note = "No extremum can be removed within the tolerance.";
+      report.note = "No extremum can be removed within the tolerance." + heldEndsNote(sketched - 1);
     report.iterations = iterations_ + candidates_.iterations();
     report.neededMm = needed.value_or(found.deviationMm);
     return asFaired(setup_, found, std::move(report));
+  }
+
+  bool hasHeldEnds() const {
+    const EndHold free;
+    return !setup_.closed && (params_.startHold != free || params_.endHold != free);
+  }
+
+  /// With held ends, what so many extrema would take; it may be that no tolerance is enough.
+  std::string heldEndsNote(int extrema) const {
+    FairingParams one = params_;
+    one.keepExtrema.count = extrema;
+    if (!hasHeldEnds() || validate(one)) return {};
+    const auto asked = fairMonotone(setup_.original, setup_.closed, one, context_);
+    return asked && !asked->report.withinTolerance ? ' ' + asked->report.note : std::string();
+  }
+
+  /// [mm] What the extrema that are asked for would take if no end were held.
+  std::optional<double> neededWithFreeEnds() const {
+    if (!hasHeldEnds() || context_.isCancelled()) return std::nullopt;
+    FairingParams free = params_;
+    free.startHold = free.endHold = {};
+    const auto faired = fairMonotone(setup_.original, setup_.closed, free, context_);
+    if (!faired || !(faired->report.neededMm.value_or(0.0) > 0.0)) return std::nullopt;
+    return faired->report.neededMm;
   }
 
   Result<FairedCurve> limited(const StructureCandidate& best, std::optional<double> needed) {
     auto result = done(best);
     if (!result) return result;
     FairingReport& report = result->report;
-    const std::string kept =
-        report.extremaAfter == 1 ? "1 extremum was kept." : std::to_string(report.extremaAfter) + " extrema were kept.";
+    const std::string kept = counted(report.extremaAfter, "extremum was kept.", "extrema were kept.");
     // By place, or by number: as few as can be are never too few.
     const std::optional<int> count = params_.keptAt.empty() ? params_.keepExtrema.count : std::nullopt;
     const std::string asked = count ? extremaText(*count) : "these extrema";
@@ -150,6 +173,10 @@ class MonotoneFairing {
                          : "No curve with " + asked + " was found; " + kept;
     if (!needed && setup_.closed && count && *count < 4)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;
+    if (const auto free = needed ? std::nullopt : neededWithFreeEnds())
+      report.note = "No curve with " + asked +
+                    " keeps what is held at the ends; with free ends it needs a tolerance of " + millimetres(*free) +
+                    "; " + kept;
     return result;
   }
 

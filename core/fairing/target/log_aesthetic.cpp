@@ -11,6 +11,7 @@
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/profile_data.h"
 #include "core/fairing/profile/split_profile.h"
+#include "core/solve/golden_section.h"
 #include "core/solve/levenberg_marquardt.h"
 
 namespace batten {
@@ -19,12 +20,12 @@ namespace {
 constexpr double kClothoid = -1.0;
 constexpr double kNielsen = 1e-9;        // a smaller alpha is 0
 constexpr double kStraightShare = 1e-3;  // of the largest curvature: less is straight
-constexpr double kAlphaStep = 0.5, kAlphaAccuracy = 1e-4;
+constexpr double kAlphaStep = 0.5;
+constexpr int kAlphaSteps = 20;  // of golden section: alpha to 1e-4
 constexpr int kEndSteps = 40;
 constexpr double kEndConverged = 1e-12;
 constexpr double kMostLog = 24.0, kMostLogStep = 1.0;
 constexpr int kNodesPerStretch = 32;
-constexpr double kGolden = 0.6180339887498949;
 
 /// A log-aesthetic curvature made ready for many places: the power alpha of the radius is linear in x.
 class LogAestheticCourse {
@@ -231,22 +232,11 @@ LogAesthetic fitLogAesthetic(std::span<const double> x, std::span<const double> 
     const double misfit = misfitOf(with(a), x, kappa);
     if (misfit < least) least = misfit, best = a;
   }
-  double low = std::max(kLeastAlpha, best - kAlphaStep), high = std::min(kMostAlpha, best + kAlphaStep);
-  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-  double atLeft = misfitOf(with(left), x, kappa), atRight = misfitOf(with(right), x, kappa);
-  while (high - low > kAlphaAccuracy) {
-    if (atLeft < atRight) {
-      high = right, right = left, atRight = atLeft;
-      left = high - kGolden * (high - low);
-      atLeft = misfitOf(with(left), x, kappa);
-    } else {
-      low = left, left = right, atLeft = atRight;
-      right = low + kGolden * (high - low);
-      atRight = misfitOf(with(right), x, kappa);
-    }
-  }
-  const LogAesthetic found = with(0.5 * (low + high));
-  return misfitOf(found, x, kappa) <= least ? found : best == kClothoid ? linear : with(best);
+  const auto misfit = [&](double a) { return misfitOf(with(a), x, kappa); };
+  const ValueAt finest = goldenSection(misfit, std::max(kLeastAlpha, best - kAlphaStep),
+                                       std::min(kMostAlpha, best + kAlphaStep), kAlphaSteps);
+  if (finest.value <= least) return with(finest.at);
+  return best == kClothoid ? linear : with(best);
 }
 
 LogAestheticTarget logAestheticTarget(const NurbsCurve& curve, bool closed, const std::vector<double>& splits,

@@ -195,7 +195,7 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
     judgeProfile(profile, data, fitted, std::max(1, degree - (start ? 1 : 0) - (end ? 1 : 0)),
                  curve.controlPointCount());
     const std::optional<int> best = set.recommendedDegree;
-    if (!best || profile.aicc < set.profiles[*best - 1].aicc) set.recommendedDegree = degree;
+    if (!best || hasLowerAicc(profile, set.profiles[*best - 1])) set.recommendedDegree = degree;
   }
   return set;
 }

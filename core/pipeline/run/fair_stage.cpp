@@ -115,9 +115,11 @@ class LineFairing {
     const double left = params.toleranceMm - params.takenMm;
     if (params.toleranceMm - closer.takenMm < kFairingShare * left || context_.isCancelled())
       return stayingDense(std::move(*faired));
-    if (const auto again = fairedWithin(closer)) {
+    const auto again = fairedWithin(closer);
+    if (again && isAsFair(again->report, faired->report)) {
       if (auto light = madeLight(*again)) {
-        if (light->report.withinTolerance) light->report.neededMm = faired->report.neededMm;
+        light->report.neededMm = faired->report.neededMm;
+        if (again->report.extremaAfter == faired->report.extremaAfter) light->report.note = faired->report.note;
         return *light;
       }
     }
@@ -131,6 +133,12 @@ class LineFairing {
   Result<FairedCurve> fairedWithin(const FairingParams& params) const {
     return movesEdgeLengths(params) ? fairByEdgeLengths(curve_.sketched, curve_.closed, params, context_)
                                     : fairBetweenCorners(curve_.fairingStart(), curve_.closed, params, context_, line_);
+  }
+
+  /// What the tolerance allows counts for more than few control points: what a note says is needed is enough.
+  bool isAsFair(const FairingReport& closer, const FairingReport& faired) const {
+    if (faired.withinTolerance && !closer.withinTolerance) return false;
+    return curve_.fairingUsed.mode != FairingMode::Monotone || closer.extremaAfter <= faired.extremaAfter;
   }
 
   bool isStill(const FairedCurve& faired) const {

@@ -46,10 +46,6 @@ Result<std::shared_ptr<const ContourSet>> linesWith(const Recipe& recipe, const 
   return output.contours;
 }
 
-std::string counted(int count, const char* one, const char* many) {
-  return std::to_string(count) + ' ' + (count == 1 ? one : many);
-}
-
 }  // namespace
 
 Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCache& cache, const RunContext& context) {

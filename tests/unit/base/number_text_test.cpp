@@ -25,6 +25,8 @@ class WithComma {
 
 TEST(NumberText, RoundsForMessages) {
   const WithComma locale;
+  EXPECT_EQ(counted(1, "line was", "lines were"), "1 line was");
+  EXPECT_EQ(counted(0, "line was", "lines were"), "0 lines were");
   EXPECT_EQ(roundedText(7.0, 6), "7");
   EXPECT_EQ(roundedText(0.25, 3), "0.25");
   EXPECT_EQ(roundedText(2.0 / 3.0, 2), "0.67");

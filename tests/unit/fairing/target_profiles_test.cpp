@@ -47,7 +47,7 @@ TEST(TargetProfiles, MatchesTheKnownPolynomialsAndTheirSimilarity) {
       EXPECT_NEAR(similarity(fitted, rho), known.at("similarity_S").get<double>(), 1e-12);
       EXPECT_NEAR(pearson(fitted, rho), known.at("pearson").get<double>(), 1e-9);
       const double residual = rms(c, f, rho);
-      EXPECT_NEAR(aicc(residual * residual, degree, 14), known.at("aicc_neff14").get<double>(), 1e-6);
+      EXPECT_NEAR(aicc(residual * residual, degree, 14).value(), known.at("aicc_neff14").get<double>(), 1e-6);
       EXPECT_EQ(isMonotonePolynomial(c), known.at("lsq_monotone").get<bool>());
       const bool rising = rho.back() > rho.front();
       const auto monotone = fitMonotonePolynomial(f, rho, degree, rising);

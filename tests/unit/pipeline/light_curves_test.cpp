@@ -285,5 +285,46 @@ TEST(LightCurves, FairingStartsFromWhatTheDetailHasLeftAndIsMeasuredFromIt) {
   }
 }
 
+/// A stroke of two bumps: its curvature has three extrema.
+Scan roofScan() {
+  std::vector<Vec2> line;
+  Vec2 at(60.0, 350.0);
+  double angle = -0.9;
+  constexpr double kStep = 0.5, kLength = 800.0;
+  for (double s = 0.0; s <= kLength; s += kStep) {
+    line.push_back(at);
+    const auto bump = [&](double middle, double width) {
+      return std::exp(-std::pow((s / kLength - middle) / width, 2));
+    };
+    angle += kStep * (0.0015 + 0.004 * bump(0.25, 0.08) + 0.003 * bump(0.75, 0.1));
+    at += kStep * Vec2(std::cos(angle), std::sin(angle));
+  }
+  return test::renderPage(test::strokeCoverage(line, false, 5.0, 900, 560), 900, 560, test::cleanPage());
+}
+
+TEST(LightCurves, MonotoneIsReachedWithTheToleranceThatItSaysItNeeds) {
+  const Scan scan = roofScan();
+  StageCache cache;
+  Recipe recipe;
+  recipe.construct.detail = 0.5;
+  recipe.fairing.mode = FairingMode::Monotone;
+  for (const int keep : {0, 1, 2}) {
+    recipe.fairing.keepExtrema = keep;
+    recipe.fairing.toleranceMm = 0.01;
+    const auto small = runPipeline(scan, recipe, cache, {}, {});
+    ASSERT_FALSE(small.error);
+    const double needed = small.faired->curves.front().fairing.neededMm;
+    ASSERT_GT(needed, 0.01);
+    // As the link in the panel raises it: up to three digits.
+    recipe.fairing.toleranceMm = std::ceil(1000.0 * needed / 0.999) / 1000.0;
+    const auto raised = runPipeline(scan, recipe, cache, {}, {});
+    ASSERT_FALSE(raised.error);
+    const FairingReport& report = raised.faired->curves.front().fairing;
+    EXPECT_LE(report.extremaAfter, keep) << report.note;
+    EXPECT_TRUE(report.withinTolerance) << report.note;
+    EXPECT_LE(report.maxDeviationMm, recipe.fairing.toleranceMm);
+  }
+}
+
 }  // namespace
 }  // namespace batten

@@ -10,7 +10,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/curve/curvature.h"
@@ -196,7 +195,7 @@ void ShapeWindow::refreshTable() {
     const auto& faired = targets->faired[at];
     QString name = QStringLiteral("%1 %2").arg(degree).arg(degreeName(degree));
     if (isAdvised && degree == nearest) name += QStringLiteral(" ✓");
-    const bool usable = p.valid && p.aicc < std::numeric_limits<double>::max();
+    const bool usable = p.valid && p.aicc;
     rows.push_back(
         {name,
          {{p.valid ? number(p.similarity, 5) : none},
@@ -204,7 +203,7 @@ void ShapeWindow::refreshTable() {
           {p.valid ? number(p.rmsPercent, 1) : none},
           {faired ? number(faired->report.neededMm.value_or(0.0), 3) : none, faired && !faired->report.withinTolerance},
           {faired ? QString::number(faired->report.extremaAfter) : none},
-          {usable ? number(p.aicc, 1) : none}},
+          {usable ? number(*p.aicc, 1) : none}},
          p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile is not monotone."))
                  : QString::fromStdString(p.problem)});
   }
