@@ -171,7 +171,8 @@ class MonotoneFairing {
     report.note = needed ? "A curve with " + asked + " needs a tolerance of " +
                                millimetres(*needed + setup_.claimedMm()) + "; " + kept
                          : "No curve with " + asked + " was found; " + kept;
-    if (!needed && setup_.closed && count && *count < 4)
+    constexpr int kLeastOfClosed = 4;
+    if (!needed && setup_.closed && count.value_or(kLeastOfClosed) < kLeastOfClosed)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;
     if (const auto free = needed ? std::nullopt : neededWithFreeEnds())
       report.note = "No curve with " + asked +
