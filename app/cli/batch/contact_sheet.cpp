@@ -12,6 +12,7 @@
 
 #include "app/cli/batch/drawn_lines.h"
 #include "app/cli/batch/page_record.h"
+#include "core/base/number_text.h"
 #include "core/base/parallel.h"
 #include "core/base/platform.h"
 #include "core/base/regular_file.h"
@@ -88,16 +89,13 @@ struct Card {
   QByteArray figures;
 };
 
-/// "1 curve", "2 curves"
-QByteArray counted(int count, const char* what) { return QByteArray::number(count) + what + (count == 1 ? "" : "s"); }
-
 QByteArray figuresOf(const PageRecord& record) {
   const auto number = [&](const char* key) {
     const bool isThere = record.figures.is_object() && record.figures.contains(key) && record.figures[key].is_number();
     return isThere ? record.figures[key].get<double>() : 0.0;
   };
-  QByteArray text = counted(static_cast<int>(number("curves")), " curve") + " in " +
-                    counted(static_cast<int>(number("pieces")), " piece") + "; " +
+  QByteArray text = QByteArray::fromStdString(counted(static_cast<int>(number("curves")), "curve", "curves")) + " in " +
+                    QByteArray::fromStdString(counted(static_cast<int>(number("pieces")), "piece", "pieces")) + "; " +
                     QByteArray::number(record.seconds, 'f', 1) + " s, " +
                     QByteArray::number(1e-6 * number("peak_memory_bytes"), 'f', 0) + " MB";
   if (record.figures.is_object() && record.figures.contains("notes") && record.figures["notes"].is_array()) {

@@ -45,7 +45,7 @@ Range rangeOf(const NurbsCurve& light, const LightReference& dense, bool atEnd) 
   Range range;
   const std::vector<double> breaks = light.breaks();
   const int spans = static_cast<int>(breaks.size()) - 1;
-  const int places = placesPerSpan(spans);
+  const int places = checkedPlacesPerSpan(spans);
   int foot = atEnd ? dense.size() - 1 : 0;
   for (int i = 0; i < spans; ++i) {
     const double outer = breaks[atEnd ? spans - i : i], inner = breaks[atEnd ? spans - 1 - i : i + 1];

@@ -21,7 +21,7 @@ struct CheckedPlace {
 std::vector<CheckedPlace> placesOf(const NurbsCurve& curve, bool closed) {
   const std::vector<double> breaks = curve.breaks();
   const int spans = static_cast<int>(breaks.size()) - 1;
-  const int perSpan = placesPerSpan(spans);
+  const int perSpan = checkedPlacesPerSpan(spans);
   std::vector<CheckedPlace> places;
   places.reserve(perSpan * spans + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
@@ -82,7 +82,7 @@ std::optional<double> worstOffset(const std::vector<CheckedPlace>& places, const
 
 }  // namespace
 
-int placesPerSpan(int spans) {
+int checkedPlacesPerSpan(int spans) {
   constexpr int kFewestPlaces = 400, kPerSpan = 40;
   return std::max(kPerSpan, (kFewestPlaces + spans - 1) / spans);
 }

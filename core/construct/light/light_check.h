@@ -22,7 +22,7 @@ struct LightVerdict {
 LightVerdict checkLight(const NurbsCurve&, const LightReference&, const LightBounds&);
 
 /// At how many places of each of a curve's spans a light curve is looked at: 40, and 400 along the whole curve.
-int placesPerSpan(int spans);
+int checkedPlacesPerSpan(int spans);
 
 /// Prominence with which the extrema of both curves are counted.
 double lightProminence(const LightReference&);

@@ -2,12 +2,12 @@
 #include "core/construct/typical/typical_path_fit.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "core/construct/typical/normal_equations.h"
 #include "core/construct/typical/typical_path.h"
 #include "core/construct/typical/typical_path_feet.h"
 #include "core/construct/typical/typical_path_geometry.h"
@@ -41,48 +41,6 @@ constexpr int kClosingSteps = 12;
 constexpr double kClosed = 1e-13;
 constexpr double kClosingDamping = 1e-6;  ///< Relative: only to keep the metric regular.
 
-/// From so many unknowns on, what is zero is passed over: each row holds those of a few elements only.
-constexpr Eigen::Index kManyUnknowns = 150;
-bool isSparse(Eigen::Index unknowns) { return unknowns >= kManyUnknowns; }
-
-/// += row' row, lower triangle.
-void addOuter(Eigen::MatrixXd& squared, const Row& row) {
-  std::vector<Eigen::Index> places;
-  for (Eigen::Index i = 0; i < row.size(); ++i)
-    if (row(i) != 0.0) places.push_back(i);
-  for (std::size_t b = 0; b < places.size(); ++b)
-    for (std::size_t a = b; a < places.size(); ++a) squared(places[a], places[b]) += row(places[a]) * row(places[b]);
-}
-
-/// Solves symmetric positive definite equations, of which the lower triangle is given.
-class NormalSolver {
- public:
-  explicit NormalSolver(const Eigen::MatrixXd& matrix) : isSparse_(isSparse(matrix.rows())) {
-    if (!isSparse_) {
-      dense_.compute(matrix);
-      return;
-    }
-    std::vector<Eigen::Triplet<double>> entries;
-    for (Eigen::Index col = 0; col < matrix.cols(); ++col)
-      for (Eigen::Index row = col; row < matrix.rows(); ++row)
-        if (matrix(row, col) != 0.0)
-          entries.emplace_back(static_cast<int>(row), static_cast<int>(col), matrix(row, col));
-    Eigen::SparseMatrix<double> filled(matrix.rows(), matrix.cols());
-    filled.setFromTriplets(entries.begin(), entries.end());
-    sparse_.compute(filled);
-  }
-  bool isSolved() const { return (isSparse_ ? sparse_.info() : dense_.info()) == Eigen::Success; }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
-    if (isSparse_) return sparse_.solve(right);
-    return dense_.solve(right);
-  }
-
- private:
-  bool isSparse_;
-  Eigen::LDLT<Eigen::MatrixXd> dense_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> sparse_;
-};
-
 /// Sum of squares of everything, as normal equations when asked.
 class PathSquares {
  public:
@@ -97,7 +55,7 @@ class PathSquares {
     std::vector<Row> priors;  ///< Rows that are not yet in `squared`: all at once is several times as fast.
 
     void takePriors() {
-      if (isSparse(gradient.size())) {
+      if (isSparseSystem(gradient.size())) {
         for (const Row& row : priors) addOuter(squared, row);
         priors.clear();
         return;
@@ -178,7 +136,7 @@ class PathSquares {
     const auto count = static_cast<Eigen::Index>(feet.size());
     Eigen::MatrixXd jacobian;
     Eigen::VectorXd residuals;
-    if (system && !isSparse(unknowns_.count())) {
+    if (system && !isSparseSystem(unknowns_.count())) {
       jacobian.setZero(count, unknowns_.count());
       residuals.setZero(count);
     }
@@ -199,7 +157,7 @@ class PathSquares {
         PathUnknowns::addHermite(row, {path.states[e], rows[e]}, {path.states[e + 1], rows[e + 1]}, {foot.t, n});
       }
       // The distance shrinks as the path moves towards the point.
-      if (isSparse(unknowns_.count())) {
+      if (isSparseSystem(unknowns_.count())) {
         row *= -weight / unit_;
         addOuter(system->squared, row);
         system->gradient.noalias() += weight * r * row.transpose();
@@ -208,7 +166,7 @@ class PathSquares {
       jacobian.row(static_cast<Eigen::Index>(i)) = -weight / unit_ * row;
       residuals(static_cast<Eigen::Index>(i)) = weight * r;
     }
-    if (system && !isSparse(unknowns_.count())) {
+    if (system && !isSparseSystem(unknowns_.count())) {
       system->squared.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
       system->gradient.noalias() += jacobian.transpose() * residuals;
     }

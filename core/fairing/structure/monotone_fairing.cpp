@@ -163,15 +163,17 @@ class MonotoneFairing {
     FairingReport& report = result->report;
     const std::string kept = counted(report.extremaAfter, "extremum was kept.", "extrema were kept.");
     // By place, or by number: as few as can be are never too few.
-    const std::optional<int> count = params_.keptAt.empty() ? params_.keepExtrema.count : std::nullopt;
-    const std::string asked = count ? extremaText(*count) : "these extrema";
+    constexpr int kLeastOfClosed = 4;
+    const bool byCount = params_.keptAt.empty() && params_.keepExtrema.count.has_value();
+    const int count = byCount ? *params_.keepExtrema.count : kLeastOfClosed;
+    const std::string asked = byCount ? extremaText(count) : "these extrema";
     report.why = needed ? Termination::ToleranceLimited : Termination::NoProgress;
     report.withinTolerance = false;
     report.neededMm = needed;
     report.note = needed ? "A curve with " + asked + " needs a tolerance of " +
                                millimetres(*needed + setup_.claimedMm()) + "; " + kept
                          : "No curve with " + asked + " was found; " + kept;
-    if (!needed && setup_.closed && count.value_or(4) < 4)
+    if (!needed && setup_.closed && count < kLeastOfClosed)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;
     if (const auto free = needed ? std::nullopt : neededWithFreeEnds())
       report.note = "No curve with " + asked +

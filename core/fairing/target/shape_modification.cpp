@@ -23,10 +23,8 @@ namespace {
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
 constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
 constexpr double kTargetUsedShare = 0.95;
-/// Weights whose ratio is less give the same curve; one that is too small grows by the other factor.
-constexpr double kSameWeight = 1.02, kWeightStep = 4.0;
-/// Of the way between two weights (logarithms): a step ends no nearer to either of them.
-constexpr double kNearestShare = 0.1;
+/// Ratios of weights: of equal curves, and by which a small one grows; share between two that no step comes nearer.
+constexpr double kSameWeight = 1.02, kWeightStep = 4.0, kNearestShare = 0.1;
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.

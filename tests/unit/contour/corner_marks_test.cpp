@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "core/contour/corner/corner_suggestions.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/angles.h"
 #include "tests/support/contour_shapes.h"

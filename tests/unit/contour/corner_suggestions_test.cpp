@@ -17,6 +17,7 @@ namespace batten {
 namespace {
 
 using test::circle;
+using test::CurvedPolygon;
 using test::fromPoints;
 using test::kDeg;
 using test::letterK;

@@ -17,7 +17,7 @@ namespace batten {
 namespace {
 
 constexpr int kPageWidth = 480, kPageHeight = 360;
-constexpr double kNodeRadiusPx = 4.0, kUsualRadiusPx = 2.0, kMostBendDeg = 40.0;
+constexpr double kNodeRadiusPx = 4.0, kUsualRadiusPx = 2.0, kBendLimitDeg = 40.0;
 
 MeetingEnd meetingTowards(double angleDeg, double radius = kUsualRadiusPx) {
   const double angle = angleDeg * std::numbers::pi / 180.0;
@@ -26,8 +26,8 @@ MeetingEnd meetingTowards(double angleDeg, double radius = kUsualRadiusPx) {
 }
 
 JunctionWays waysOf(const std::vector<MeetingEnd>& ends) {
-  const EndPairs own = pairEnds(ends, kNodeRadiusPx, kUsualRadiusPx, kMostBendDeg);
-  return findWays(ends, own, kNodeRadiusPx, kUsualRadiusPx, kMostBendDeg);
+  const EndPairs own = pairEnds(ends, kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg);
+  return findWays(ends, own, kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg);
 }
 
 TEST(JunctionWays, TheRuleComesFirstThenTheNextBestAndNoneLast) {

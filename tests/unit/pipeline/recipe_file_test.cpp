@@ -29,7 +29,7 @@ Recipe fullRecipe() {
                 FairingTarget::Drawn,
                 std::nullopt,
                 12.5,
-                3,
+                KeptExtrema{3},
                 {Vec2(1, 2)},
                 {Vec2(5, 6), Vec2(1.0 / 7.0, 8)},
                 {{0.0, 0.01}, {1.0 / 3.0, -0.02}, {1.0, 1e-9}}},
@@ -37,6 +37,7 @@ Recipe fullRecipe() {
                 .mode = FairingMode::None,
                 .target = std::nullopt,
                 .toleranceMm = std::nullopt,
+                .keepExtrema = KeptExtrema{},
                 .spans = TargetSpans::Whole,
                 .spanTargets = {{Vec2(1.0 / 3.0, 2.0), 1}, {Vec2(30.0, 40.5), 6}},
                 .tolerancePolicy = TolerancePolicy::All,
@@ -53,6 +54,13 @@ Recipe fullRecipe() {
                        {Vec2(300.0, 4e2), {}}};
   r.curveNumbers = {12, {{3, {Vec2(1.5, 20.0), Vec2(1.0 / 3.0, 7.0)}}, {12, {Vec2(300.1, 4.0)}}}};
   return r;
+}
+
+TEST(RecipeFile, HoldsAsFewExtremaAsCanBeAsMinusOne) {
+  const std::string text = recipeToJson(fullRecipe());
+  EXPECT_NE(text.find("\"keep_extrema\": 3"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"keep_extrema\": -1"), std::string::npos);
+  EXPECT_NE(text.find("\"fairing.keep_extrema\": -1"), std::string::npos);
 }
 
 TEST(RecipeFile, ReadsBackExactly) {

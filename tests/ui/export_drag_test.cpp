@@ -47,9 +47,9 @@ class DropTarget : public QWidget {
   }
 };
 
-class DragOut : public test::WindowFixture {};
+class ExportDrag : public test::WindowFixture {};
 
-TEST_F(DragOut, ACurveBecomesAnSvg) {
+TEST_F(ExportDrag, ACurveIsDraggedOutAsAnSvg) {
   openPage(test::zigzagPage());
   Recipe recipe = session().recipe();
   recipe.cornerMarks.push_back({Vec2(200, 100)});
