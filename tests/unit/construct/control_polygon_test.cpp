@@ -69,7 +69,9 @@ TEST(ControlPolygonCurve, PassesThroughSharpPointsHoweverCloseTheyAre) {
     const auto made = controlPolygonCurve(points, sharp, degree, SharpKnots::Degree);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->curve.degree(), degree);
-    if (made->added == 1) EXPECT_EQ(made->warning, "Between close sharp points 1 control point was doubled.");
+    if (made->added == 1) {
+      EXPECT_EQ(made->warning, "Between close sharp points 1 control point was doubled.");
+    }
     EXPECT_EQ(made->curve.point(made->curve.start()), points.front());
     EXPECT_LT((made->curve.point(made->curve.end()) - points.back()).norm(), 1e-12);
     for (const int s : sharp) {
