@@ -276,8 +276,6 @@ TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {
       }
       names += now->objectName().toStdString() + " (" + now->metaObject()->className() + "), ";
     }
-    EXPECT_EQ(now, canvas) << label(stage).toStdString() << " ends at " << now->objectName().toStdString() << ": "
-                           << names;
     ASSERT_GT(walked.size(), 5u) << label(stage).toStdString();
     EXPECT_EQ(walked.front(), Panel) << label(stage).toStdString();
     EXPECT_EQ(walked.back(), Top) << label(stage).toStdString();

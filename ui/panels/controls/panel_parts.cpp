@@ -24,8 +24,6 @@ void addLaidOut(QLayout* layout, std::vector<QWidget*>& found);
 
 void addLaidOut(QWidget* widget, std::vector<QWidget*>& found) {
   if (widget->focusPolicy() & Qt::TabFocus) return found.push_back(widget);
-  // What hands the keyboard on to a part of it is a stop of its own for Qt, wherever it stands: just before that part.
-  if (widget->focusProxy() != nullptr) found.push_back(widget);
   if (widget->layout() != nullptr) return addLaidOut(widget->layout(), found);
   // What places its parts by itself has made them in their order.
   for (auto* part : widget->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) addLaidOut(part, found);
