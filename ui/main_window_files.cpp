@@ -151,13 +151,11 @@ void MainWindow::readRecipe(const QString& path) {
       // JSON may hold curves or points as well.
       if (const auto read = readImportFile(nativePath(path)); read && !token.isCancelled()) {
         const auto report = std::make_shared<const ImportReport>(*read);
-        QMetaObject::invokeMethod(
-            this, [this, report] { useImport(*report, false); }, Qt::QueuedConnection);
+        parts_->inbox.post([this, report] { useImport(*report, false); });
         return;
       }
     }
-    QMetaObject::invokeMethod(
-        this, [this, path, recipe] { useRecipe(path, recipe); }, Qt::QueuedConnection);
+    parts_->inbox.post([this, path, recipe] { useRecipe(path, recipe); });
   });
 }
 
@@ -192,13 +190,10 @@ void MainWindow::readImport(const QString& path, bool intoDrawing) {
     context.cancel = token;
     const auto read = std::make_shared<const Result<ImportReport>>(readImportFile(nativePath(path), {}, context));
     if (token.isCancelled()) return;
-    QMetaObject::invokeMethod(
-        this,
-        [this, read, intoDrawing] {
-          if (*read) return useImport(**read, intoDrawing);
-          showProblem(read->error(), FailureOrigin::OpenScan);
-        },
-        Qt::QueuedConnection);
+    parts_->inbox.post([this, read, intoDrawing] {
+      if (*read) return useImport(**read, intoDrawing);
+      showProblem(read->error(), FailureOrigin::OpenScan);
+    });
   });
 }
 
@@ -239,14 +234,11 @@ void MainWindow::pasteScan() {
   parts_->recipeReader->start([this, folder, path, picture](const CancelToken& token) {
     const bool isSaved = QDir().mkpath(folder) && picture.save(path, "PNG");
     if (token.isCancelled()) return;
-    QMetaObject::invokeMethod(
-        this,
-        [this, path, isSaved] {
-          if (isSaved) return openPath(path);
-          showProblem({ErrorCode::CannotWrite, tr("The picture cannot be saved in %1.").arg(path).toStdString(), {}},
-                      FailureOrigin::OpenScan);
-        },
-        Qt::QueuedConnection);
+    parts_->inbox.post([this, path, isSaved] {
+      if (isSaved) return openPath(path);
+      showProblem({ErrorCode::CannotWrite, tr("The picture cannot be saved in %1.").arg(path).toStdString(), {}},
+                  FailureOrigin::OpenScan);
+    });
   });
 }
 

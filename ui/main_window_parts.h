@@ -12,6 +12,7 @@
 #include "ui/main_window.h"
 #include "ui/opening_guard.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/inbox.h"
 #include "ui/session/recipe_journal.h"
 
 class QSplitter;
@@ -76,6 +77,7 @@ struct MainWindow::Parts {
   std::optional<RecipeJournal::Left> leftWork;  ///< Offered, not yet answered.
   QString sample;                               ///< Opened when the offer at the start is discarded.
   QStringList goneFiles;                        ///< Recent files that were not there when last looked for.
+  Inbox inbox;
   std::unique_ptr<BackgroundWorker> recipeReader = std::make_unique<BackgroundWorker>();
   std::unique_ptr<BackgroundWorker> recentChecker = std::make_unique<BackgroundWorker>();
 };

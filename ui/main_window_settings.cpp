@@ -46,13 +46,10 @@ void MainWindow::checkRecent(std::function<void()> then) {
     QStringList gone;
     for (const QString& path : files)
       if (!pathExists(path)) gone.append(path);
-    QMetaObject::invokeMethod(
-        this,
-        [this, gone, then] {
-          parts_->goneFiles = gone;
-          if (then) then();
-        },
-        Qt::QueuedConnection);
+    parts_->inbox.post([this, gone, then] {
+      parts_->goneFiles = gone;
+      if (then) then();
+    });
   });
 }
 

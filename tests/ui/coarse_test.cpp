@@ -7,6 +7,7 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/canvas/layers/raster_layer.h"
 #include "ui/session/coarse_runner.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 namespace {
@@ -35,7 +36,7 @@ double shareAlike(const BitImage& full, const BitImage& coarse, int factor) {
 
 TEST(CoarseRunner, FindsTheInkOfTheFullPage) {
   const auto page = tenMillionPixels();
-  QObject inbox;
+  Inbox inbox;
   std::shared_ptr<const CoarseResult> ink, curves;
   CoarseRunner runner(inbox, [&](const auto& scan, auto result) {
     EXPECT_EQ(scan, page);
@@ -65,7 +66,7 @@ TEST(CoarseRunner, FindsTheInkOfTheFullPage) {
 }
 
 TEST(CoarseRunner, ASmallPageNeedsNone) {
-  QObject inbox;
+  Inbox inbox;
   int shown = 0;
   CoarseRunner runner(inbox, [&](const auto&, auto) { ++shown; });
   runner.start({std::make_shared<const Scan>(test::largePage(600, 400, 2, 1)), Recipe{}, 1, true});

@@ -84,14 +84,11 @@ void CurveCanvas::State::scanOpened() {
     context.cancel = token;
     auto built = buildPyramid(scan, context);
     if (!built) return;
-    QMetaObject::invokeMethod(
-        &inbox,
-        [this, scan, built] {
-          if (scan != session.scan()) return;
-          pyramid = built;
-          canvas.update();
-        },
-        Qt::QueuedConnection);
+    inbox.post([this, scan, built] {
+      if (scan != session.scan()) return;
+      pyramid = built;
+      canvas.update();
+    });
   });
   emit canvas.zoomChanged(transform.zoom());
   canvas.update();
@@ -188,14 +185,11 @@ void CurveCanvas::State::requestShapes() {
     context.cancel = token;
     auto built = buildShapes(from, bracket, context);
     if (!built) return;
-    QMetaObject::invokeMethod(
-        &inbox,
-        [this, built] {
-          if (!(built->source == source())) return;
-          shapes = built;
-          canvas.update();
-        },
-        Qt::QueuedConnection);
+    inbox.post([this, built] {
+      if (!(built->source == source())) return;
+      shapes = built;
+      canvas.update();
+    });
   });
 }
 
@@ -212,14 +206,11 @@ void CurveCanvas::State::requestCombs() {
     context.cancel = token;
     auto built = buildCombs(from, selected, judged, context);
     if (!built) return;
-    QMetaObject::invokeMethod(
-        &inbox,
-        [this, built] {
-          if (!(built->source == source()) || built->judged != judgedIn(view)) return;
-          combs = built;
-          canvas.update();
-        },
-        Qt::QueuedConnection);
+    inbox.post([this, built] {
+      if (!(built->source == source()) || built->judged != judgedIn(view)) return;
+      combs = built;
+      canvas.update();
+    });
   });
 }
 
@@ -238,14 +229,11 @@ void CurveCanvas::State::requestOverlay() {
     context.cancel = token;
     auto built = buildOverlay(from, context);
     if (!built) return;
-    QMetaObject::invokeMethod(
-        &inbox,
-        [this, from, built] {
-          if (!(from == overlayFor)) return;
-          overlay = built;
-          canvas.update();
-        },
-        Qt::QueuedConnection);
+    inbox.post([this, from, built] {
+      if (!(from == overlayFor)) return;
+      overlay = built;
+      canvas.update();
+    });
   });
 }
 

@@ -11,6 +11,7 @@
 #include "ui/canvas/still_image.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -48,7 +49,7 @@ struct CurveCanvas::State : CanvasScene {
 
   StillImage still;
 
-  QObject inbox;
+  Inbox inbox;
   BackgroundWorker imaging, shaping, combing, comparing;
 
   /// The pinned result, or the uniform curves, have changed.

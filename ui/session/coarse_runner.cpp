@@ -44,8 +44,7 @@ void CoarseRunner::post(const Request& request, const PipelineOutput& output) {
   result->faired = output.faired;
   result->frame = coarseFrame(output.frame, result->factor);
   result->generation = request.generation;
-  QMetaObject::invokeMethod(
-      &inbox_, [this, scan = request.scan, result] { show_(scan, result); }, Qt::QueuedConnection);
+  inbox_.post([this, scan = request.scan, result] { show_(scan, result); });
 }
 
 }  // namespace batten

@@ -8,6 +8,7 @@
 
 #include "core/pipeline/run/pipeline.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -27,7 +28,7 @@ class CoarseRunner {
  public:
   /// `show` is called in the GUI thread with each result, as long as `inbox` lives.
   using Show = std::function<void(const std::shared_ptr<const Scan>&, std::shared_ptr<const CoarseResult>)>;
-  CoarseRunner(QObject& inbox, Show show) : inbox_(inbox), show_(std::move(show)) {}
+  CoarseRunner(Inbox& inbox, Show show) : inbox_(inbox), show_(std::move(show)) {}
 
   struct Request {
     std::shared_ptr<const Scan> scan;
@@ -45,7 +46,7 @@ class CoarseRunner {
   void post(const Request& request, const PipelineOutput& output);
 
   static constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
-  QObject& inbox_;
+  Inbox& inbox_;
   Show show_;
   /// Of the worker's thread alone: the page that was made smaller last, and what became of it.
   std::weak_ptr<const Scan> pageOf_;

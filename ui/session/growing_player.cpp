@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/growing_player.h"
 
-#include <QPointer>
 #include <algorithm>
 
 #include "ui/session/editor_session.h"
@@ -64,8 +63,8 @@ void GrowingPlayer::compute() {
   problem_ = selected && pieces && segments ? QString() : tr("Select a curve to see how its chain grows.");
   emit changed();
   if (!problem_.isEmpty()) return;
-  worker_.start([pieces, segments, request, recipe = session_.recipe(), frame = session_.output().frame,
-                 piece = selected->piece, player = QPointer<GrowingPlayer>(this)](const CancelToken& token) {
+  worker_.start([this, pieces, segments, request, recipe = session_.recipe(), frame = session_.output().frame,
+                 piece = selected->piece](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
     auto result = guarded<std::vector<GrowingStep>>(
@@ -73,13 +72,7 @@ void GrowingPlayer::compute() {
     if (token.isCancelled()) return;
     auto steps = result ? std::make_shared<const std::vector<GrowingStep>>(std::move(*result)) : nullptr;
     const QString problem = result ? QString() : QString::fromStdString(result.error().message);
-    if (!player) return;
-    QMetaObject::invokeMethod(
-        player.data(),
-        [player, request, steps, problem] {
-          if (player) player->take(request, steps, problem);
-        },
-        Qt::QueuedConnection);
+    inbox_.post([this, request, steps, problem] { take(request, steps, problem); });
   });
 }
 

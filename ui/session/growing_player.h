@@ -10,6 +10,7 @@
 
 #include "core/pipeline/run/segment_points.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -65,6 +66,7 @@ class GrowingPlayer : public QObject {
   std::optional<int> step_;
   std::uint64_t newest_ = 0;
   QTimer timer_;
+  Inbox inbox_;
   BackgroundWorker worker_;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/pen_fairness.h"
 
-#include <QPointer>
 #include <span>
 #include <utility>
 
@@ -49,19 +48,16 @@ void PenFairness::follow(PenStroke stroke) {
   course.recipe.construct = session_.recipe().construct;
   course.page = {static_cast<double>(session_.scan()->grey.width), static_cast<double>(session_.scan()->grey.height)};
   worker_.start(
-      [course = std::move(course), line = line_, pen = QPointer<PenFairness>(this)](const CancelToken& token) {
+      [this, course = std::move(course), line = line_](const CancelToken& token) {
         RunContext context;
         context.cancel = token;
         const auto fairness = guarded<CurveFairness>([&] { return fairnessOf(course, context); });
-        if (!fairness || token.isCancelled() || !pen) return;
-        QMetaObject::invokeMethod(
-            pen.data(),
-            [pen, line, found = *fairness] {
-              if (!pen || pen->line_ != line) return;
-              pen->latest_ = found;
-              emit pen->changed();
-            },
-            Qt::QueuedConnection);
+        if (!fairness || token.isCancelled()) return;
+        inbox_.post([this, line, found = *fairness] {
+          if (line_ != line) return;
+          latest_ = found;
+          emit changed();
+        });
       },
       BackgroundWorker::Running::Finish);
 }

@@ -9,6 +9,7 @@
 #include "core/fairing/curve_fairness.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -31,7 +32,8 @@ class PenFairness : public QObject {
  private:
   const EditorSession& session_;
   std::optional<CurveFairness> latest_;
-  int line_ = 0;             ///< Lines ended so far.
+  int line_ = 0;  ///< Lines ended so far.
+  Inbox inbox_;
   BackgroundWorker worker_;  ///< Last, so that it is joined before anything goes.
 };
 

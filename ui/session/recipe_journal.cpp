@@ -71,8 +71,7 @@ void RecipeJournal::write() {
         const std::string bytes = unsavedWorkToJson({scan.toStdString(), recipe});
         // Should it fail there is nothing to tell: the drawing is where it was, and the next tick tries again.
         if (!saveAtomically(nativePath(file), bytes)) return;
-        QMetaObject::invokeMethod(
-            this, [this, generation, recipe] { written(generation, recipe); }, Qt::QueuedConnection);
+        inbox_.post([this, generation, recipe] { written(generation, recipe); });
       },
       BackgroundWorker::Running::Finish);
 }

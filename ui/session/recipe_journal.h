@@ -10,6 +10,7 @@
 
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -55,6 +56,7 @@ class RecipeJournal : public QObject {
   QTimer timer_{this};
   std::optional<Recipe> written_;  ///< What is on disk, as far as known.
   int generation_ = 0;             ///< Of the file: what an older write reports is of no use any more.
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
 };
 

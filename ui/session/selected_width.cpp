@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/selected_width.h"
 
-#include <QPointer>
 #include <algorithm>
 #include <utility>
 
@@ -39,22 +38,17 @@ void SelectedWidth::follow() {
   figures_.reset();
   isKnown_ = !asked->isStroke();
   if (isKnown_) return worker_.cancelAll();
-  worker_.start([asked, to = QPointer<SelectedWidth>(this)](const CancelToken& token) {
+  worker_.start([this, asked](const CancelToken& token) {
     const auto found = guarded<std::optional<WidthFigures>>([&]() -> Result<std::optional<WidthFigures>> {
       RunContext context;
       context.cancel = token;
       const auto widths = strokeWidthsAlong(asked->output, *asked->scan, asked->curve, asked->curve.sketched, context);
       return widths ? std::optional(figuresOf(*widths)) : std::nullopt;
     });
-    if (token.isCancelled() || !to) return;
+    if (token.isCancelled()) return;
     // What could not be measured has no row.
     const std::optional<WidthFigures> figures = found ? *found : std::nullopt;
-    QMetaObject::invokeMethod(
-        to.data(),
-        [to, asked, figures] {
-          if (to) to->take(asked, figures);
-        },
-        Qt::QueuedConnection);
+    inbox_.post([this, asked, figures] { take(asked, figures); });
   });
 }
 

@@ -8,6 +8,7 @@
 #include "core/curve/width_profile.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -44,6 +45,7 @@ class SelectedWidth : public QObject {
   std::shared_ptr<const Asked> asked_;  ///< Null while nothing is selected, or seen.
   bool isKnown_ = false;
   std::optional<WidthFigures> figures_;
+  Inbox inbox_;
   BackgroundWorker worker_;  ///< Last, so that it is joined before anything goes.
 };
 

@@ -46,9 +46,7 @@ void EditorSession::Runner::open(const QString& scanPath, bool isRestored, ScanJ
   isReading = true;
   reader.start([this, id, scanPath, isRestored, job = std::move(job)](const CancelToken& token) {
     auto result = std::make_shared<Result<OpenedScan>>(guarded<OpenedScan>([&] { return job(token); }));
-    QMetaObject::invokeMethod(
-        &inbox, [this, id, scanPath, isRestored, result] { applyScan(id, scanPath, isRestored, result); },
-        Qt::QueuedConnection);
+    inbox.post([this, id, scanPath, isRestored, result] { applyScan(id, scanPath, isRestored, result); });
   });
   updateBusy();
 }
@@ -165,21 +163,16 @@ void EditorSession::Runner::run() {
     context.progress = [&, this](double fraction) {
       const int percent = static_cast<int>(100.0 * (stagesDone + std::clamp(fraction, 0.0, 1.0)) / kStages.size());
       if (lastPercent.exchange(percent) == percent) return;
-      QMetaObject::invokeMethod(
-          &inbox,
-          [this, runId, percent] {
-            if (runId == newestRun && isRunning) emit session.progress(percent / 100.0);
-          },
-          Qt::QueuedConnection);
+      inbox.post([this, runId, percent] {
+        if (runId == newestRun && isRunning) emit session.progress(percent / 100.0);
+      });
     };
     PipelineRequest request;
     request.needEdges = edges;
     request.stageReady = [&, this](StageId stage, const PipelineOutput& soFar) {
       stagesDone = static_cast<int>(stage) + 1;
       if (token.isCancelled()) return;
-      QMetaObject::invokeMethod(
-          &inbox, [this, scan, generation, stage, soFar] { applyStage(scan, generation, stage, soFar); },
-          Qt::QueuedConnection);
+      inbox.post([this, scan, generation, stage, soFar] { applyStage(scan, generation, stage, soFar); });
     };
     PipelineOutput output;
     if (auto done = guarded<PipelineOutput>(
@@ -190,12 +183,9 @@ void EditorSession::Runner::run() {
     const double milliseconds = static_cast<double>(clock.elapsed() - begin);
     startedMs = -1;
     returnFreeMemory();
-    QMetaObject::invokeMethod(
-        &inbox,
-        [this, scan, generation, runId, output, milliseconds] {
-          applyEnd(scan, generation, runId, output, milliseconds);
-        },
-        Qt::QueuedConnection);
+    inbox.post([this, scan, generation, runId, output, milliseconds] {
+      applyEnd(scan, generation, runId, output, milliseconds);
+    });
   };
   newestToken = pipeline.start(std::move(job), BackgroundWorker::Running::Finish);
   if (!spare)

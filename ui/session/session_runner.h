@@ -12,6 +12,7 @@
 #include "ui/session/coarse_runner.h"
 #include "ui/session/discarded_values.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 #include "ui/session/opened_scan.h"
 #include "ui/session/target_runner.h"
 
@@ -32,7 +33,7 @@ struct EditorSession::Runner {
   void clearFailure();
 
   EditorSession& session;
-  QObject inbox;
+  Inbox inbox;
   StageCache cache;
   QString path, openProblem;
   CurveNumbers numbers;  ///< Apart from the recipe, as no undo takes them back.

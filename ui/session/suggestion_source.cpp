@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/suggestion_source.h"
 
-#include <QPointer>
 #include <utility>
 
 #include "core/base/angle.h"
@@ -27,26 +26,20 @@ void SuggestionSource::look(double angleDeg, double scalePx) {
     emit changed();
     return;
   }
-  worker_.start(
-      [contours, angleDeg, scalePx, snapPx, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
-        auto found = guarded<std::vector<CornerSuggestion>>([&] {
-          const double angle = angleDeg * kRadPerDeg;
-          RunContext context;
-          context.cancel = token;
-          return oncePerCorner(*contours, suggestCornersAndCuts(*contours, angle, scalePx, context), snapPx, context);
-        });
-        if (token.isCancelled() || !found || !source) return;
-        QMetaObject::invokeMethod(
-            source.data(),
-            [source, contours, angleDeg, scalePx, snapPx, found = std::move(*found)] {
-              if (!source || contours != source->of_ || angleDeg != source->angleDeg_ || scalePx != source->scalePx_ ||
-                  snapPx != source->snapPx_)
-                return;
-              source->found_ = found;
-              emit source->changed();
-            },
-            Qt::QueuedConnection);
-      });
+  worker_.start([this, contours, angleDeg, scalePx, snapPx](const CancelToken& token) {
+    auto found = guarded<std::vector<CornerSuggestion>>([&] {
+      const double angle = angleDeg * kRadPerDeg;
+      RunContext context;
+      context.cancel = token;
+      return oncePerCorner(*contours, suggestCornersAndCuts(*contours, angle, scalePx, context), snapPx, context);
+    });
+    if (token.isCancelled() || !found) return;
+    inbox_.post([this, contours, angleDeg, scalePx, snapPx, found = std::move(*found)] {
+      if (contours != of_ || angleDeg != angleDeg_ || scalePx != scalePx_ || snapPx != snapPx_) return;
+      found_ = found;
+      emit changed();
+    });
+  });
 }
 
 }  // namespace batten

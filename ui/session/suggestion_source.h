@@ -8,6 +8,7 @@
 #include "core/contour/corner/corner_marks.h"
 #include "core/contour/corner/corner_suggestions.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -32,6 +33,7 @@ class SuggestionSource : public QObject {
   std::shared_ptr<const ContourSet> of_;
   double angleDeg_ = 0.0, scalePx_ = 0.0, snapPx_ = 0.0;
   std::vector<CornerSuggestion> found_;
+  Inbox inbox_;
   BackgroundWorker worker_;
 };
 

@@ -42,9 +42,7 @@ bool TargetRunner::start(const TracedCurve& curve, const std::optional<double>& 
     if (!result && result.error().code == ErrorCode::Cancelled) return;
     std::shared_ptr<const TargetOutcomes> outcomes;
     if (result) outcomes = std::make_shared<const TargetOutcomes>(std::move(*result));
-    QMetaObject::invokeMethod(
-        &inbox_, [this, id, outcomes, length = job.sketchedFigures.lengthMm] { apply(id, outcomes, length); },
-        Qt::QueuedConnection);
+    inbox_.post([this, id, outcomes, length = job.sketchedFigures.lengthMm] { apply(id, outcomes, length); });
   });
   return true;
 }

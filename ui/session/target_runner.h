@@ -10,6 +10,7 @@
 #include "core/fairing/fairing.h"
 #include "core/pipeline/run/pipeline.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -19,7 +20,7 @@ class TargetRunner {
   /// `show` is called in the GUI thread with what the newest request found, null where it failed, as long as `inbox`
   /// lives.
   using Show = std::function<void(std::shared_ptr<const TargetOutcomes>)>;
-  TargetRunner(QObject& inbox, Show show) : inbox_(inbox), show_(std::move(show)) {}
+  TargetRunner(Inbox& inbox, Show show) : inbox_(inbox), show_(std::move(show)) {}
 
   /// False, and nothing happens, where just these outcomes are computed or shown already.
   /// @param span whose targets, by a place in it as a share of the arc length; none: of the whole curve
@@ -41,7 +42,7 @@ class TargetRunner {
  private:
   void apply(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes, double lengthMm);
 
-  QObject& inbox_;
+  Inbox& inbox_;
   Show show_;
   std::optional<NurbsCurve> curve_;  ///< Whose outcomes are computed or shown.
   FairingParams params_;

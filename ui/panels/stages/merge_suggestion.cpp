@@ -3,7 +3,6 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPointer>
 #include <QPushButton>
 #include <QVBoxLayout>
 
@@ -63,20 +62,17 @@ void MergeSuggestion::look() {
   said_.reset();
   say(tr("Analysing strokes…"));
   session_.setSideWork(this, true, false);
-  worker_.start([scan, recipe, key, panel = QPointer<MergeSuggestion>(this)](const CancelToken& token) {
+  worker_.start([this, scan, recipe, key](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
     const auto advice = guarded<MergeAdvice>([&] {
       StageCache cache(kCacheBytes);
       return adviseMerge(*scan, recipe, cache, context);
     });
-    if (token.isCancelled() || !panel) return;
-    QMetaObject::invokeMethod(
-        panel.data(),
-        [panel, scan, key, advice] {
-          if (panel && panel->session_.scan() == scan && panel->asked_ == key) panel->take(advice);
-        },
-        Qt::QueuedConnection);
+    if (token.isCancelled()) return;
+    inbox_.post([this, scan, key, advice] {
+      if (session_.scan() == scan && asked_ == key) take(advice);
+    });
   });
 }
 

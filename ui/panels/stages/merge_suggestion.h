@@ -7,6 +7,7 @@
 #include "core/pipeline/run/merge_advice.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 class QLabel;
 class QPushButton;
@@ -41,7 +42,8 @@ class MergeSuggestion : public QWidget {
   };
   std::optional<ContentHash> asked_;  ///< mergeAdviceKey() of what is being looked at.
   std::optional<Said> said_;          ///< None: the note says what the button is for, or that it is looking.
-  BackgroundWorker worker_;           ///< Last, so that it is joined before anything goes.
+  Inbox inbox_;
+  BackgroundWorker worker_;  ///< Last, so that it is joined before anything goes.
 };
 
 }  // namespace batten

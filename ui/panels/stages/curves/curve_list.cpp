@@ -5,7 +5,6 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QPointer>
 #include <QStyledItemDelegate>
 #include <QTimer>
 #include <algorithm>
@@ -333,15 +332,12 @@ void CurveList::judge() {
   if (!wanted) return;
   asked_ = wanted;
   const auto first = static_cast<std::size_t>(session_.selectedCurve().value_or(0));
-  worker_->start([wanted, before = known_, first, list = QPointer<CurveList>(this)](const CancelToken& token) {
+  worker_->start([this, wanted, before = known_, first](const CancelToken& token) {
     const auto post = [&](const std::function<void(CurveList&)>& act) {
-      if (token.isCancelled() || !list) return;
-      QMetaObject::invokeMethod(
-          list.data(),
-          [list, wanted, act] {
-            if (list && list->asked_ == wanted) act(*list);
-          },
-          Qt::QueuedConnection);
+      if (token.isCancelled()) return;
+      inbox_.post([this, wanted, act] {
+        if (asked_ == wanted) act(*this);
+      });
     };
     const auto tell = [&](const Judgements& found, bool isAll) {
       post([made = std::make_shared<const Judgements>(found), isAll](CurveList& its) { its.take(made, isAll); });

@@ -11,6 +11,7 @@
 #include "core/base/result.h"
 #include "core/fairing/curve_fairness.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 #include "ui/session/judged_curve.h"
 
 namespace batten {
@@ -78,7 +79,8 @@ class CurveList : public QListWidget {
   bool filling_ = false, wasSeen_ = false;
   Columns columns_;
   std::shared_ptr<const Judgements> known_, asked_;  ///< Of the curves in their order.
-  std::unique_ptr<BackgroundWorker> worker_;         ///< Last, so that it is joined before anything goes.
+  Inbox inbox_;
+  std::unique_ptr<BackgroundWorker> worker_;  ///< Last, so that it is joined before anything goes.
 };
 
 }  // namespace batten

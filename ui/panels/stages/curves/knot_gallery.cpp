@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QPainter>
 #include <QPainterPath>
-#include <QPointer>
 #include <algorithm>
 
 #include "ui/panels/controls/panel_parts.h"
@@ -158,7 +157,7 @@ void KnotGallery::refresh() {
 
 void KnotGallery::setLine(const LinePolygon& line, SharpKnots repeated) {
   const int request = ++request_;
-  worker_->start([line, repeated, request, gallery = QPointer<KnotGallery>(this)](const CancelToken& token) {
+  worker_->start([this, line, repeated, request](const CancelToken& token) {
     std::vector<TilePicture> pictures;
     for (const bool uniform : {true, false}) {
       for (int degree = kFirstDegree; degree <= kLastDegree; ++degree) {
@@ -171,13 +170,10 @@ void KnotGallery::setLine(const LinePolygon& line, SharpKnots repeated) {
         pictures.push_back(std::move(picture));
       }
     }
-    QMetaObject::invokeMethod(
-        gallery.data(),
-        [gallery, request, pictures = std::move(pictures)] {
-          if (!gallery || gallery->request_ != request) return;
-          for (std::size_t i = 0; i < pictures.size(); ++i) gallery->tiles_[i]->setPicture(pictures[i]);
-        },
-        Qt::QueuedConnection);
+    inbox_.post([this, request, pictures = std::move(pictures)] {
+      if (request_ != request) return;
+      for (std::size_t i = 0; i < pictures.size(); ++i) tiles_[i]->setPicture(pictures[i]);
+    });
   });
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/construct/polygon/control_polygon.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -29,6 +30,7 @@ class KnotGallery : public QWidget {
   void refresh();
   EditorSession& session_;
   std::vector<KnotTile*> tiles_;
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
   int request_ = 0;
 };

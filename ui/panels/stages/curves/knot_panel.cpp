@@ -84,19 +84,16 @@ void KnotPanel::refresh() {
   const int request = ++request_;
   if (!curve) return show(nullptr);
   if (!isVisible() || session_.isStale(StageId::Segments)) return;
-  worker_->start([output = session_.output(), contour = curve->contour, params, request,
-                  panel = QPointer<KnotPanel>(this)](const CancelToken& token) {
-    auto result = std::make_shared<Result>();
-    result->line = linePolygon(lineInput(output, contour), params);
-    if (auto made = polygonCurve(result->line, params.degree, params.knots)) result->curve = std::move(*made);
-    if (token.isCancelled() || !panel) return;
-    QMetaObject::invokeMethod(
-        panel.data(),
-        [panel, request, shared = std::shared_ptr<const Result>(result)] {
-          if (panel && panel->request_ == request) panel->show(shared);
-        },
-        Qt::QueuedConnection);
-  });
+  worker_->start(
+      [this, output = session_.output(), contour = curve->contour, params, request](const CancelToken& token) {
+        auto result = std::make_shared<Result>();
+        result->line = linePolygon(lineInput(output, contour), params);
+        if (auto made = polygonCurve(result->line, params.degree, params.knots)) result->curve = std::move(*made);
+        if (token.isCancelled()) return;
+        inbox_.post([this, request, shared = std::shared_ptr<const Result>(result)] {
+          if (request_ == request) show(shared);
+        });
+      });
 }
 
 void KnotPanel::show(const std::shared_ptr<const Result>& result) {

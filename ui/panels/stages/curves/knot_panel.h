@@ -7,6 +7,7 @@
 
 #include "core/construct/polygon/control_polygon.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 #include "ui/session/view_settings.h"
 
 class QCheckBox;
@@ -50,6 +51,7 @@ class KnotPanel : public QWidget {
   QLabel* text_;
   QCheckBox* uniform_;
   QPointer<KnotGallery> gallery_;
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
   int request_ = 0;
 };

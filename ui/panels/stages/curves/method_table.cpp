@@ -5,7 +5,6 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
-#include <QPointer>
 #include <QPushButton>
 #include <QVBoxLayout>
 
@@ -272,32 +271,28 @@ void MethodTable::compute() {
     rows_[i]->show({}, false, {});
   }
   session_.setSideWork(this, true);
-  worker_->start(
-      [output, source, base = session_.recipe(), panel = QPointer<MethodTable>(this)](const CancelToken& token) {
-        RunContext context;
-        context.cancel = token;
-        context.threads = 1;
-        for (std::size_t i = 0; i < kMethods.size(); ++i) {
-          Recipe recipe = base;
-          recipe.construct.method = kMethods[i];
-          std::optional<CurveFigures> figures;
-          QString instead;
-          const auto made = guarded<TracedCurve>([&] { return constructedAs(output, recipe, source, context); });
-          if (made && !made->sketched.isEmpty()) {
-            figures = made->sketchedFigures;
-            const bool other = kMethods[i] == ConstructMethod::Typical && made->construct.segments.empty();
-            instead = other ? QString::fromStdString(made->construct.note) : QString();
-          }
-          if (token.isCancelled()) return;
-          QMetaObject::invokeMethod(
-              panel.data(),
-              [panel, i, figures, instead, source] {
-                if (!panel || !panel->source_ || !(*panel->source_ == source)) return;
-                panel->show(static_cast<int>(i), figures, instead);
-              },
-              Qt::QueuedConnection);
-        }
+  worker_->start([this, output, source, base = session_.recipe()](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    context.threads = 1;
+    for (std::size_t i = 0; i < kMethods.size(); ++i) {
+      Recipe recipe = base;
+      recipe.construct.method = kMethods[i];
+      std::optional<CurveFigures> figures;
+      QString instead;
+      const auto made = guarded<TracedCurve>([&] { return constructedAs(output, recipe, source, context); });
+      if (made && !made->sketched.isEmpty()) {
+        figures = made->sketchedFigures;
+        const bool other = kMethods[i] == ConstructMethod::Typical && made->construct.segments.empty();
+        instead = other ? QString::fromStdString(made->construct.note) : QString();
+      }
+      if (token.isCancelled()) return;
+      inbox_.post([this, i, figures, instead, source] {
+        if (!source_ || !(*source_ == source)) return;
+        show(static_cast<int>(i), figures, instead);
       });
+    }
+  });
 }
 
 void MethodTable::show(int method, const std::optional<CurveFigures>& figures, const QString& instead) {

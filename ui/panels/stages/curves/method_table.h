@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 class QLabel;
 
@@ -66,6 +67,7 @@ class MethodTable : public QWidget {
   };
   static Result<TracedCurve> constructedAs(const PipelineOutput&, const Recipe&, const Source&, const RunContext&);
   std::optional<Source> source_;
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
 };
 

@@ -3,7 +3,6 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPointer>
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -106,17 +105,13 @@ void PinPanel::refresh() {
   const int request = ++request_;
   if (!now || !before || !isVisible()) return;
   // Shared constants: the copies keep what the job reads.
-  worker_->start(
-      [pinnedCurve = *before, nowCurve = *now, request, panel = QPointer<PinPanel>(this)](const CancelToken& token) {
-        const Comparison result = compare(pinnedCurve, nowCurve);
-        if (token.isCancelled() || !panel) return;
-        QMetaObject::invokeMethod(
-            panel.data(),
-            [panel, result, request] {
-              if (panel && panel->request_ == request) panel->show(result);
-            },
-            Qt::QueuedConnection);
-      });
+  worker_->start([this, pinnedCurve = *before, nowCurve = *now, request](const CancelToken& token) {
+    const Comparison result = compare(pinnedCurve, nowCurve);
+    if (token.isCancelled()) return;
+    inbox_.post([this, result, request] {
+      if (request_ == request) show(result);
+    });
+  });
 }
 
 void PinPanel::show(const Comparison& c) {

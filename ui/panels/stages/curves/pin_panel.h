@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 class QLabel;
 class QPushButton;
@@ -50,6 +51,7 @@ class PinPanel : public QWidget {
   QPushButton* unpin_;
   QLabel* what_;
   FigureTable* figures_;
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
   int request_ = 0;
 };

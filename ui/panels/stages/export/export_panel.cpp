@@ -6,7 +6,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QVBoxLayout>
@@ -341,26 +340,14 @@ void ExportPanel::start() {
   result_->clear();
   refresh();
   cancel_ = worker_->start(
-      [request = std::move(request), panel = QPointer<ExportPanel>(this)](const CancelToken& cancel) {
+      [this, request = std::move(request)](const CancelToken& cancel) {
         RunContext context;
         context.cancel = cancel;
-        context.progress = [panel](double fraction) {
-          if (!panel) return;
-          QMetaObject::invokeMethod(
-              panel.data(),
-              [panel, fraction] {
-                if (panel) panel->progress_->setValue(static_cast<int>(100.0 * fraction));
-              },
-              Qt::QueuedConnection);
+        context.progress = [this](double fraction) {
+          inbox_.post([this, fraction] { progress_->setValue(static_cast<int>(100.0 * fraction)); });
         };
         const auto outcome = runExport(request, context);
-        if (!panel) return;
-        QMetaObject::invokeMethod(
-            panel.data(),
-            [panel, outcome] {
-              if (panel) panel->finish(outcome);
-            },
-            Qt::QueuedConnection);
+        inbox_.post([this, outcome] { finish(outcome); });
       },
       BackgroundWorker::Running::Finish);
 }

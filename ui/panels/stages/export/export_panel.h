@@ -10,6 +10,7 @@
 
 #include "ui/panels/stages/export/export_job.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 class QLabel;
 class QLineEdit;
@@ -104,6 +105,7 @@ class ExportPanel : public QWidget {
   std::optional<std::set<int>> sizeNumbers_;
   ExportSize measured_;
   Recipe writing_;
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
 };
 

@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QPointer>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -72,20 +71,16 @@ ExportPreview::~ExportPreview() = default;
 
 void ExportPreview::show(const ExportRequest& request) {
   const int asked = ++request_;
-  worker_->start([request, asked, preview = QPointer<ExportPreview>(this)](const CancelToken& cancel) {
+  worker_->start([this, request, asked](const CancelToken& cancel) {
     RunContext context;
     context.cancel = cancel;
     auto content = previewOf(request, context);
-    if (!preview) return;
-    QMetaObject::invokeMethod(
-        preview.data(),
-        [preview, asked, content = std::move(content)]() mutable {
-          if (!preview || preview->request_ != asked) return;
-          preview->content_ = content ? std::move(*content) : PreviewContent{};
-          preview->update();
-          emit preview->changed();
-        },
-        Qt::QueuedConnection);
+    inbox_.post([this, asked, content = std::move(content)]() mutable {
+      if (request_ != asked) return;
+      content_ = content ? std::move(*content) : PreviewContent{};
+      update();
+      emit changed();
+    });
   });
 }
 

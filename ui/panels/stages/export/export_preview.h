@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ui/panels/stages/export/export_job.h"
+#include "ui/session/inbox.h"
 
 namespace batten {
 
@@ -60,6 +61,7 @@ class ExportPreview : public QWidget {
 
   PreviewContent content_;
   std::optional<QPointF> pressedAt_;
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
   int request_ = 0;
 };

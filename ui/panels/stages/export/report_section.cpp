@@ -8,7 +8,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
-#include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
@@ -119,27 +118,15 @@ void ReportSection::write(const QString& path) {
   session_.setSideWork(this, true, false);
   const Kind kind = kReportKinds.at(kind_->currentIndex());
   cancel_ = worker_->start(
-      [output = session_.output(), recipe = session_.recipe(), scan = session_.scan(), kind, path,
-       self = QPointer<ReportSection>(this)](const CancelToken& cancel) {
+      [this, output = session_.output(), recipe = session_.recipe(), scan = session_.scan(), kind,
+       path](const CancelToken& cancel) {
         RunContext context;
         context.cancel = cancel;
-        context.progress = [self](double fraction) {
-          if (!self) return;
-          QMetaObject::invokeMethod(
-              self.data(),
-              [self, fraction] {
-                if (self) self->progress_->setValue(static_cast<int>(100.0 * fraction));
-              },
-              Qt::QueuedConnection);
+        context.progress = [this](double fraction) {
+          inbox_.post([this, fraction] { progress_->setValue(static_cast<int>(100.0 * fraction)); });
         };
         const auto outcome = writeReport(output, recipe, *scan, kind, nativePath(path), context);
-        if (!self) return;
-        QMetaObject::invokeMethod(
-            self.data(),
-            [self, outcome, path] {
-              if (self) self->finish(outcome, path);
-            },
-            Qt::QueuedConnection);
+        inbox_.post([this, outcome, path] { finish(outcome, path); });
       },
       BackgroundWorker::Running::Finish);
 }

@@ -6,6 +6,7 @@
 
 #include "core/document/report_pages/report_file.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/inbox.h"
 
 class QComboBox;
 class QLabel;
@@ -43,6 +44,7 @@ class ReportSection : public QWidget {
   QLabel* result_;  ///< What became of the last report.
   bool isReady_ = false, isRunning_ = false;
   CancelToken cancel_;
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
 };
 

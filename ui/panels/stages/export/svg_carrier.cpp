@@ -6,7 +6,6 @@
 #include <QDrag>
 #include <QFile>
 #include <QMimeData>
-#include <QPointer>
 #include <QUrl>
 #include <QWidget>
 #include <new>
@@ -62,19 +61,15 @@ void SvgCarrier::drag(const ExportRequest& request, std::optional<int> number, c
 }
 
 void SvgCarrier::make(const ExportRequest& request, std::optional<int> number, Way way, const QString& name) {
-  worker_->start([request, number, way, name, self = QPointer<SvgCarrier>(this)](const CancelToken& cancel) {
+  worker_->start([this, request, number, way, name](const CancelToken& cancel) {
     RunContext context;
     context.cancel = cancel;
     auto made = svgOf(request, number, context);
-    if (!self || cancel.isCancelled()) return;
-    QMetaObject::invokeMethod(
-        self.data(),
-        [self, way, name, made = std::move(made)] {
-          if (!self) return;
-          if (!made) return emit self->failed(made.error());
-          self->carry(*made, way, name);
-        },
-        Qt::QueuedConnection);
+    if (cancel.isCancelled()) return;
+    inbox_.post([this, way, name, made = std::move(made)] {
+      if (!made) return emit failed(made.error());
+      carry(*made, way, name);
+    });
   });
 }
 

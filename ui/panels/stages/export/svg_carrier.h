@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "ui/panels/stages/export/export_job.h"
+#include "ui/session/inbox.h"
 
 class QWidget;
 
@@ -37,6 +38,7 @@ class SvgCarrier : public QObject {
 
   QWidget* window_;
   QTemporaryDir folder_;  ///< Of the files that are dragged: receivers read them after the drop.
+  Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
 };
 
