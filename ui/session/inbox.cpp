@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/inbox.h"
 
-#include <QCoreApplication>
-#include <QEvent>
+#include <QMetaObject>
 #include <utility>
 
 namespace batten {
@@ -12,10 +11,11 @@ void Inbox::post(std::function<void()> work) {
     const std::scoped_lock lock(mutex_);
     waiting_.push_back(std::move(work));
   }
-  QCoreApplication::postEvent(this, new QEvent(QEvent::User));
+  // By name: a functor would make Qt hand over an object that was allocated here, outside of its locks.
+  QMetaObject::invokeMethod(this, "runNext", Qt::QueuedConnection);
 }
 
-void Inbox::customEvent(QEvent*) {
+void Inbox::runNext() {
   std::function<void()> work;
   {
     const std::scoped_lock lock(mutex_);
