@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
@@ -29,6 +31,9 @@ constexpr int kLeastStride = 3;                // points: neighbouring samples s
 constexpr int kGrainEvery = 8;                 // points: regions are far larger
 constexpr double kLeastDepth = 2.0;            // [grey]
 constexpr double kMostDeviation = 0.12;        // of the depth: what is farther off is an end, a crossing or a gap
+constexpr int kDepthPlaces = 12;               // along a stroke path without samples
+constexpr double kPenDepths = 2.0;             // of the pencil's depth: a stroke so dark may be a pen's
+constexpr double kPenGrain = 0.75;             // of the pencil's grain: that of a pen beside it is less
 constexpr double kSmallerOfTwo = 1.7;          // mean of |x| over that of the smaller of two, for normal deviates
 
 struct GrainSample {
@@ -48,6 +53,8 @@ struct GrainSum {
     depth += s.px * s.depth;
   }
 };
+
+using RegionSums = std::array<GrainSum, kRegions>;
 
 double grainFrom(double ink, double paper) { return std::sqrt(std::max(0.0, ink * ink - paper * paper)); }
 
@@ -115,8 +122,71 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
   return samples;
 }
 
+// [grey] How much darker a stroke path is than the paper beside it: by its samples, or where it is too short for any,
+// at a few places along it.
+double depthOf(const StrokePath& path, const std::vector<GrainSample>& samples, const GreyImage& grey) {
+  if (!samples.empty()) {
+    double sum = 0.0;
+    for (const GrainSample& s : samples) sum += s.depth;
+    return sum / static_cast<double>(samples.size());
+  }
+  if (path.points.size() < 2) return 0.0;
+  const StrokeCourse course = resample(path);
+  const int n = course.count(), step = std::max(1, n / kDepthPlaces);
+  double sum = 0.0;
+  int count = 0;
+  for (int i = step / 2; i < n; i += step, ++count) {
+    const CoursePoint& p = course.points[i];
+    float left = 0.0f, right = 0.0f;
+    for (const double beside : kBeside) {
+      const Vec2 away = (0.5 * course.widthPx + beside) * leftNormal(p.tangent);
+      left = std::max(left, softGrey(grey, p.base + away));
+      right = std::max(right, softGrey(grey, p.base - away));
+    }
+    sum += static_cast<double>(std::max(left, right) - softGrey(grey, p.base));
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+// What is known of one stroke path.
+struct PathGrain {
+  GrainSum own;
+  double depth = 0.0;  // [grey]
+  double grain = 0.0;  // [-]
+};
+
+// [grey] The depth beyond which strokes are a pen's where a pen was used beside a pencil: long strokes, which tell by
+// themselves, are much darker than the pencil's and less grainy. Absent: the page shows no such strokes.
+std::optional<double> leastPenDepth(const std::vector<PathGrain>& paths) {
+  const auto tells = [](const PathGrain& p) { return p.own.length >= kPathTellsPx; };
+  std::vector<std::pair<double, double>> pencil;  // depth, length
+  double all = 0.0, grain = 0.0;
+  for (const PathGrain& p : paths) {
+    if (!tells(p) || p.grain <= kPencilGrain) continue;
+    pencil.emplace_back(p.depth, p.own.length);
+    all += p.own.length;
+    grain += p.own.length * p.grain;
+  }
+  if (pencil.empty()) return std::nullopt;
+  std::sort(pencil.begin(), pencil.end());
+  double sum = 0.0, limit = 0.0;
+  for (const auto& [depth, length] : pencil) {
+    sum += length;
+    limit = kPenDepths * depth;
+    if (2.0 * sum >= all) break;
+  }
+  double pens = 0.0, penGrain = 0.0;
+  for (const PathGrain& p : paths) {
+    if (!tells(p) || p.depth <= limit) continue;
+    pens += p.own.length;
+    penGrain += p.own.length * p.grain;
+  }
+  if (pens < kRegionTellsPx || penGrain / pens > kPenGrain * grain / all) return std::nullopt;
+  return limit;
+}
+
 // Values of the regions; those with little line lean on their neighbours.
-RegionValues filledRegions(const std::array<GrainSum, kRegions>& sums, double GrainSum::*what) {
+RegionValues filledRegions(const RegionSums& sums, double GrainSum::*what) {
   std::vector<float> values(kRegions, 0.0f), weights(kRegions, 0.0f);
   for (int r = 0; r < kRegions; ++r) {
     if (!(sums[r].length > 0.0)) continue;
@@ -148,37 +218,53 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   for (const StrokePath& s : paths) total += static_cast<double>(s.points.size());
   const int stride = static_cast<int>(kLeastStride * std::max(1.0, total / kMostPx));
   std::vector<std::vector<GrainSample>> samples(paths.size());
+  std::vector<double> depths(paths.size(), 0.0);
   parallelFor(context, static_cast<int>(paths.size()), 4, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       samples[i] = samplesAlong(paths[i], grey, stride);
+      depths[i] = depthOf(paths[i], samples[i], grey);
     }
   });
-  std::array<GrainSum, kRegions> regions{};
-  std::vector<GrainSum> own(paths.size());
+  const auto regionAt = [&](const Vec2& at) {
+    return regionOf(std::clamp(static_cast<int>(at.x()), 0, width_ - 1),
+                    std::clamp(static_cast<int>(at.y()), 0, height_ - 1), width_, height_);
+  };
+  std::vector<PathGrain> known(paths.size());
+  RegionSums regions{};
   for (int i = 0; i < std::ssize(paths); ++i) {
+    known[i].depth = depths[i];
     for (const GrainSample& s : samples[i]) {
-      const int x = std::clamp(static_cast<int>(s.at.x()), 0, width_ - 1);
-      const int y = std::clamp(static_cast<int>(s.at.y()), 0, height_ - 1);
-      regions[regionOf(x, y, width_, height_)].add(s);
-      own[i].add(s);
+      regions[regionAt(s.at)].add(s);
+      known[i].own.add(s);
     }
   }
-  deviation_ = filledRegions(regions, &GrainSum::deviation);
-  ink_ = filledRegions(regions, &GrainSum::ink);
-  paper_ = filledRegions(regions, &GrainSum::paper);
-  depth_ = filledRegions(regions, &GrainSum::depth);
+  const RegionValues ink = filledRegions(regions, &GrainSum::ink), paper = filledRegions(regions, &GrainSum::paper);
   for (int i = 0; i < std::ssize(paths); ++i) {
     const std::vector<StrokePathPoint>& points = paths[i].points;
     if (points.empty()) continue;
-    double ink = 0.0, paper = 0.0, count = 0.0;
+    double inkSum = 0.0, paperSum = 0.0, count = 0.0;
     for (int k = 0; k < std::ssize(points); k += kGrainEvery, count += 1.0) {
-      ink += valueAt(ink_, points[k].at, width_, height_);
-      paper += valueAt(paper_, points[k].at, width_, height_);
+      inkSum += valueAt(ink, points[k].at, width_, height_);
+      paperSum += valueAt(paper, points[k].at, width_, height_);
     }
-    const double weight = own[i].length + kPathTellsPx;
-    grains_[i] = grainFrom((own[i].ink + kPathTellsPx * ink / count) / weight,
-                           (own[i].paper + kPathTellsPx * paper / count) / weight);
+    const GrainSum& own = known[i].own;
+    const double weight = own.length + kPathTellsPx;
+    known[i].grain = grainFrom((own.ink + kPathTellsPx * inkSum / count) / weight,
+                               (own.paper + kPathTellsPx * paperSum / count) / weight);
   }
+  const std::optional<double> penDepth = leastPenDepth(known);
+  const auto isDark = [&](int path) { return penDepth && known[path].depth > *penDepth; };
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    const bool isPen = isDark(i) && known[i].own.length < kRegionTellsPx;
+    grains_[i] = isPen ? std::min(known[i].grain, kPencilGrain) : known[i].grain;
+  }
+  if (penDepth) regions = {};
+  for (int i = 0; i < std::ssize(paths) && penDepth; ++i) {
+    if (isDark(i)) continue;
+    for (const GrainSample& s : samples[i]) regions[regionAt(s.at)].add(s);
+  }
+  deviation_ = filledRegions(regions, &GrainSum::deviation);
+  depth_ = filledRegions(regions, &GrainSum::depth);
 }
 
 double GraininessMap::deviationAt(const Vec2& px) const { return valueAt(deviation_, px, width_, height_); }
