@@ -11,6 +11,7 @@
 #include "core/base/statistics.h"
 #include "core/image/push_pull.h"
 #include "core/image/sheet_cells.h"
+#include "core/image/sheet_edges.h"
 
 namespace batten {
 namespace {
@@ -30,6 +31,7 @@ constexpr double kLeastInkDepth = 2.0;                            // [grey]
 constexpr double kInkSigmas = 4.0;                                // of the noise
 constexpr int kLeastLineCells = 8;                                // noise makes no line of so many cells
 constexpr int kEdgeCells = 7;                                     // the sheet's edge and its shadow are of neither side
+constexpr int kBesideEdgeCells = 61;                              // 30 to either side
 constexpr double kSheetRimShare = 0.006;                          // of the diagonal: the sheet's edge and its shadow
 constexpr double kNeckShare = 0.01;  // of the diagonal: narrower parts of the sheet are torn edges and ring holes
 
@@ -135,7 +137,11 @@ class ShadedPaper {
     if (rough_ >= kLeastGrain && std::fabs(grain - 1.0) <= kEqualGrain) return true;
     if (grain > kSameGrain) return false;
     // The edge itself is of neither.
-    return shareOf(drawn_, patch & (near_ == 0)) >= std::max(kLeastDrawn, kLeastDrawnOfSheet * drawnOnSheet_);
+    return isDrawnOn(patch & (near_ == 0));
+  }
+  /// Whether the drawing goes on upon a patch.
+  bool isDrawnOn(const cv::Mat1b& patch) const {
+    return shareOf(drawn_, patch) >= std::max(kLeastDrawn, kLeastDrawnOfSheet * drawnOnSheet_);
   }
 
  private:
@@ -184,6 +190,21 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     if (apart >= kSheetContrast || roughness > kMostRoughness) beside.setTo(255, patch);
   }
   return beside;
+}
+
+/// Cells beyond straight edges of the sheet upon which nothing is drawn, unless they are its paper in shade.
+void addBeyondEdges(cv::Mat1b& beside, const SheetCells& cells) {
+  const cv::Mat rim = cv::getStructuringElement(cv::MORPH_RECT, {kEdgeCells, kEdgeCells});
+  const cv::Mat besideEdge = cv::getStructuringElement(cv::MORPH_RECT, {kBesideEdgeCells, kBesideEdgeCells});
+  for (const cv::Mat1b& beyond : beyondSheetEdges(cells)) {
+    cv::Mat1b withRim, around, clear;
+    cv::dilate(beyond, withRim, rim);
+    cv::dilate(beyond, around, besideEdge);
+    cv::erode(beyond, clear, rim);
+    // Shading changes the paper over the page: its look is compared beside the edge.
+    if (ShadedPaper(around & (withRim == 0), cells).isOne(beyond)) continue;
+    if (!ShadedPaper(withRim == 0, cells).isDrawnOn(clear)) beside.setTo(255, beyond);
+  }
 }
 
 std::vector<Vec2> outlineOf(const cv::Mat1b& inside, double cellPx) {
@@ -247,7 +268,8 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
   const cv::Mat1b joined = labels == largest;
-  const cv::Mat1b beside = besideTheSheet(filledSheet(joined), cells);
+  cv::Mat1b beside = besideTheSheet(filledSheet(joined), cells);
+  addBeyondEdges(beside, cells);
   if (cv::countNonZero(beside) == 0) return std::nullopt;
   const double diagonal = std::hypot(cells.columns, cells.rows);
   cv::Mat1b sheet = beside == 0;

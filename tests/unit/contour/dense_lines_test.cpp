@@ -105,6 +105,36 @@ TEST(DenseLines, PenAndPencilOnOnePageAreToldApart) {
   EXPECT_GE(test::scoreDense(right, found, 4.0, 8.0).whole, 7);
 }
 
+// A faint pencil all over the page, two long lines of a pen, and marks of the pen that are too short to show grain.
+TEST(DenseLines, ShortMarksAsDarkAsAPenBesideAPencilAreThePens) {
+  constexpr float kFaint = 0.45f;
+  constexpr double kInkBelow = 205.0, kMarkPx = 16.0, kMarksAt = 125.0;
+  const DenseLines pencil = test::hatchLines({240, 110}, 0.0, 5, 30.0, 420.0, 0.0);
+  DenseLines pens = test::hatchLines({240, 320}, 0.0, 2, 40.0, 420.0, 0.0);
+  const DenseLines marks = test::hatchLines({240, kMarksAt}, 90.0, 12, 30.0, kMarkPx, 0.0);
+  pens.insert(pens.end(), marks.begin(), marks.end());
+  std::vector<float> cover = test::coverageOf(pencil, 6.0, kDenseWidth, kDenseHeight);
+  test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 3);
+  const std::vector<float> dark = test::coverageOf(pens, 5.0, kDenseWidth, kDenseHeight);
+  for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(kFaint * cover[i], dark[i]);
+  const DensePage page = densePage(std::move(cover), kInkBelow, 3);
+  const std::vector<StrokePath> paths = rawStrokePaths(page);
+  const GraininessMap grain(paths, page.grey, {});
+  int shortOnes = 0, pencils = 0;
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    const Vec2 at = paths[i].points[paths[i].points.size() / 2].at;
+    const bool isMark = std::fabs(at.y() - kMarksAt) < 3.0 && paths[i].length() < 2.0 * kMarkPx;
+    const bool isPencil = at.y() < 200.0 && paths[i].length() > 4.0 * kMarkPx;
+    if (!isMark && !isPencil) continue;
+    EXPECT_EQ(grain.isPencil(i), isPencil) << "near " << at.transpose() << ": " << grain.grainOf(i);
+    ++(isPencil ? pencils : shortOnes);
+  }
+  EXPECT_GE(shortOnes, 8);
+  EXPECT_GE(pencils, 5);
+  // What tells lines of the pencil from its grain is measured on the pencil alone.
+  EXPECT_LT(grain.depthAt({240, kMarksAt}), 110.0);
+}
+
 TEST(DenseLines, ALineFromPenToPencilIsNotCut) {
   const DenseLines lines = test::hatchLines({240, 180}, 5.0, 8, 30.0, 420.0, 0.0);
   std::vector<float> cover = test::coverageOf(lines, 4.0, kDenseWidth, kDenseHeight);
@@ -161,7 +191,8 @@ TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
     test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
     const DensePage page = densePage(std::move(cover), 150.0, 7);
     const GraininessMap grain(rawStrokePaths(page), page.grey, {});
-    EXPECT_EQ(filterOrientedLines(closeInk(page.ink, 0.75 * width + 1.0, {}), page.grey, grain, width, {}).gaps.count(), 0)
+    EXPECT_EQ(filterOrientedLines(closeInk(page.ink, 0.75 * width + 1.0, {}), page.grey, grain, width, {}).gaps.count(),
+              0)
         << width;
   }
 }

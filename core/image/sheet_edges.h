@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "core/image/sheet_cells.h"
+
+namespace batten {
+
+/// What lies beyond straight edges of a sheet that run near a side of the picture, a mask (0 or 255) of the cells for
+/// each: white paper on a white table differs by a few grey or by its tint alone, too little for single cells, but all
+/// along the edge and within a few cells. A drawn line has the same paper on both sides, a shadow fades.
+std::vector<cv::Mat1b> beyondSheetEdges(const SheetCells&);
+
+}  // namespace batten
