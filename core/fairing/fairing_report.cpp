@@ -36,13 +36,15 @@ void addSentence(std::string& notes, const std::string& note) {
 }
 
 void addPart(FairingReport& sum, const FairingReport& part) {
+  const auto isOutOfReach = [](const FairingReport& r) { return !r.withinTolerance && !r.neededMm; };
+  const bool isReached = !isOutOfReach(sum) && !isOutOfReach(part);
   if (sum.why == Termination::NotRun || part.why != Termination::Converged) sum.why = part.why;
   addSentence(sum.note, part.note);
   sum.iterations += part.iterations;
   sum.objectiveBefore = std::max(sum.objectiveBefore, part.objectiveBefore);
   sum.objectiveAfter = std::max(sum.objectiveAfter, part.objectiveAfter);
   sum.maxDeviationMm = std::max(sum.maxDeviationMm, part.maxDeviationMm);
-  sum.neededMm = std::max(sum.neededMm, part.neededMm);
+  sum.neededMm = isReached ? std::max(sum.neededMm, part.neededMm) : std::nullopt;
   if (part.similarityAfter) sum.similarityAfter = std::min(sum.similarityAfter.value_or(1.0), *part.similarityAfter);
   sum.withinTolerance = sum.withinTolerance && part.withinTolerance;
   sum.noiseMm = std::max(sum.noiseMm, part.noiseMm);

@@ -63,8 +63,8 @@ std::optional<int> mostSimilar(const FairedByDegree&);
 /// Adds a sentence that is not there yet.
 void addSentence(std::string& notes, const std::string& note);
 
-/// What the fairing of one more part of the curve adds to the report of the whole: the worst of both. The extrema,
-/// which do not add up, are the caller's business.
+/// What the fairing of one more part of the curve adds to the report of the whole: the worst of both; no tolerance is
+/// enough for the whole where none is for a part. The extrema, which do not add up, are the caller's business.
 void addPart(FairingReport& sum, const FairingReport& part);
 
 }  // namespace batten

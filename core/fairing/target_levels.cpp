@@ -129,7 +129,8 @@ class LevelFairing {
     const std::optional<double> needed = best_->faired.report.neededMm;
     if (!needs_[level].isTried) tryLevel(level);
     best_->faired.report.neededMm = needed;
-    const bool isOutOfReach = *needs_[best_->level].mm > kTargetRoom * toleranceMm_;
+    const std::optional<double> ofBest = needs_[best_->level].mm;
+    const bool isOutOfReach = !ofBest || *ofBest > kTargetRoom * toleranceMm_;
     if (!best_->faired.report.withinTolerance && isOutOfReach) noteMetOverMoreSpans(best_->faired.report);
   }
 

@@ -138,9 +138,16 @@ class MonotoneFairing {
     return !setup_.closed && (params_.startHold != free || params_.endHold != free);
   }
 
+  /// As they were given: what is claimed of the tolerance comes off anew where a curve is faired with them.
+  FairingParams paramsGiven() const {
+    FairingParams given = params_;
+    given.toleranceMm += setup_.claimedMm();
+    return given;
+  }
+
   /// With held ends, what so many extrema would take; it may be that no tolerance is enough.
   std::string heldEndsNote(int extrema) const {
-    FairingParams one = params_;
+    FairingParams one = paramsGiven();
     one.keepExtrema.count = extrema;
     if (!hasHeldEnds() || validate(one)) return {};
     const auto asked = fairMonotone(setup_.original, setup_.closed, one, context_);
@@ -150,7 +157,7 @@ class MonotoneFairing {
   /// [mm] What the extrema that are asked for would take if no end were held.
   std::optional<double> neededWithFreeEnds() const {
     if (!hasHeldEnds() || context_.isCancelled()) return std::nullopt;
-    FairingParams free = params_;
+    FairingParams free = paramsGiven();
     free.startHold = free.endHold = {};
     const auto faired = fairMonotone(setup_.original, setup_.closed, free, context_);
     if (!faired || !(faired->report.neededMm.value_or(0.0) > 0.0)) return std::nullopt;

@@ -120,7 +120,10 @@ class LineFairing {
     if (again && isAsFair(again->report, faired->report)) {
       if (auto light = madeLight(*again)) {
         light->report.neededMm = faired->report.neededMm;
-        if (again->report.extremaAfter == faired->report.extremaAfter) light->report.note = faired->report.note;
+        // A refusal says why itself.
+        const bool isRefused = light->report.note != again->report.note;
+        if (!isRefused && again->report.extremaAfter == faired->report.extremaAfter)
+          light->report.note = faired->report.note;
         return *light;
       }
     }

@@ -140,37 +140,6 @@ TEST(Monotone, KeepsTheExtremaThatAreAskedFor) {
   EXPECT_NE(none->report.why, Termination::Converged);
 }
 
-TEST(Monotone, SaysWhatHeldEndsForbid) {
-  // The pointed end of an ellipse: both ends have the same curvature, so that only a circle of it could be monotone
-  // between them, and that does not reach from the one to the other.
-  const auto tip = [](double t) {
-    const double a = std::numbers::pi / 2.0 + 2.0 * (t - 0.5);
-    return Vec2(70.0 * std::cos(a), 150.0 * std::sin(a));
-  };
-  const NurbsCurve start = test::fitted(tip, 40);
-  for (const KeptExtrema keep : {KeptExtrema{0}, KeptExtrema{}}) {
-    FairingParams params = monotone(0.01, 0);
-    params.keepExtrema = keep;
-    params.startHold = params.endHold = {true, true};
-    const auto held = fair(start, false, params, {});
-    ASSERT_TRUE(held);
-    EXPECT_EQ(held->report.maxDeviationMm, 0.0);
-    const std::string& note = held->report.note;
-    const auto told = note.find("; with free ends it needs a tolerance of ");
-    if (keep.count) {
-      ASSERT_NE(told, std::string::npos) << note;
-      params.startHold = params.endHold = {};
-      const auto free = fair(start, false, params, {});
-      ASSERT_TRUE(free);
-      EXPECT_NEAR(std::stod(note.substr(note.find("of ", told) + 3)), free->report.neededMm.value(),
-                  0.01 * free->report.neededMm.value());
-    } else {
-      EXPECT_NE(note, "No extremum can be removed within the tolerance.") << "no word of what it would take";
-      EXPECT_NE(note.find("a tolerance of "), std::string::npos) << note;
-    }
-  }
-}
-
 TEST(Monotone, BySignificanceReachesTheNumberThatTheTruthHas) {
   const NurbsCurve start = test::noisy(test::wave(240, 18, 40), 0.06, 4);
   FairingParams params = monotone(0.4, std::nullopt);
