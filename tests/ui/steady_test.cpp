@@ -276,6 +276,8 @@ TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {
       }
       names += now->objectName().toStdString() + " (" + now->metaObject()->className() + "), ";
     }
+    EXPECT_EQ(now, canvas) << label(stage).toStdString() << ": after the top bar the drawing comes, not "
+                           << now->objectName().toStdString();
     ASSERT_GT(walked.size(), 5u) << label(stage).toStdString();
     EXPECT_EQ(walked.front(), Panel) << label(stage).toStdString();
     EXPECT_EQ(walked.back(), Top) << label(stage).toStdString();

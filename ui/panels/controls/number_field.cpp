@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/controls/number_field.h"
 
+#include <QFocusEvent>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
@@ -28,7 +29,6 @@ NumberField::NumberField(QWidget* parent) : QFrame(parent), edit_(new QLineEdit(
   layout->addWidget(edit_, 1);
   layout->addWidget(unit_);
   setFixedHeight(24);
-  setFocusProxy(edit_);
   connect(edit_, &QLineEdit::editingFinished, this, &NumberField::commit);
   connect(edit_, &QLineEdit::returnPressed, this, [this] {
     commit();
@@ -36,6 +36,10 @@ NumberField::NumberField(QWidget* parent) : QFrame(parent), edit_(new QLineEdit(
   });
   connect(edit_, &QLineEdit::textEdited, this, [this] { show("wrong", false); });
 }
+
+// No focus proxy: with one, Tab stops at the frame wherever Qt has put it in the chain, and never comes to what
+// follows.
+void NumberField::focusInEvent(QFocusEvent* event) { edit_->setFocus(event->reason()); }
 
 void NumberField::setRange(double minimum, double maximum) {
   minimum_ = minimum;

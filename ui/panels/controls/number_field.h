@@ -40,6 +40,7 @@ class NumberField : public QFrame {
 
  protected:
   bool eventFilter(QObject*, QEvent*) override;
+  void focusInEvent(QFocusEvent*) override;
 
  private:
   void commit();

@@ -193,19 +193,20 @@ void ShapeWindow::refreshTable() {
     const TargetProfile& p = targets->targets.profiles[at];
     const QString none = QStringLiteral("–");
     const auto& faired = targets->faired[at];
+    const bool isNeedKnown = faired && faired->report.neededMm;
     QString name = QStringLiteral("%1 %2").arg(degree).arg(degreeName(degree));
     if (isAdvised && degree == nearest) name += QStringLiteral(" ✓");
     const bool usable = p.valid && p.aicc;
-    rows.push_back(
-        {name,
-         {{p.valid ? number(p.similarity, 5) : none},
-          {p.valid ? number(p.pearson, 3) : none},
-          {p.valid ? number(p.rmsPercent, 1) : none},
-          {faired ? number(faired->report.neededMm.value_or(0.0), 3) : none, faired && !faired->report.withinTolerance},
-          {faired ? QString::number(faired->report.extremaAfter) : none},
-          {usable ? number(*p.aicc, 1) : none}},
-         p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile is not monotone."))
-                 : QString::fromStdString(p.problem)});
+    rows.push_back({name,
+                    {{p.valid ? number(p.similarity, 5) : none},
+                     {p.valid ? number(p.pearson, 3) : none},
+                     {p.valid ? number(p.rmsPercent, 1) : none},
+                     {isNeedKnown ? number(faired->report.neededMm.value_or(0.0), 3) : none,
+                      faired && !faired->report.withinTolerance},
+                     {faired ? QString::number(faired->report.extremaAfter) : none},
+                     {usable ? number(*p.aicc, 1) : none}},
+                    p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile is not monotone."))
+                            : QString::fromStdString(p.problem)});
   }
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));
