@@ -18,10 +18,3 @@
 #else
 #define BATTEN_UNROLL
 #endif
-
-/// BATTEN_PART_OF_HOT_LOOP: a function that becomes part of the loop that calls it, and of its wider vectors.
-#if defined(__GNUC__)
-#define BATTEN_PART_OF_HOT_LOOP inline __attribute__((always_inline))
-#else
-#define BATTEN_PART_OF_HOT_LOOP inline
-#endif

@@ -7,6 +7,7 @@
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
+#include "core/image/smooth_rows.h"
 
 namespace batten {
 namespace {
@@ -127,14 +128,10 @@ std::vector<float> gaussianKernel(double variance) {
   return kernel;
 }
 
-namespace {
-
-/// Smooths along a row: `in` holds `radius` values before and after the `count` that are asked for.
 void smoothAlong(const float* in, float* out, int count, const std::vector<float>& kernel) {
   alongLoop(in, out, count, kernel.data(), static_cast<int>(kernel.size()) - 1);
 }
 
-/// Smooths across rows: `rows` are 2 radius + 1 pointers, the middle one is the output row.
 void smoothAcross(const float* const* rows, float* out, int count, const std::vector<float>& kernel) {
   const auto radius = static_cast<int>(kernel.size()) - 1;
   const float* const* middle = rows + radius;
@@ -143,6 +140,10 @@ void smoothAcross(const float* const* rows, float* out, int count, const std::ve
     acrossPair(middle[-k], middle[k], out, count, kernel[k]);
   }
 }
+
+void scaleGrey(const std::uint16_t* in, float* out, int count) { scaleRow(in, out, count); }
+
+namespace {
 
 /// A row smoothed along itself; its ends are repeated outside.
 void smoothWholeRow(const float* in, float* out, int width, const std::vector<float>& kernel,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -26,12 +25,15 @@ struct Plane {
 /// Half of a symmetric kernel: tap 0 is the middle. The whole sums to 1.
 std::vector<float> gaussianKernel(double variance);
 
+/// Smooths along a row: `in` holds `radius` values before and after the `count` that are asked for.
+void smoothAlong(const float* in, float* out, int count, const std::vector<float>& kernel);
+/// Smooths across rows: `rows` are 2 radius + 1 pointers, the middle one is the output row.
+void smoothAcross(const float* const* rows, float* out, int count, const std::vector<float>& kernel);
+/// Grey of 16 bit as grey levels 0..255.
+void scaleGrey(const std::uint16_t* in, float* out, int count);
+
 /// Separable smoothing; the border is repeated outside.
 Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context);
-
-/// As smooth(), row by row: `take` is called by several threads at once, and has the row until it returns.
-void smoothRows(const Plane& in, const std::vector<float>& kernel, const RunContext& context,
-                const std::function<void(int y, const float* row)>& take);
 
 /// Means over shrink x shrink pixels as grey levels 0..255; the last row and column may cover fewer.
 Plane shrinkGrey(const GreyImage& image, int shrink, const RunContext& context);

@@ -7,6 +7,13 @@
 #include "core/image/bits/packed_flags.h"
 #include "core/image/grey_image.h"
 
+// Functions that must become part of the loop that calls them, and of its wider vectors.
+#if defined(__GNUC__)
+#define BATTEN_PART_OF_LOOP inline __attribute__((always_inline))
+#else
+#define BATTEN_PART_OF_LOOP inline
+#endif
+
 namespace batten {
 namespace {
 
@@ -16,8 +23,8 @@ constexpr float kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);
 
 /// With a radius that the compiler knows the sums stay in registers. The order of the sums is that of smooth().
 template <int Radius>
-BATTEN_PART_OF_HOT_LOOP void smoothBlockBody(const std::uint16_t* const* rows, const float* taps, int anyRadius,
-                                             LevelBlock::Rows& out) {
+BATTEN_PART_OF_LOOP void smoothBlockBody(const std::uint16_t* const* rows, const float* taps, int anyRadius,
+                                         LevelBlock::Rows& out) {
   const int radius = Radius > 0 ? Radius : anyRadius, rowCount = kDown + 2 * radius;
   std::array<float, kMostRadius + 1> kernel;  // nothing that is written could be among these
   for (int k = 0; k <= radius; ++k) kernel[k] = taps[k];
@@ -62,7 +69,7 @@ BATTEN_HOT_LOOP void smoothBlockOf(const std::uint16_t* const* rows, const float
 }
 
 template <int Cell>
-BATTEN_PART_OF_HOT_LOOP void betweenCells(const float* above, const float* below, float share, float* out) {
+BATTEN_PART_OF_LOOP void betweenCells(const float* above, const float* below, float share, float* out) {
   constexpr int kHalf = Cell / 2, kCells = kAcross / Cell;
   std::array<float, kCells + 2> column;
   for (int c = 0; c < kCells + 2; ++c) column[c] = above[c] + share * (below[c] - above[c]);

@@ -8,6 +8,7 @@
 
 #include "core/base/hot_loop.h"
 #include "core/image/bits/packed_flags.h"
+#include "core/image/smooth_rows.h"
 
 namespace batten {
 namespace {

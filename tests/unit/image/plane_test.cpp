@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "core/image/smooth_rows.h"
+
 namespace batten {
 namespace {
 
