@@ -12,10 +12,12 @@ namespace batten {
 namespace {
 
 constexpr int kBins = 1024;
-constexpr float kHalf = 0.5f * kBins, kBinsPerUnit = 64.0f;
+constexpr float kHalfOfBins = 0.5f * kBins, kBinsPerUnit = 64.0f;
 
 /// Greater values lie in the same bin or in a later one.
-int binOf(float value) { return static_cast<int>(std::clamp(value * kBinsPerUnit, -kHalf, kHalf - 1.0f) + kHalf); }
+int binOf(float value) {
+  return static_cast<int>(std::clamp(value * kBinsPerUnit, -kHalfOfBins, kHalfOfBins - 1.0f) + kHalfOfBins);
+}
 
 }  // namespace
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kAcross = LevelBlock::kAcross, kDown = LevelBlock::kDown;
 constexpr int kMostRadius = 16;  // [px] of a Gaussian of 5.3 px; wider ones are cut off
-constexpr float kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);
+constexpr float kGreyPerValue = static_cast<float>(1.0 / GreyImage::kGreyUnit);
 
 /// With a radius that the compiler knows the sums stay in registers. The order of the sums is that of smooth().
 template <int Radius>
@@ -33,7 +33,7 @@ BATTEN_PART_OF_LOOP void smoothBlockBody(const std::uint16_t* const* rows, const
   std::array<LevelBlock::Row, kDown + 2 * kMostRadius> along;
   for (int y = 0; y < rowCount; ++y) {
     const std::uint16_t* in = rows[y];
-    for (int i = 0; i < LevelBlock::pastRow(radius); ++i) grey[y][i] = static_cast<float>(in[i]) * kScale;
+    for (int i = 0; i < LevelBlock::pastRow(radius); ++i) grey[y][i] = static_cast<float>(in[i]) * kGreyPerValue;
   }
   for (int y = 0; y < rowCount; ++y) {
     for (int i = 0; i < kAcross; ++i) {
@@ -70,17 +70,17 @@ BATTEN_HOT_LOOP void smoothBlockOf(const std::uint16_t* const* rows, const float
 
 template <int Cell>
 BATTEN_PART_OF_LOOP void betweenCells(const float* above, const float* below, float share, float* out) {
-  constexpr int kHalf = Cell / 2, kCells = kAcross / Cell;
+  constexpr int kHalfCell = Cell / 2, kCells = kAcross / Cell;
   std::array<float, kCells + 2> column;
   for (int c = 0; c < kCells + 2; ++c) column[c] = above[c] + share * (below[c] - above[c]);
   constexpr float kStep = 1.0f / static_cast<float>(Cell);
   for (int c = 0; c <= kCells; ++c) {
     const float left = column[c], slope = (column[c + 1] - left) * kStep;
-    float* to = out + (c * Cell - kHalf);
+    float* to = out + (c * Cell - kHalfCell);
     if (c > 0)
-      for (int k = 0; k < kHalf; ++k) to[k] = left + slope * (static_cast<float>(k) + 0.5f);
+      for (int k = 0; k < kHalfCell; ++k) to[k] = left + slope * (static_cast<float>(k) + 0.5f);
     if (c < kCells)
-      for (int k = kHalf; k < Cell; ++k) to[k] = left + slope * (static_cast<float>(k) + 0.5f);
+      for (int k = kHalfCell; k < Cell; ++k) to[k] = left + slope * (static_cast<float>(k) + 0.5f);
   }
 }
 
@@ -96,12 +96,12 @@ BATTEN_HOT_LOOP void fillFrom(float first, float slope, int begin, float* __rest
   for (int i = 0; i < kAcross; ++i) out[i] = first + slope * static_cast<float>(begin + i);
 }
 
-struct RowFlags {
+struct FlagsOfRow {
   std::array<std::uint8_t, kAcross> ink, certain, faint;
 };
 
 BATTEN_HOT_LOOP void flagRow(const LevelBlock::Row& grey, const RowLevels& levels, float reach, float limit,
-                             RowFlags& __restrict out) {
+                             FlagsOfRow& __restrict out) {
   for (int i = 0; i < kAcross; ++i) out.ink[i] = grey[i] < levels.paper[i] + levels.contrast[i] ? 1 : 0;
   for (int i = 0; i < kAcross; ++i) out.certain[i] = grey[i] < levels.paper[i] + levels.certain[i] ? 1 : 0;
   for (int i = 0; i < kAcross; ++i)
@@ -124,10 +124,12 @@ void fillBetweenCells(const float* above, const float* below, float share, int c
   fillBetween(above, below, share, cellPx, out.data());
 }
 
-void fillLine(float first, float slope, int begin, LevelBlock::Row& out) { fillFrom(first, slope, begin, out.data()); }
+void fillStraight(float first, float slope, int begin, LevelBlock::Row& out) {
+  fillFrom(first, slope, begin, out.data());
+}
 
 RowBits compareRow(const LevelBlock::Row& grey, const RowLevels& levels, const FaintContrast& faint) {
-  RowFlags flags;
+  FlagsOfRow flags;
   flagRow(grey, levels, faint.reach, faint.limit, flags);
   return {packedOf(flags.ink), packedOf(flags.certain), packedOf(flags.faint)};
 }

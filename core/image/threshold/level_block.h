@@ -26,7 +26,7 @@ void smoothBlock(const std::uint16_t* const* rows, std::span<const float> kernel
 void fillBetweenCells(const float* above, const float* below, float share, int cellPx, LevelBlock::Row& out);
 
 /// The values first + slope * (begin + i).
-void fillLine(float first, float slope, int begin, LevelBlock::Row& out);
+void fillStraight(float first, float slope, int begin, LevelBlock::Row& out);
 
 /// What the weaker level asks for: a part of the contrast, at least the limit, never more than the contrast itself.
 struct FaintContrast {

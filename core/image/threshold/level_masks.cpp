@@ -18,7 +18,7 @@ namespace {
 constexpr double kAutomaticReach = 0.4;  // of the region's contrast; never into the noise of the paper
 constexpr float kRounding = 0.01f;       // [grey] more than floats lose on the way to a level or a smoothed pixel
 
-constexpr int kAcross = LevelBlock::kAcross, kDown = LevelBlock::kDown;
+constexpr int kBlockAcross = LevelBlock::kAcross, kBlockDown = LevelBlock::kDown;
 
 /// The paper without its folds, which are taken out of the picture itself, in a group of rows.
 class PaperRows {
@@ -46,7 +46,7 @@ class PaperRows {
       return;
     }
     const int before = x0 / paper_.cellPx - 1;
-    const bool isInside = before >= 0 && before + kAcross / paper_.cellPx + 1 < paper_.columns;
+    const bool isInside = before >= 0 && before + kBlockAcross / paper_.cellPx + 1 < paper_.columns;
     if (isInside && (paper_.cellPx == 8 || paper_.cellPx == 16)) {
       const BetweenCells& between = rows_[row];
       return fillBetweenCells(between.above + before, between.below + before, between.share, paper_.cellPx, block);
@@ -90,7 +90,7 @@ class PaperRows {
   };
   const PaperBackground& paper_;
   int width_;
-  std::array<BetweenCells, kDown> rows_{};
+  std::array<BetweenCells, kBlockDown> rows_{};
   std::vector<float> highest_;
 };
 
@@ -113,23 +113,23 @@ class GroupOfRows {
       : c_(c),
         paper_(c.paper, c.image.width),
         lowest_(c.darkest.columns()),
-        border_(static_cast<std::size_t>(kDown + 2 * c.radius()),
+        border_(static_cast<std::size_t>(kBlockDown + 2 * c.radius()),
                 std::vector<std::uint16_t>(static_cast<std::size_t>(LevelBlock::pastRow(c.radius())))),
         rows_(border_.size()) {
-    for (int x = 0; x < c.image.width; x += kAcross) stretches_.push_back(c.contrast.stretchAt(x));
+    for (int x = 0; x < c.image.width; x += kBlockAcross) stretches_.push_back(c.contrast.stretchAt(x));
   }
 
-  /// @param y0 of the first of kDown rows, or fewer at the end of the page.
+  /// @param y0 of the first of kBlockDown rows, or fewer at the end of the page.
   void run(int y0) {
     y0_ = y0;
-    y1_ = std::min(y0 + kDown, c_.image.height);
+    y1_ = std::min(y0 + kBlockDown, c_.image.height);
     lookAtCells();
     paper_.setRows(y0_, y1_);
     contrastBound_ = c_.contrast.highestByStretch(y0_, y1_);
     certainBound_ = c_.certain.highestByStretch(y0_, y1_);
     blocks_.clear();
     for (int block = 0; block < std::ssize(stretches_); ++block) {
-      const int x0 = block * kAcross, x1 = std::min(x0 + kAcross, c_.image.width);
+      const int x0 = block * kBlockAcross, x1 = std::min(x0 + kBlockAcross, c_.image.width);
       if (darkestNear(x0, x1) - kRounding <= highestLevel(block, x0, x1)) blocks_.push_back(block);
     }
     if (blocks_.empty()) return;
@@ -169,7 +169,7 @@ class GroupOfRows {
   }
 
   void compare(int block) {
-    const int x0 = block * kAcross, x1 = std::min(x0 + kAcross, c_.image.width);
+    const int x0 = block * kBlockAcross, x1 = std::min(x0 + kBlockAcross, c_.image.width);
     const int radius = c_.radius(), shift = x0 % 64, word = x0 / 64;
     for (int i = 0; i < std::ssize(rows_); ++i) rows_[i] = grey(x0, y0_ - radius + i, i);
     smoothBlock(rows_.data(), c_.kernel, smoothed_);
@@ -189,10 +189,10 @@ class GroupOfRows {
 
   void fillContrast(const RegionSurface& surface, const RegionSurface::RowLines& lines, int block,
                     LevelBlock::Row& out) const {
-    const int x0 = block * kAcross, x1 = std::min(x0 + kAcross, c_.image.width), stretch = stretches_[block];
+    const int x0 = block * kBlockAcross, x1 = std::min(x0 + kBlockAcross, c_.image.width), stretch = stretches_[block];
     if (stretch < kRegionsPerSide && surface.isBefore(stretch, x1 - 1))
       return surface.fillStretches(lines, stretch, x0, x1, out.data());
-    fillLine(lines[stretch].first, lines[stretch].slope, x0 - surface.startOf(stretch), out);
+    fillStraight(lines[stretch].first, lines[stretch].slope, x0 - surface.startOf(stretch), out);
   }
 
   /// A row of the page from `radius` pixels before x0 on; beyond the page its border is repeated.
@@ -212,7 +212,7 @@ class GroupOfRows {
   std::vector<int> stretches_;         // of the first pixel of every block
   std::vector<int> blocks_;            // that may hold ink
   RegionSurface::RowBounds contrastBound_{}, certainBound_{};
-  std::array<RegionSurface::RowLines, kDown> contrastLines_{}, certainLines_{};
+  std::array<RegionSurface::RowLines, kBlockDown> contrastLines_{}, certainLines_{};
   std::vector<std::vector<std::uint16_t>> border_;
   std::vector<const std::uint16_t*> rows_;
   LevelBlock::Rows smoothed_{};
@@ -241,7 +241,7 @@ LevelMasks compareWithLevels(const GreyImage& image, const RegionThresholds& t, 
       masks};
   parallelFor(context, image.height, kRowsPerBlock, [&](int begin, int end) {
     GroupOfRows rows(comparison);
-    for (int y = begin; y < end; y += kDown) rows.run(y);
+    for (int y = begin; y < end; y += kBlockDown) rows.run(y);
   });
   return masks;
 }

@@ -13,9 +13,9 @@
 namespace batten {
 namespace {
 
-constexpr float kRounding = 0.01f;  // [grey] more than numbers lose on the way to a level
+constexpr float kMostLost = 0.01f;  // [grey] more than numbers lose on the way to a level
 
-BATTEN_HOT_LOOP void flagBelow(const float* row, float level, std::uint8_t* __restrict flags, int count) {
+BATTEN_HOT_LOOP void flagDarker(const float* row, float level, std::uint8_t* __restrict flags, int count) {
   for (int i = 0; i < count; ++i) flags[i] = row[i] < level ? 1 : 0;
 }
 
@@ -33,7 +33,8 @@ float highestPaper(const ShrunkenPage& page, int x0, int x1, int y) {
   return std::max(*std::max_element(above + c0, above + c1 + 1), *std::max_element(below + c0, below + c1 + 1));
 }
 
-void compareRow(const ShrunkenPage& page, const RegionSurface& contrast, int y, const float* row, BitImage& ink) {
+void compareRowOfPlane(const ShrunkenPage& page, const RegionSurface& contrast, int y, const float* row,
+                       BitImage& ink) {
   const RegionSurface::RowLines lines = contrast.linesOfRow(y);
   const RegionSurface::RowBounds bounds = contrast.highestByStretch(y, y + 1);
   std::array<std::uint8_t, 64> flags;
@@ -41,7 +42,7 @@ void compareRow(const ShrunkenPage& page, const RegionSurface& contrast, int y, 
   for (int word = 0; word < ink.wordsPerRow; ++word) {
     const int x0 = word * 64, x1 = std::min(x0 + 64, ink.width), stretch = contrast.stretchAt(x0);
     const float most = *std::max_element(&bounds[stretch], &bounds[contrast.stretchAt(x1 - 1)] + 1);
-    flagBelow(row + x0, highestPaper(page, x0, x1, y) + most + kRounding, flags.data(), x1 - x0);
+    flagDarker(row + x0, highestPaper(page, x0, x1, y) + most + kMostLost, flags.data(), x1 - x0);
     std::uint64_t dark = 0;
     packFlags(flags.data(), x1 - x0, &dark);
     if (dark == 0) continue;
@@ -59,7 +60,8 @@ void compareRow(const ShrunkenPage& page, const RegionSurface& contrast, int y, 
 BitImage inkOfPlane(const ShrunkenPage& page, const std::vector<float>& kernel, const RunContext& context) {
   BitImage ink(page.grey.width, page.grey.height);
   const RegionSurface contrast(page.contrasts, ink.width, ink.height, true);
-  smoothRows(page.grey, kernel, context, [&](int y, const float* row) { compareRow(page, contrast, y, row, ink); });
+  smoothRows(page.grey, kernel, context,
+             [&](int y, const float* row) { compareRowOfPlane(page, contrast, y, row, ink); });
   return ink;
 }
 
