@@ -56,11 +56,7 @@ Vec2 unitNormal(const Vec2& velocity) {
 
 FrameStation makeStation(const UniformQuintic& base, double u, bool bendOnly) {
   const UniformKnots& knots = base.knots();
-  std::array<BandRow, 5> rows;
-  for (int order = 0; order < 5; ++order) {
-    if (order == 3 && bendOnly) continue;
-    rows[order] = knots.row(u, order);
-  }
+  std::array<BandRow, 5> rows = knots.rows(u, bendOnly);
   FrameStation s = frameStation(base.at(u, 4), rows);
   s.u = u;
   return s;
@@ -111,6 +107,11 @@ void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions&
 }
 
 }  // namespace
+
+double frameCurvature(const PlaneDerivatives& d) {
+  const double w = std::max(d[1].squaredNorm(), 1e-12), v = std::sqrt(w);
+  return cross(d[1], d[2]) * (1.0 / (w * v));
+}
 
 FrameStation frameStation(const PlaneDerivatives& d, const std::array<BandRow, 5>& b) {
   FrameStation s;

@@ -74,6 +74,14 @@ BATTEN_HOT_LOOP void meanLoop(const float* first, int count, const float* w, flo
   }
 }
 
+BATTEN_HOT_LOOP void meansOfPaper(const float* p, int count, double* __restrict means) {
+  static_assert(kPaperSamples == 5);
+  for (int k = 0; k < count; ++k) {
+    const double sum = 0.0 + p[k] + p[k + 1] + p[k + 2] + p[k + 3] + p[k + 4];
+    means[k] = sum / kPaperSamples;
+  }
+}
+
 // Gaussian of .5 px: two samples.
 constexpr int kSmoothHalf = 5;
 constexpr std::array<float, kSmoothHalf + 1> kSmoothKernel = {0.2021f, 0.1779f, 0.1212f, 0.0639f, 0.0261f, 0.00825f};
@@ -120,6 +128,15 @@ void sampleAcross(const GreyImage& grey, const Vec2& at, const Vec2& normal, int
 
 void meanOfProfiles(const float* first, int count, const float* weights, float sum, float* out) {
   meanLoop(first, count, weights, sum, out);
+}
+
+void meansOfBoxes(const float* p, int box, int count, double* means) {
+  if (box == kPaperSamples) return meansOfPaper(p, count, means);
+  for (int k = 0; k < count; ++k) {
+    double sum = 0.0;
+    for (int j = 0; j < box; ++j) sum += p[k + j];
+    means[k] = sum / box;
+  }
 }
 
 void smoothAcrossStroke(const float* profile, int count, float* out) {
