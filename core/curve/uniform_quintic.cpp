@@ -83,6 +83,11 @@ BandRow UniformKnots::row(double u, int order) const {
   }
 }
 
+std::array<BandRow, 2> UniformKnots::firstRows(double u) const {
+  const auto [span, t] = placeOf(u);
+  return {BandRow{span, pieceValues<0>(t, kPieceScale)}, BandRow{span, pieceValues<1>(t, kPieceScale / spacing())}};
+}
+
 std::array<BandRow, 5> UniformKnots::rows(double u, bool bendOnly) const {
   const auto [span, t] = placeOf(u);
   const double step = spacing();

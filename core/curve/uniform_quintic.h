@@ -27,6 +27,8 @@ struct UniformKnots {
   /// The six basis values of derivative `order` (0..4) at u; closed: u modulo length. Beyond open ends the end
   /// polynomial runs on.
   BandRow row(double u, int order) const;
+  /// Those of the orders 0 and 1.
+  std::array<BandRow, 2> firstRows(double u) const;
   /// Those of the orders 0 to 4; `bendOnly` leaves the third out.
   std::array<BandRow, 5> rows(double u, bool bendOnly) const;
   struct Place {

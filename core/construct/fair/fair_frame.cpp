@@ -232,8 +232,8 @@ OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, do
   const double speed = std::max(p[1].norm(), 1e-12);
   const Vec2 normal = leftNormal(p[1]) / speed;
   const double kappa = cross(p[1], p[2]) / (speed * speed * speed);
-  const double offset = dot(base.knots().row(u, 0), d);
-  const double rate = dot(base.knots().row(u, 1), d);
+  const auto [value, slope] = base.knots().firstRows(u);
+  const double offset = dot(value, d), rate = dot(slope, d);
   return {p[0] + offset * normal, p[1] * (1.0 - kappa * offset) + rate * normal};
 }
 

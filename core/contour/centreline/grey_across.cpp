@@ -101,6 +101,18 @@ BATTEN_HOT_LOOP void smoothInside(const float* p, int count, float* __restrict o
   }
 }
 
+// One that has only `reach` samples to one side.
+float smoothEnd(const float* at, int reach) {
+  float sum = kSmoothKernel[0] * at[0], weight = kSmoothKernel[0];
+  BATTEN_UNROLL
+  for (int d = 1; d < kSmoothHalf; ++d) {
+    if (d > reach) break;
+    sum += kSmoothKernel[d] * (at[-d] + at[d]);
+    weight += 2.0f * kSmoothKernel[d];
+  }
+  return sum / weight;
+}
+
 }  // namespace
 
 void sampleAcross(const GreyImage& grey, const Vec2& at, const Vec2& normal, int half, float* out) {
@@ -141,14 +153,10 @@ void meansOfBoxes(const float* p, int box, int count, double* means) {
 
 void smoothAcrossStroke(const float* profile, int count, float* out) {
   smoothInside(profile, count, out);
-  for (int k = 0; k < count; ++k) {
-    if (k == kSmoothHalf && count > 2 * kSmoothHalf) k = count - kSmoothHalf;
-    float sum = kSmoothKernel[0] * profile[k], weight = kSmoothKernel[0];
-    for (int d = 1; d <= kSmoothHalf && k - d >= 0 && k + d < count; ++d) {
-      sum += kSmoothKernel[d] * (profile[k - d] + profile[k + d]);
-      weight += 2.0f * kSmoothKernel[d];
-    }
-    out[k] = sum / weight;
+  const int side = std::min(kSmoothHalf, (count + 1) / 2);
+  for (int k = 0; k < side; ++k) {
+    out[k] = smoothEnd(profile + k, k);
+    out[count - 1 - k] = smoothEnd(profile + count - 1 - k, k);
   }
 }
 
