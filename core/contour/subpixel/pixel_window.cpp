@@ -92,7 +92,7 @@ void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& norm
   const int top = std::max(0, static_cast<int>(std::ceil(centre.y() - height - 0.5)));
   const int bottom = std::min(grey.height - 1, static_cast<int>(std::floor(centre.y() + height - 0.5)));
   const int rows = bottom - top + 1;
-  if (rows <= 0 || !(half >= 0.0)) return;
+  if (rows <= 0) return;
   const WindowCut cut{normal.x(), normal.y(), along.x(),          along.y(), half,
                       centre.x(), centre.y(), double(grey.width), top};
   const auto rowCount = static_cast<std::size_t>(rows);
