@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solve/band_kernels.h"
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(__GNUC__) && defined(__x86_64__) && defined(__ELF__)  // elsewhere stacks may not be aligned enough
 #define BATTEN_HAS_AVX2_KERNELS
 #include <immintrin.h>
 #define BATTEN_AVX2 __attribute__((target("avx2")))
