@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solve/band_kernels.h"
 
-#if defined(__GNUC__) && defined(__x86_64__) && defined(__ELF__)  // elsewhere stacks may not be aligned enough
-#define BATTEN_HAS_AVX2_KERNELS
-#include <immintrin.h>
-#define BATTEN_AVX2 __attribute__((target("avx2")))
-#endif
+#include "core/base/avx2.h"
 
 namespace batten {
 namespace {
@@ -49,7 +45,7 @@ void addOuterPlain(const RowFours& rows, const double* weight, double* m) {
 
 constexpr BandKernels kPlain{timesPlain, addTransposedPlain, addOuterPlain};
 
-#ifdef BATTEN_HAS_AVX2_KERNELS
+#ifdef BATTEN_HAS_AVX2
 
 BATTEN_AVX2 void timesAvx2(const RowFours& rows, const double* x, double* out) {
   const double* lanes = rows.lanes;
@@ -192,9 +188,8 @@ constexpr BandKernels kAvx2{timesAvx2, addTransposedAvx2, addOuterAvx2};
 const BandKernels& plainBandKernels() { return kPlain; }
 
 const BandKernels& bandKernels() {
-#ifdef BATTEN_HAS_AVX2_KERNELS
-  static const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
-  if (kHasAvx2) return kAvx2;
+#ifdef BATTEN_HAS_AVX2
+  if (hasAvx2()) return kAvx2;
 #endif
   return kPlain;
 }

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/centreline/border_sums.h"
 
-#if defined(__GNUC__) && defined(__x86_64__) && defined(__ELF__)  // elsewhere stacks may not be aligned enough
-#define BATTEN_HAS_AVX2_BORDERS
-#include <immintrin.h>
-#define BATTEN_AVX2 __attribute__((target("avx2")))
-#endif
+#include "core/base/avx2.h"
 
 namespace batten {
 namespace {
@@ -44,7 +40,7 @@ SquareSums squaresPlain(const StrokePixels& pixels, const BorderResiduals& of) {
 
 constexpr BorderKernels kPlainBorders{sumsPlain, squaresPlain};
 
-#ifdef BATTEN_HAS_AVX2_BORDERS
+#ifdef BATTEN_HAS_AVX2
 
 struct FourResponses {
   __m256d part, slope;
@@ -147,9 +143,8 @@ constexpr BorderKernels kAvx2Borders{sumsAvx2, squaresAvx2};
 const BorderKernels& plainBorderKernels() { return kPlainBorders; }
 
 const BorderKernels& borderKernels() {
-#ifdef BATTEN_HAS_AVX2_BORDERS
-  static const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
-  if (kHasAvx2) return kAvx2Borders;
+#ifdef BATTEN_HAS_AVX2
+  if (hasAvx2()) return kAvx2Borders;
 #endif
   return kPlainBorders;
 }
