@@ -99,7 +99,8 @@ TEST(InkOfPlane, IsThatOfEveryPixelThoughPaperIsPassedOver) {
                                               (share(random) < 0.02  ? 60.0
                                                : share(random) < 0.1 ? 9.0
                                                                      : 0.0));
-      PaperBackground paper{.cellPx = 8};
+      PaperBackground paper;
+      paper.cellPx = 8;
       paper.columns = (width * shrink + 7) / 8;
       paper.rows = (height * shrink + 7) / 8;
       for (int i = 0; i < paper.columns * paper.rows; ++i)

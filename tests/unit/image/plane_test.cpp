@@ -34,7 +34,9 @@ TEST(ShrinkGrey, IsTheMeanOverEveryBlock) {
           const double mean = sum / ((x1 - x * shrink) * (y1 - y * shrink)) / GreyImage::kGreyUnit;
           EXPECT_FLOAT_EQ(means.row(y)[x], static_cast<float>(mean));
           // By threes and fours the float nearest to the mean.
-          if (shrink == 3 || shrink == 4) EXPECT_EQ(means.row(y)[x], static_cast<float>(mean));
+          if (shrink == 3 || shrink == 4) {
+            EXPECT_EQ(means.row(y)[x], static_cast<float>(mean));
+          }
         }
       }
     }
