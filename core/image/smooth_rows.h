@@ -9,8 +9,8 @@
 
 namespace batten {
 
-/// As smooth(), row by row, without a plane for the result: `take` is called by several threads at once, and has the row
-/// until it returns.
+/// As smooth(), row by row, without a plane for the result: `take` is called by several threads at once, and has the
+/// row until it returns.
 void smoothRows(const Plane& in, const std::vector<float>& kernel, const RunContext& context,
                 const std::function<void(int y, const float* row)>& take);
 
