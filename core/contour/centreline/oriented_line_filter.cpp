@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/avx2.h"
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/image/bits/bit_steps.h"
@@ -36,26 +37,38 @@ struct Step {
 };
 
 // One direction in which lines are followed.
-struct Direction {
-  std::vector<Step> ahead, back;  // of a line through 0
-  std::vector<Step> left, right;  // places at either side where the next line may be
+template <class Place>
+struct PlacesOfLine {
+  std::vector<Place> ahead, back;  // of a line through 0
+  std::vector<Place> left, right;  // at either side, where the next line may be
 };
+using DirectionSteps = PlacesOfLine<Step>;
+using Direction = PlacesOfLine<int>;  // where they stand in a tile, from the pixel of the line on
 
 struct LineFilter {
   std::vector<Direction> directions;
   int ridgeSides = 1;           // of the places at the sides: up to 1.5 widths
   int halfPx = 8, reachPx = 0;  // of a line, of the places at its sides
+  int margin() const { return halfPx + reachPx; }
+  int side() const { return kTile + 2 * margin(); }  // of a tile and what lies round it
 };
+
+std::vector<int> offsetsOf(const std::vector<Step>& steps, int side) {
+  std::vector<int> offsets;
+  for (const Step& s : steps) offsets.push_back(s.y * side + s.x);
+  return offsets;
+}
 
 LineFilter filterFor(double widthPx) {
   LineFilter filter;
   filter.halfPx = static_cast<int>(std::lround(std::clamp(kHalfWidths * widthPx, kShortestHalfPx, kLongestHalfPx)));
   const int count = static_cast<int>(kDirectionsPerPx * filter.halfPx);
   const double stepPx = std::max(kLeastSideStepPx, kSideStepWidths * widthPx);
+  std::vector<DirectionSteps> directions;
   for (int k = 0; k < count; ++k) {
     const double a = std::numbers::pi * k / count;
     const Vec2 t(std::cos(a), std::sin(a)), n(-t.y(), t.x());
-    Direction d;
+    DirectionSteps d;
     const auto step = [](const Vec2& v) {
       return Step{static_cast<int>(std::lround(v.x())), static_cast<int>(std::lround(v.y()))};
     };
@@ -73,21 +86,64 @@ LineFilter filterFor(double widthPx) {
         filter.reachPx = std::max({filter.reachPx, std::abs(s.x), std::abs(s.y)});
       }
     }
-    filter.directions.push_back(std::move(d));
+    directions.push_back(std::move(d));
+  }
+  const int side = filter.side();
+  for (const DirectionSteps& d : directions) {
+    filter.directions.push_back(
+        {offsetsOf(d.ahead, side), offsetsOf(d.back, side), offsetsOf(d.left, side), offsetsOf(d.right, side)});
   }
   return filter;
 }
 
-BATTEN_HOT_LOOP void addRow(const float* from, float* __restrict to, int count) {
-  for (int i = 0; i < count; ++i) to[i] += from[i];
+void sumStepsPlain(const float* grey, const int* steps, int stepCount, int count, float* to) {
+  for (int i = 0; i < count; ++i) to[i] = 0.0f;
+  for (int k = 0; k < stepCount; ++k) {
+    const float* from = grey + steps[k];
+    for (int i = 0; i < count; ++i) to[i] += from[i];
+  }
+}
+
+#ifdef BATTEN_HAS_AVX2
+
+constexpr int kPixelLanes = 8;
+
+// Eight times kVectors pixels at once, whose sums stay in registers.
+template <int kVectors>
+BATTEN_AVX2 inline void sumBlock(const float* grey, const int* steps, int stepCount, float* to) {
+  __m256 sums[kVectors];
+  BATTEN_UNROLL
+  for (int v = 0; v < kVectors; ++v) sums[v] = _mm256_setzero_ps();
+  for (int k = 0; k < stepCount; ++k) {
+    const float* from = grey + steps[k];
+    BATTEN_UNROLL
+    for (int v = 0; v < kVectors; ++v) sums[v] = _mm256_add_ps(sums[v], _mm256_loadu_ps(from + kPixelLanes * v));
+  }
+  BATTEN_UNROLL
+  for (int v = 0; v < kVectors; ++v) _mm256_storeu_ps(to + kPixelLanes * v, sums[v]);
+}
+
+BATTEN_AVX2 void sumStepsAvx2(const float* grey, const int* steps, int stepCount, int count, float* to) {
+  int i = 0;
+  for (; i + 8 * kPixelLanes <= count; i += 8 * kPixelLanes) sumBlock<8>(grey + i, steps, stepCount, to + i);
+  for (; i + 4 * kPixelLanes <= count; i += 4 * kPixelLanes) sumBlock<4>(grey + i, steps, stepCount, to + i);
+  for (; i + 2 * kPixelLanes <= count; i += 2 * kPixelLanes) sumBlock<2>(grey + i, steps, stepCount, to + i);
+  for (; i + kPixelLanes <= count; i += kPixelLanes) sumBlock<1>(grey + i, steps, stepCount, to + i);
+  if (i < count) sumStepsPlain(grey + i, steps, stepCount, count - i, to + i);
+}
+
+#endif
+
+BATTEN_HOT_LOOP void darkestOf(const float* values, int count, float* __restrict darkest) {
+  for (int i = 0; i < count; ++i) darkest[i] = values[i] < darkest[i] ? values[i] : darkest[i];
 }
 
 // Brightness of one tile and what lies round it, and its means along lines.
 class Tile {
  public:
   Tile(const GreyImage& grey, int x0, int y0, const LineFilter& filter)
-      : margin_(filter.halfPx + filter.reachPx),
-        side_(kTile + 2 * margin_),
+      : margin_(filter.margin()),
+        side_(filter.side()),
         grey_(area()),
         mean_(area()),
         best_(area()),
@@ -107,11 +163,10 @@ class Tile {
     const int from = margin_ - reach, count = kTile + 2 * reach;
     const auto weight = 1.0f / static_cast<float>(d.ahead.size());
     for (int y = from; y < from + count; ++y) {
+      const float* grey = grey_.data() + index(from, y);
       float *ahead = ahead_.data() + index(from, y), *back = back_.data() + index(from, y);
-      std::fill_n(ahead, count, 0.0f);
-      std::fill_n(back, count, 0.0f);
-      for (const Step& s : d.ahead) addRow(grey_.data() + index(from + s.x, y + s.y), ahead, count);
-      for (const Step& s : d.back) addRow(grey_.data() + index(from + s.x, y + s.y), back, count);
+      stepSums()(grey, d.ahead.data(), static_cast<int>(d.ahead.size()), count, ahead);
+      stepSums()(grey, d.back.data(), static_cast<int>(d.back.size()), count, back);
       float* mean = mean_.data() + index(from, y);
       for (int i = 0; i < count; ++i) {
         mean[i] = 0.5f * weight * (ahead[i] + back[i]);
@@ -122,23 +177,22 @@ class Tile {
 
   // Darkest mean of all directions at every pixel.
   void noteDarkest() {
-    for (int y = margin_; y < margin_ + kTile; ++y) {
-      for (int x = margin_; x < margin_ + kTile; ++x)
-        best_[index(x, y)] = std::min(best_[index(x, y)], mean_[index(x, y)]);
-    }
+    for (int y = margin_; y < margin_ + kTile; ++y)
+      darkestOf(mean_.data() + index(margin_, y), kTile, best_.data() + index(margin_, y));
   }
 
   // Whether lines darker than `limit` lie at both sides of pixel (x, y) of the tile.
   bool isFlanked(const Direction& d, float limit, int x, int y) const {
-    const auto isDark = [&](const Step& s) { return mean_[index(margin_ + x + s.x, margin_ + y + s.y)] < limit; };
+    const float* here = mean_.data() + index(margin_ + x, margin_ + y);
+    const auto isDark = [&](int offset) { return here[offset] < limit; };
     return std::any_of(d.left.begin(), d.left.end(), isDark) && std::any_of(d.right.begin(), d.right.end(), isDark);
   }
   // [grey] How much darker than both its sides a line is at pixel (x, y), where it is fainter: ahead or behind.
   float ridge(const Direction& d, int sides, int x, int y) const {
-    const auto brightest = [&](const std::vector<Step>& places) {
+    const float* here = mean_.data() + index(margin_ + x, margin_ + y);
+    const auto brightest = [&](const std::vector<int>& places) {
       float most = 0.0f;
-      for (int k = 0; k < std::min(sides, static_cast<int>(places.size())); ++k)
-        most = std::max(most, mean_[index(margin_ + x + places[k].x, margin_ + y + places[k].y)]);
+      for (int k = 0; k < std::min(sides, static_cast<int>(places.size())); ++k) most = std::max(most, here[places[k]]);
       return most;
     };
     return std::min(brightest(d.left), brightest(d.right)) - ahead_[index(margin_ + x, margin_ + y)];
@@ -221,6 +275,15 @@ struct LineSearch {
 };
 
 }  // namespace
+
+StepSums plainStepSums() { return sumStepsPlain; }
+
+StepSums stepSums() {
+#ifdef BATTEN_HAS_AVX2
+  if (hasAvx2()) return sumStepsAvx2;
+#endif
+  return sumStepsPlain;
+}
 
 OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
                                   double widthPx, const RunContext& context) {
