@@ -7,7 +7,6 @@
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/image/smooth_rows.h"
 
 namespace batten {
 namespace {
@@ -161,16 +160,16 @@ void smoothWholeRow(const float* in, float* out, int width, const std::vector<fl
   smoothPart(width - radius, width);
 }
 
-/// @param rowFor where to write a row, which `take` then has.
-template <class RowFor, class Take>
-void smoothRowsTo(const Plane& in, const std::vector<float>& kernel, const RunContext& context, const RowFor& rowFor,
-                  const Take& take) {
+}  // namespace
+
+Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context) {
+  Plane out(in.width, in.height);
   const auto radius = static_cast<int>(kernel.size()) - 1;
   const auto width = static_cast<std::size_t>(in.width);
   parallelFor(context, in.height, kRowsPerBlock, [&](int begin, int end) {
     // The rows that one smoothed row is made of, each at its number modulo theirs.
     const int count = 2 * radius + 1;
-    std::vector<float> padded, own(width), ring(width * static_cast<std::size_t>(count));
+    std::vector<float> padded, ring(width * static_cast<std::size_t>(count));
     std::vector<const float*> rows(static_cast<std::size_t>(count));
     const auto lineAt = [&](int y) { return ring.data() + width * static_cast<std::size_t>((y + count) % count); };
     const auto load = [&](int y) {
@@ -180,25 +179,9 @@ void smoothRowsTo(const Plane& in, const std::vector<float>& kernel, const RunCo
     for (int y = begin; y < end; ++y) {
       load(y + radius);
       for (int i = 0; i < count; ++i) rows[i] = lineAt(y - radius + i);
-      float* out = rowFor(y, own);
-      smoothAcross(rows.data(), out, in.width, kernel);
-      take(y, out);
+      smoothAcross(rows.data(), out.row(y), in.width, kernel);
     }
   });
-}
-
-}  // namespace
-
-void smoothRows(const Plane& in, const std::vector<float>& kernel, const RunContext& context,
-                const std::function<void(int y, const float* row)>& take) {
-  smoothRowsTo(
-      in, kernel, context, [](int, std::vector<float>& own) { return own.data(); }, take);
-}
-
-Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context) {
-  Plane out(in.width, in.height);
-  smoothRowsTo(
-      in, kernel, context, [&](int y, std::vector<float>&) { return out.row(y); }, [](int, const float*) {});
   return out;
 }
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "core/base/hot_loop.h"
+#include "core/base/parallel.h"
 #include "core/image/bits/packed_flags.h"
-#include "core/image/smooth_rows.h"
 
 namespace batten {
 namespace {
@@ -60,8 +60,11 @@ void compareRowOfPlane(const ShrunkenPage& page, const RegionSurface& contrast, 
 BitImage inkOfPlane(const ShrunkenPage& page, const std::vector<float>& kernel, const RunContext& context) {
   BitImage ink(page.grey.width, page.grey.height);
   const RegionSurface contrast(page.contrasts, ink.width, ink.height, true);
-  smoothRows(page.grey, kernel, context,
-             [&](int y, const float* row) { compareRowOfPlane(page, contrast, y, row, ink); });
+  const Plane smoothed = smooth(page.grey, kernel, context);
+  if (context.isCancelled()) return ink;
+  parallelFor(context, ink.height, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) compareRowOfPlane(page, contrast, y, smoothed.row(y), ink);
+  });
   return ink;
 }
 

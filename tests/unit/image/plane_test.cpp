@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <random>
 
-#include "core/image/smooth_rows.h"
-
 namespace batten {
 namespace {
 
@@ -67,9 +65,6 @@ TEST(Smooth, IsTheSameForEveryPixelWithAnyThreads) {
         RunContext context;
         context.threads = threads;
         const Plane out = smooth(in, kernel, context);
-        smoothRows(in, kernel, context, [&](int y, const float* row) {
-          for (int x = 0; x < width; ++x) EXPECT_EQ(row[x], out.row(y)[x]);
-        });
         for (int y = 0; y < height; ++y)
           for (int x = 0; x < width; ++x) EXPECT_EQ(out.row(y)[x], smoothedAt(in, kernel, x, y));
       }
