@@ -82,7 +82,7 @@ CornerJudge::Nearest CornerJudge::nearestTo(const Vec2& place, int from, double 
   return nearest;
 }
 
-// Of the largest rounding that fits between the located points on either side of a tip.
+// Of the largest rounding that fits between the located points on either side of a tip; infinite where there are none.
 double CornerJudge::unseenRadius(const CornerEvidence& e, int tip) const {
   const int n = static_cast<int>(contour_.points.size());
   double tangent = 0.0;
@@ -90,6 +90,7 @@ double CornerJudge::unseenRadius(const CornerEvidence& e, int tip) const {
     int i = tip;
     for (int k = 0; k < n && !contour_.points[i].refined; ++k)
       i = contour_.closed ? wrapIndex(i + side, n) : std::clamp(i + side, 0, n - 1);
+    if (!contour_.points[i].refined) return std::numeric_limits<double>::infinity();
     tangent = std::max(tangent, (contour_.points[i].at - e.positionPx).norm());
   }
   return (tangent - kPointStepPx) / std::tan(0.5 * std::abs(e.angleRad));

@@ -113,6 +113,17 @@ TEST(CornerCertainty, RoundedTurnsAreNot) {
   }
 }
 
+// Without located points nothing was seen of the sides of a tip.
+TEST(CornerCertainty, RoundedTurnsOfPixelBordersAreNot) {
+  for (const double degrees : {60.0, 90.0, 120.0}) {
+    for (const double radius : {7.5, 9.0, 10.5}) {
+      ContourSet set = setOf(bend(degrees * kDeg, radius, 150.0), ContourKind::Outline, 0.05, 3);
+      for (ContourPoint& p : set.contours[0].points) p.refined = false;
+      EXPECT_EQ(certainOn(set), 0) << degrees << " degrees, radius " << radius;
+    }
+  }
+}
+
 TEST(CornerCertainty, SlightTurnsAndShortSidesAreNot) {
   for (const double degrees : {12.0, 20.0, 27.0})
     EXPECT_EQ(certainOn(setOf(bend(degrees * kDeg, 0.0, 150.0), ContourKind::Outline, 0.05, 5)), 0) << degrees;
