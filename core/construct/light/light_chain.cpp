@@ -129,10 +129,16 @@ std::vector<MadeSection> lightenSection(const Section&, double diagonal, const L
 
 std::optional<std::vector<Section>> cut(const Section& whole, const std::vector<double>& cuts,
                                         const RunContext& context) {
-  auto curves = splitAtAll(whole.dense, cuts);
-  if (!curves || context.isCancelled()) return std::nullopt;
   std::vector<Section> parts;
-  for (NurbsCurve& curve : *curves) parts.push_back({std::move(curve)});
+  NurbsCurve rest = whole.dense;
+  for (const double u : cuts) {
+    if (context.isCancelled()) return std::nullopt;
+    auto halves = split(rest, u);
+    if (!halves) return std::nullopt;
+    parts.push_back({std::move(halves->left)});
+    rest = std::move(halves->right);
+  }
+  parts.push_back({std::move(rest)});
   parts.front().start = whole.start;
   parts.back().end = whole.end;
   return parts;
@@ -201,12 +207,20 @@ void addTo(LightReport& sum, const LightReport& one) {
   if (one.kind == LightKind::Dense) sum.obstacle = one.obstacle;
 }
 
-/// Where sections that stay dense go over into sections that do not, or the other way.
-std::vector<double> endsOfDenseRuns(const std::vector<MadeSection>& made) {
-  std::vector<double> ends;
-  for (std::size_t i = 1; i < made.size(); ++i)
-    if (made[i].isDense() != made[i - 1].isDense()) ends.push_back(made[i].start());
-  return ends;
+/// The part of a curve between two parameters.
+std::optional<NurbsCurve> partOf(const NurbsCurve& curve, double from, double to) {
+  NurbsCurve part = curve;
+  if (to < part.end()) {
+    auto halves = split(part, to);
+    if (!halves) return std::nullopt;
+    part = std::move(halves->left);
+  }
+  if (from > part.start()) {
+    auto halves = split(part, from);
+    if (!halves) return std::nullopt;
+    part = std::move(halves->right);
+  }
+  return part;
 }
 
 /// Sections side by side that stay dense are not cut.
@@ -219,16 +233,19 @@ std::optional<LightCurve> assembled(const std::vector<MadeSection>& made, const 
   for (const MadeSection& one : made) {
     addTo(chain.report, one.now.report);
   }
-  if (chain.report.sectionsDense == chain.report.sections) return std::nullopt;
-  auto runs = splitAtAll(dense, endsOfDenseRuns(made));
-  if (!runs || context.isCancelled()) return std::nullopt;
-  auto run = runs->begin();
-  for (std::size_t i = 0; i < made.size(); ++run) {
-    const bool isDense = made[i].isDense();
-    if (isDense) curves.push_back(std::move(*run));
-    for (; i < made.size() && made[i].isDense() == isDense; ++i)
-      if (!isDense) curves.push_back(made[i].now.curve);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (context.isCancelled()) return std::nullopt;
+    if (!made[i].isDense()) {
+      curves.push_back(made[i].now.curve);
+      continue;
+    }
+    const double from = made[i].start();
+    while (i + 1 < made.size() && made[i + 1].isDense()) ++i;
+    auto part = partOf(dense, from, made[i].end());
+    if (!part) return std::nullopt;
+    curves.push_back(std::move(*part));
   }
+  if (chain.report.sectionsDense == chain.report.sections) return std::nullopt;
   auto joined = joinedWithTangents(curves);
   if (!joined) return std::nullopt;
   chain.curve = std::move(*joined);
