@@ -18,7 +18,6 @@ namespace batten {
 namespace {
 
 constexpr int kAcross = LevelBlock::kAcross, kDown = LevelBlock::kDown;
-constexpr int kMostRadius = 16;  // [px] of a Gaussian of 5.3 px; wider ones are cut off
 constexpr float kGreyPerValue = static_cast<float>(1.0 / GreyImage::kGreyUnit);
 
 /// With a radius that the compiler knows the sums stay in registers. The order of the sums is that of smooth().
@@ -26,11 +25,11 @@ template <int Radius>
 BATTEN_PART_OF_LOOP void smoothBlockBody(const std::uint16_t* const* rows, const float* taps, int anyRadius,
                                          LevelBlock::Rows& out) {
   const int radius = Radius > 0 ? Radius : anyRadius, rowCount = kDown + 2 * radius;
-  std::array<float, kMostRadius + 1> kernel;  // nothing that is written could be among these
+  std::array<float, LevelBlock::kMostRadius + 1> kernel;  // nothing that is written could be among these
   for (int k = 0; k <= radius; ++k) kernel[k] = taps[k];
   // All rows of one step before the next: what has just been written cannot be read at other places without waiting.
-  std::array<std::array<float, LevelBlock::pastRow(kMostRadius)>, kDown + 2 * kMostRadius> grey;
-  std::array<LevelBlock::Row, kDown + 2 * kMostRadius> along;
+  std::array<std::array<float, LevelBlock::pastRow(LevelBlock::kMostRadius)>, kDown + 2 * LevelBlock::kMostRadius> grey;
+  std::array<LevelBlock::Row, kDown + 2 * LevelBlock::kMostRadius> along;
   for (int y = 0; y < rowCount; ++y) {
     const std::uint16_t* in = rows[y];
     for (int i = 0; i < LevelBlock::pastRow(radius); ++i) grey[y][i] = static_cast<float>(in[i]) * kGreyPerValue;
@@ -117,7 +116,7 @@ std::uint32_t packedOf(const std::array<std::uint8_t, kAcross>& flags) {
 }  // namespace
 
 void smoothBlock(const std::uint16_t* const* rows, std::span<const float> kernel, LevelBlock::Rows& out) {
-  smoothBlockOf(rows, kernel.data(), std::min(static_cast<int>(kernel.size()) - 1, kMostRadius), out);
+  smoothBlockOf(rows, kernel.data(), std::min(static_cast<int>(kernel.size()) - 1, LevelBlock::kMostRadius), out);
 }
 
 void fillBetweenCells(const float* above, const float* below, float share, int cellPx, LevelBlock::Row& out) {

@@ -103,7 +103,7 @@ struct Comparison {
   std::vector<float> kernel;
   const DarkestCells& darkest;
   LevelMasks& masks;
-  int radius() const { return static_cast<int>(kernel.size()) - 1; }
+  int radius() const { return std::min(static_cast<int>(kernel.size()) - 1, LevelBlock::kMostRadius); }
 };
 
 /// Some rows of the page, block by block.
