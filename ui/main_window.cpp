@@ -64,7 +64,9 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   parts_->rail = new StageRail(session_, whole);
   parts_->rail->setObjectName(QStringLiteral("stageRail"));
   QList<QAction*> tools;
-  for (const Tool tool : kTools) tools.append(action(toolAction(tool)));
+  // Corners of the sheet have a button in the Scan panel, and are set once a drawing at most.
+  for (const Tool tool : kTools)
+    if (tool != Tool::Sheet) tools.append(action(toolAction(tool)));
   parts_->rail->layout()->addWidget(new ToolList(tools, parts_->rail));
   auto* row = new QHBoxLayout;
   row->setSpacing(0);

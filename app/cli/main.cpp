@@ -211,7 +211,8 @@ CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
       "to "
       "1. Those of 0.95 and more count without a mark (corners.auto). And every junction of strokes that might as well "
       "be paired otherwise: a point on each branch, which of them are one stroke now and which in the next best way, "
-      "for --pair. Changes nothing.");
+      "for --pair. And, of a sheet that was photographed at an angle, its corners, by how many degrees right angles "
+      "and parallel sides are off, and its aspect ratio (paper.rectify). Changes nothing.");
   addDrawing(*suggest, a,
              {std::string("The scan: ") + kScanKinds, "Use this recipe; --set and the points given override it",
               "Which page of a TIFF or PDF, 1 to 100000", "N"});

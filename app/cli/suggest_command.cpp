@@ -27,7 +27,8 @@ namespace batten::cli {
 namespace {
 
 struct Advice {
-  std::optional<std::string> note;  ///< On what was not looked at.
+  std::optional<SheetView> sheet;  ///< Seen at an angle.
+  std::vector<std::string> notes;  ///< On what was not looked at.
   MergeAdvice merge;
   std::vector<CornerSuggestion> corners;
   std::vector<StrokeJunction> junctions;
@@ -66,15 +67,25 @@ nlohmann::ordered_json junctionsToJson(const std::vector<StrokeJunction>& juncti
   return list;
 }
 
+nlohmann::ordered_json sheetToJson(const std::optional<SheetView>& view) {
+  if (!view) return nullptr;
+  auto corners = nlohmann::ordered_json::array();
+  for (const Vec2& corner : view->rectification.cornersPx) corners.push_back(placeToJson(corner));
+  return {{"corners", std::move(corners)},
+          {"skew", withDecimals(view->skewDeg, 2)},
+          {"convergence", withDecimals(view->convergenceDeg, 2)},
+          {"aspect", withDecimals(view->rectification.aspect, 4)},
+          {"aspect_error", withDecimals(view->rectification.aspectError, 4)}};
+}
+
 /// The lines as the recipe traces them.
-Result<std::shared_ptr<const ContourSet>> linesOf(const Scan& scan, const Recipe& recipe, StageCache& cache,
-                                                  const RunContext& context) {
+Result<PipelineOutput> linesOf(const Scan& scan, const Recipe& recipe, StageCache& cache, const RunContext& context) {
   PipelineRequest request;
   request.upTo = StageId::Contours;
   request.needEdges = false;
-  const PipelineOutput out = runPipeline(scan, recipe, cache, request, context);
+  PipelineOutput out = runPipeline(scan, recipe, cache, request, context);
   if (!out.contours) return out.error ? fail(*out.error) : fail(ErrorCode::NoCurve, "No line was found.");
-  return out.contours;
+  return out;
 }
 
 Result<Advice> adviceFor(const TraceArguments& arguments) {
@@ -90,13 +101,18 @@ Result<Advice> adviceFor(const TraceArguments& arguments) {
     return readScan(arguments.scan, {.page = recipe->scanPage}, context);
   }();
   if (!scan) return fail(scan.error());
+  scan = rectified(std::move(*scan), recipe->preparation.rectify, context);
+  if (!scan) return fail(scan.error());
   StageCache cache;
   auto merge = adviseMerge(*scan, *recipe, cache, context);
   if (!merge) return fail(merge.error());
   const auto lines = linesOf(*scan, *recipe, cache, context);
   if (!lines) return fail(lines.error());
-  return Advice{otherPagesNote(arguments, *recipe, *scan), std::move(*merge), possibleCorners(**lines, context),
-                (*lines)->junctions};
+  Advice advice{
+      lines->page->view, {}, std::move(*merge), possibleCorners(*lines->contours, context), lines->contours->junctions};
+  if (const auto note = otherPagesNote(arguments, *recipe, *scan)) advice.notes.push_back(*note);
+  if (!scan->rectifyNote.empty()) advice.notes.push_back(scan->rectifyNote);
+  return advice;
 }
 
 }  // namespace
@@ -117,8 +133,8 @@ int runSuggest(const TraceArguments& given) {
       {"reason", describe(advice->merge)},
       {"corners", cornersToJson(advice->corners)},
       {"doubtful_junctions", junctionsToJson(advice->junctions)},
-      {"notes", nlohmann::ordered_json::array()}};
-  if (advice->note) json["notes"].push_back(*advice->note);
+      {"rectify", sheetToJson(advice->sheet)},
+      {"notes", advice->notes}};
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }

@@ -46,6 +46,17 @@ nlohmann::ordered_json explanationFigures(const Explanation& e) {
           {"invented", withDecimals(e.invented, kDecimals)}};
 }
 
+nlohmann::ordered_json rectificationFigures(const Rectification& made) {
+  auto corners = nlohmann::ordered_json::array();
+  for (const Vec2& p : made.cornersPx) corners.push_back({withDecimals(p.x(), 2), withDecimals(p.y(), 2)});
+  return {{"corners", std::move(corners)},
+          {"width", made.widthPx},
+          {"height", made.heightPx},
+          {"aspect", withDecimals(made.aspect, 4)},
+          {"aspect_error", withDecimals(made.aspectError, 4)},
+          {"outside", withDecimals(made.outsideShare, 4)}};
+}
+
 double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
@@ -60,7 +71,12 @@ class Trace {
   Result<void> run() {
     auto scan = readDrawing();
     if (!scan) return fail(scan.error());
-    scan_ = std::move(*scan);
+    auto page = rectified(std::move(*scan), plan_.recipe.preparation.rectify, context_);
+    if (!page) return fail(page.error());
+    scan_ = std::move(*page);
+    // The places of the recipe are those of this page: the corners that it was made with belong to them.
+    if (scan_.rectification)
+      plan_.recipe.preparation.rectify = scan_.rectify = withCorners(scan_.rectify, scan_.rectification->cornersPx);
     readMilliseconds_ = millisecondsSince(begin_);
     if (!arguments_.scan.empty()) {
       const PageFrame frame = frameFor(scan_, plan_.recipe);
@@ -108,6 +124,7 @@ class Trace {
     json["peak_memory_bytes"] = peakMemoryBytes().value_or(0);
     json["files"] = files_;
     json["checks"] = checks_;
+    if (scan_.rectification) json["rectified"] = rectificationFigures(*scan_.rectification);
     if (explanation_) json["explanation"] = explanationFigures(*explanation_);
     json["notes"] = notes();
     return withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

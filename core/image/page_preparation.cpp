@@ -107,12 +107,41 @@ void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& con
 }
 
 void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context) {
+  if (scan.rectification) {
+    page.sheet = sheetWithinRim(scan.grey.width, scan.grey.height);
+    page.grey = onlyTheSheet(greyOf(scan, page), *page.sheet, context);
+    return;
+  }
   auto sheet = findPaperSheet(scan.grey, scan.colour, context);
   if (context.isCancelled() || !sheet) return;
   page.grey = onlyTheSheet(greyOf(scan, page), *sheet, context);
   page.notes.push_back(std::to_string(std::lround(100.0 * sheet->outsideShare)) +
                        " % of the picture is outside the sheet and was cut off; paper.sheet=off keeps it.");
+  page.view = sheetView(scan, *sheet, context);
+  if (page.view && !page.view->isAngled()) page.view.reset();
+  if (page.view)
+    page.notes.push_back("The sheet was photographed at an angle: " + page.view->text() +
+                         "; paper.rectify=auto rectifies the page.");
   page.sheet = std::move(sheet);
+}
+
+void addRectifyNotes(const Scan& scan, PreparedPage& page) {
+  constexpr double kDoubtfulAspect = 0.01, kNotableBendPx = 3.0;
+  if (!scan.rectifyNote.empty()) page.notes.push_back(scan.rectifyNote);
+  if (!scan.rectification) return;
+  const Rectification& made = *scan.rectification;
+  std::string note = "The page was rectified from the corners of its sheet";
+  if (made.outsideShare > 0.0)
+    note += ", and " + std::to_string(std::lround(100.0 * made.outsideShare)) +
+            " % of the picture, outside it, was cut off";
+  page.notes.push_back(note + "; paper.rectify=off keeps the picture as it is.");
+  if (made.aspectError > kDoubtfulAspect)
+    page.notes.push_back("The aspect ratio of the rectified page, " + roundedText(made.aspect, 3) +
+                         ", is uncertain by " + roundedText(100.0 * made.aspectError, 1) +
+                         " %: name the paper (paper.format) if you know it.");
+  if (made.bendPx > kNotableBendPx)
+    page.notes.push_back("The edges of the sheet bulge by up to " + roundedText(made.bendPx, 0) +
+                         " px: the lens distorts, or the paper is not flat. Rectifying does not remove that.");
 }
 
 void takeInks(const Scan& scan, const InkChoice& choice, PreparedPage& page, const RunContext& context) {
@@ -126,7 +155,10 @@ void takeInks(const Scan& scan, const InkChoice& choice, PreparedPage& page, con
 
 }  // namespace
 
-std::optional<Error> validate(const PreparationParams& params) { return validate(params.inks); }
+std::optional<Error> validate(const PreparationParams& params) {
+  if (auto wrong = validate(params.rectify)) return wrong;
+  return validate(params.inks);
+}
 
 Result<PreparedPage> preparePage(const Scan& scan, const PreparationParams& params, const RunContext& context) {
   // OpenCV works on the calling thread: threads of its own would not keep to RunContext::threads, and it throws where
@@ -138,6 +170,7 @@ Result<PreparedPage> preparePage(const Scan& scan, const PreparationParams& para
     if (context.isCancelled()) return cancelled();
     if (!scan.colour.isEmpty()) takeInks(scan, params.inks, page, context);
     if (context.isCancelled()) return cancelled();
+    addRectifyNotes(scan, page);
     if (params.sheet == SheetUse::CutOff) cutOffTable(scan, page, context);
     if (context.isCancelled()) return cancelled();
     if (params.rulings == RulingUse::LeaveOut) leaveOutRulings(scan, page, context);

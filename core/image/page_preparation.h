@@ -10,6 +10,7 @@
 #include "core/base/run_context.h"
 #include "core/image/colour/inks.h"
 #include "core/image/paper_sheet.h"
+#include "core/image/rectified_scan.h"
 #include "core/image/ruling/rulings.h"
 #include "core/image/scan.h"
 
@@ -38,6 +39,7 @@ struct PreparationParams {
   ColourUse colour = ColourUse::Darkest;
   RulingUse rulings = RulingUse::LeaveOut;
   SheetUse sheet = SheetUse::CutOff;
+  RectifyParams rectify;  ///< Has been applied to the scan before (rectified_scan.h).
   InkChoice inks;
   bool operator==(const PreparationParams&) const = default;
 };
@@ -48,6 +50,7 @@ struct PreparedPage {
   double colouredShare = 0.0;         ///< 0..1 of the page, taken by its darkest channel.
   std::vector<RulingFamily> rulings;  ///< What was taken out of it.
   std::optional<PaperSheet> sheet;    ///< What lies beside it was painted over.
+  std::optional<SheetView> view;      ///< How the sheet lies on a picture that is not rectified, where it is angled.
   std::vector<FoundInk> inks;         ///< Of a colour scan: all of them, also those that were dropped.
   double droppedShare = 0.0;          ///< 0..1 of the page: inks painted over.
   std::vector<std::string> notes;     ///< What the user should know, one line each.

@@ -301,6 +301,21 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
   return found;
 }
 
+PaperSheet sheetWithinRim(int widthPx, int heightPx) {
+  PaperSheet sheet;
+  sheet.cellPx = std::max(2, (std::max(widthPx, heightPx) + kSheetCells - 1) / kSheetCells);
+  const int columns = std::max(1, widthPx / sheet.cellPx), rows = std::max(1, heightPx / sheet.cellPx);
+  const double rimPx = kSheetRimShare * std::hypot(widthPx, heightPx);
+  const int rim = std::clamp(static_cast<int>(std::ceil(rimPx / sheet.cellPx)), 1, (std::min(columns, rows) - 1) / 2);
+  sheet.inside = BitImage(columns, rows);
+  for (int j = rim; j < rows - rim; ++j) {
+    for (int i = rim; i < columns - rim; ++i) sheet.inside.set(i, j, true);
+  }
+  const double x0 = rim * sheet.cellPx, x1 = (columns - rim) * sheet.cellPx, y1 = (rows - rim) * sheet.cellPx;
+  sheet.outlinePx = {{x0, x0}, {x1, x0}, {x1, y1}, {x0, y1}};
+  return sheet;
+}
+
 GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const RunContext& context) {
   const int columns = sheet.inside.width, rows = sheet.inside.height;
   std::vector<float> level(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0f),

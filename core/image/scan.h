@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 #include "core/image/colour_image.h"
 #include "core/image/grey_image.h"
+#include "core/image/rectification.h"
 
 namespace batten {
 
@@ -25,13 +26,14 @@ std::optional<Error> validate(const PageChoice&);
 
 /// What is known of an image file from its header alone, before any large allocation.
 struct ScanInfo {
-  std::string format;         ///< "PNG", "JPEG", "TIFF", "BMP", "WebP", "PNM", "JPEG 2000", "PDF".
-  int width = 0;              ///< [px] as stored, before the EXIF rotation.
-  int height = 0;             ///< [px]
-  int channels = 1;           ///< As stored, alpha included.
-  int bitsPerChannel = 8;     ///< 1, 2, 4, 8 or 16.
-  int exifOrientation = 1;    ///< 1..8; 1 = upright.
-  std::optional<double> dpi;  ///< Resolution stated by the file, if any and plausible.
+  std::string format;               ///< "PNG", "JPEG", "TIFF", "BMP", "WebP", "PNM", "JPEG 2000", "PDF".
+  int width = 0;                    ///< [px] as stored, before the EXIF rotation.
+  int height = 0;                   ///< [px]
+  int channels = 1;                 ///< As stored, alpha included.
+  int bitsPerChannel = 8;           ///< 1, 2, 4, 8 or 16.
+  int exifOrientation = 1;          ///< 1..8; 1 = upright.
+  std::optional<double> dpi;        ///< Resolution stated by the file, if any and plausible.
+  std::optional<double> focal35Mm;  ///< [mm] Focal length of the camera on film of 36 mm x 24 mm, if stated.
 };
 
 /// A scan as the program works on it: upright, grey, alpha laid over white.
@@ -39,11 +41,14 @@ struct Scan {
   GreyImage grey;
   ColourImage colour;  ///< Of the same size; empty where every pixel is grey.
   ScanInfo info;
-  std::optional<double> dpi;  ///< From the file; absent means unknown.
-  PageChoice page;            ///< What of the file it is.
-  int pages = 1;              ///< Of the file, thumbnails not counted.
-  ContentHash fileHash;       ///< SHA-256 of the file's bytes, as sha256sum prints it.
-  std::string path;           ///< As given by the user; for messages only.
+  std::optional<double> dpi;                   ///< From the file; absent means unknown.
+  PageChoice page;                             ///< What of the file it is.
+  int pages = 1;                               ///< Of the file, thumbnails not counted.
+  ContentHash fileHash;                        ///< SHA-256 of the file's bytes, as sha256sum prints it.
+  std::string path;                            ///< As given by the user; for messages only.
+  RectifyParams rectify;                       ///< How it was to be rectified; see rectified_scan.h.
+  std::optional<Rectification> rectification;  ///< How it was.
+  std::string rectifyNote;                     ///< Why it was not.
 };
 
 /// A page of white paper, for drawing without a scan. It takes no memory for its pixels. Its format is "blank", its

@@ -16,7 +16,6 @@ namespace batten {
 namespace {
 
 constexpr double kPaperRankOfCell = 0.7;  // of the pixels of a cell by grey: ink is darker
-constexpr int kSheetCells = 400;          // along the longer side of the picture
 constexpr int kSamplesAcross = 4;         // of a cell
 
 /// Some pixels of every cell of a row, and their differences from their neighbours at the right.

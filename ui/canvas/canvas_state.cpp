@@ -37,7 +37,7 @@ CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
                                               makeSegmentTool(*this),       makeLinesTool(*this),
                                               makeRegionTool(*this, false), makeRegionTool(*this, true),
                                               makeScaleTool(*this),         makeDirectionTool(*this),
-                                              makeJunctionTool(*this)} {
+                                              makeJunctionTool(*this),      makeSheetTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;

@@ -75,6 +75,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   setAcceptDrops(true);
   State* state = state_.get();
   connect(&session, &EditorSession::scanOpened, this, [state] { state->scanOpened(); });
+  connect(&session, &EditorSession::pageChanged, this, [state] { state->scanOpened(); });
   connect(&session, &EditorSession::stageReady, this, [state](StageId stage) { state->stageReady(stage); });
   connect(&session, &EditorSession::coarseReady, this, [state] { state->coarseReady(); });
   connect(&session, &EditorSession::recipeChanged, this, [state] { state->recipeChanged(); });

@@ -134,6 +134,8 @@ std::vector<ActionInfo> toolActions() {
        tr("Draw around the area to trace. Further regions add to it."), true},
       {ToolScale, "tool-scale", menu, tr("Measure scale"), keys({"M"}),
        tr("Drag along something of known length, then enter that length in stage Scan."), true},
+      {ToolSheet, "tool-sheet", menu, tr("Corners of the sheet"), keys({"Shift+M"}),
+       tr("Drag the corners onto those of the photographed sheet; Enter makes it a rectangle."), true},
       {ToolDirection, "tool-direction", menu, tr("Directions"), keys({"F"}),
        tr("Click a curve to reverse its direction; drag the ring of a closed curve to its start "
           "point."),
@@ -252,6 +254,8 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Direction;
     case ActionId::ToolJunctions:
       return Tool::Junctions;
+    case ActionId::ToolSheet:
+      return Tool::Sheet;
     default:
       return std::nullopt;
   }
@@ -294,6 +298,8 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolDirection;
     case Tool::Junctions:
       return ActionId::ToolJunctions;
+    case Tool::Sheet:
+      return ActionId::ToolSheet;
   }
   return ActionId::ToolSelect;
 }

@@ -76,6 +76,7 @@ enum class ActionId {
   CopySvg,
   ReverseCurve,
   ToolJunctions,
+  ToolSheet,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

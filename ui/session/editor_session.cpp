@@ -76,7 +76,7 @@ void EditorSession::change(const QString& what, Recipe after, GestureId gesture)
   const bool bringsNumbers = numbers != CurveNumbers{};
   if (bringsNumbers) {
     numbers.lastGiven = std::max(numbers.lastGiven, runner_->numbers.lastGiven);
-    runner_->numbers = std::move(numbers);
+    runner_->takeNumbers(std::move(numbers), after);
   }
   if (after == recipe_) {
     if (bringsNumbers) runner_->run();

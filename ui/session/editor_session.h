@@ -56,7 +56,10 @@ class EditorSession : public QObject {
   void restore(const QString& path, const Recipe& recipe);
   bool hasScan() const { return scan_ != nullptr; }
   bool isBlankPage() const { return scan_ && isBlank(*scan_); }
+  /// The page: the picture as it was read or, if the recipe wants so, rectified. All places are its pixels.
   std::shared_ptr<const Scan> scan() const { return scan_; }
+  /// The picture as it was read.
+  std::shared_ptr<const Scan> picture() const { return picture_; }
   QString scanPath() const;
   /// True if the drawing opened with the recipe beside it.
   bool openedWithRecipe() const;
@@ -157,6 +160,7 @@ class EditorSession : public QObject {
 
  signals:
   void scanOpened();
+  void pageChanged();  ///< scan() is another page of the same picture: it was rectified, or is so no more.
   void recipeChanged();
   void stageReady(batten::StageId stage);
   void coarseReady();  ///< coarseInk() or coarseCurves() is there, or newer.
@@ -186,7 +190,7 @@ class EditorSession : public QObject {
   };
 
   std::unique_ptr<Runner> runner_;
-  std::shared_ptr<const Scan> scan_;
+  std::shared_ptr<const Scan> picture_, scan_;  ///< The same while the page is not rectified.
   Recipe recipe_, startRecipe_;
   PipelineOutput output_;
   std::shared_ptr<const CoarseResult> coarse_;

@@ -8,6 +8,7 @@
 
 #include "core/base/conventions.h"
 #include "core/base/platform_memory.h"
+#include "core/pipeline/recipe/recipe_places.h"
 #include "core/pipeline/run/stage_keys.h"
 #include "ui/session/guarded.h"
 #include "ui/session/merge_outputs.h"
@@ -22,6 +23,18 @@ std::size_t cacheBytes(const Scan& scan) {
   constexpr std::size_t kBytesPerPixel = 2, kLeastBytes = std::size_t{64} << 20;
   return std::max(kLeastBytes, kBytesPerPixel * static_cast<std::size_t>(scan.grey.width) *
                                    static_cast<std::size_t>(scan.grey.height));
+}
+
+/// The page that the recipe wants: the one that is shown, or another one of the picture.
+Result<std::shared_ptr<const Scan>> pageOf(const std::shared_ptr<const Scan>& shown,
+                                           const std::shared_ptr<const Scan>& picture, const Recipe& recipe,
+                                           const RunContext& context) {
+  const RectifyParams& params = recipe.preparation.rectify;
+  if (isRectifiedAs(*shown, params)) return shown;
+  if (isRectifiedAs(*picture, params)) return picture;
+  auto page = rectified(*picture, params, context);
+  if (!page) return fail(page.error());
+  return std::make_shared<const Scan>(std::move(*page));
 }
 
 double squaredDistance(const Piece& piece, const Vec2& place) {
@@ -92,36 +105,21 @@ void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
   adopt(std::move(**result), scanPath, isRestored);
 }
 
-void EditorSession::Runner::dropOldDrawing() {
+void EditorSession::Runner::dropResults() {
+  targets.stop();
+  coarse.cancel();
   struct Old {
-    std::shared_ptr<const Scan> scan;
+    std::shared_ptr<const Scan> picture, scan;
     PipelineOutput output;
     std::shared_ptr<const PinnedResult> pinned;
     std::vector<std::shared_ptr<const void>> stages;
   };
   // The stages are handed over: the cache belongs to the next drawing from here on.
-  discarded.discard(std::make_shared<const Old>(
-      Old{std::move(session.scan_), std::exchange(session.output_, {}), std::move(session.pinned_), cache.release()}));
-}
-
-void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bool isRestored) {
-  pipeline.cancelAll();
-  targets.stop();
-  coarse.cancel();
-  isStopped = false;
-  dropOldDrawing();
-  session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
-  cache.setLimit(cacheBytes(*session.scan_));
-  path = scanPath;
-  openedWithRecipe = opened.hasRecipe;
-  wasRestored = isRestored;
-  openProblem = QString::fromStdString(opened.problem).simplified();
-  session.recipe_ = std::move(opened.recipe);
-  numbers = std::exchange(session.recipe_.curveNumbers, {});
-  session.output_.frame = frameFor(*session.scan_, session.recipe_);
+  discarded.discard(
+      std::make_shared<const Old>(Old{session.picture_, std::move(session.scan_), std::exchange(session.output_, {}),
+                                      std::move(session.pinned_), cache.release()}));
   session.pinned_.reset();
   session.selectedCurve_.reset();
-  session.selectedCorner_.reset();
   session.pointedSpan_.reset();
   session.targets_.reset();
   session.coarse_.reset();
@@ -131,18 +129,60 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   anchorPx.reset();
   selectsItself = true;
   shownGeneration.fill(0);
+}
+
+void EditorSession::Runner::announceNothingSelected() {
+  emit session.selectionChanged();
+  emit session.cornerSelectionChanged();
+  emit session.targetsChanged();
+  emit session.cursorChanged();
+  emit session.pinChanged();
+}
+
+void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bool isRestored) {
+  pipeline.cancelAll();
+  isStopped = false;
+  dropResults();
+  session.picture_ = session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
+  cache.setLimit(cacheBytes(*session.scan_));
+  path = scanPath;
+  openedWithRecipe = opened.hasRecipe;
+  wasRestored = isRestored;
+  openProblem = QString::fromStdString(opened.problem).simplified();
+  session.recipe_ = std::move(opened.recipe);
+  takeNumbers(std::exchange(session.recipe_.curveNumbers, {}), session.recipe_);
+  session.output_.frame = frameFor(*session.scan_, session.recipe_);
+  session.selectedCorner_.reset();
   ++recipeGeneration;
   session.undo_.clear();
   if (isRestored) session.undo_.resetClean();
   clearFailure();
   emit session.scanOpened();
   emit session.recipeChanged();
-  emit session.selectionChanged();
-  emit session.cornerSelectionChanged();
-  emit session.targetsChanged();
-  emit session.cursorChanged();
-  emit session.pinChanged();
+  announceNothingSelected();
   run();
+}
+
+void EditorSession::Runner::applyPage(const std::shared_ptr<const Scan>& picture, std::shared_ptr<const Scan> page,
+                                      std::uint64_t generation) {
+  if (picture != session.picture_ || page == session.scan_ || generation != recipeGeneration) return;
+  // What was found on the page before does not lie on this one.
+  dropResults();
+  session.scan_ = std::move(page);
+  cache.setLimit(cacheBytes(*session.scan_));
+  session.output_.frame = frameFor(*session.scan_, session.recipe_);
+  emit session.pageChanged();
+  emit session.recipeChanged();
+  announceNothingSelected();
+  runCoarse();
+}
+
+void EditorSession::Runner::takeNumbers(CurveNumbers brought, const Recipe& recipe) {
+  numbers = std::move(brought);
+  numbersPage.reset();
+  const RectifyParams& params = recipe.preparation.rectify;
+  if (params.use != RectifyUse::Corners || !session.picture_) return;
+  if (auto made = rectificationOf(*session.picture_, params.cornersPx, params.format)) numbersPage = std::move(*made);
 }
 
 void EditorSession::Runner::run() {
@@ -153,12 +193,18 @@ void EditorSession::Runner::run() {
   const qint64 started = startedMs.load();
   const bool spare = started >= 0 && clock.elapsed() - started < kGraceMs;
   overtaken.push_back(newestToken);
-  auto job = [this, runId, generation = recipeGeneration, scan = session.scan_, recipe = session.recipeToSave(),
-              edges = edgesWanted](const CancelToken& token) {
+  auto job = [this, runId, generation = recipeGeneration, shown = session.scan_, picture = session.picture_,
+              saved = session.recipeToSave(), page = numbersPage, edges = edgesWanted](const CancelToken& token) {
     const qint64 begin = clock.elapsed();
     startedMs = begin;
     RunContext context;
     context.cancel = token;
+    Recipe recipe = saved;
+    auto wanted = guarded<std::shared_ptr<const Scan>>([&] { return pageOf(shown, picture, recipe, context); });
+    const std::shared_ptr<const Scan> scan = wanted ? *wanted : shown;
+    recipe.curveNumbers = rectifiedNumbers(std::move(recipe.curveNumbers), page, scan->rectification);
+    if (wanted && scan != shown)
+      inbox.post([this, picture, scan, generation] { applyPage(picture, scan, generation); });
     std::atomic<int> stagesDone{0}, lastPercent{-1};
     context.progress = [&, this](double fraction) {
       const int percent = static_cast<int>(100.0 * (stagesDone + std::clamp(fraction, 0.0, 1.0)) / kStages.size());
@@ -175,8 +221,10 @@ void EditorSession::Runner::run() {
       inbox.post([this, scan, generation, stage, soFar] { applyStage(scan, generation, stage, soFar); });
     };
     PipelineOutput output;
-    if (auto done = guarded<PipelineOutput>(
-            [&] { return Result<PipelineOutput>(runPipeline(*scan, recipe, cache, request, context)); }))
+    if (!wanted)
+      output.error = wanted.error();
+    else if (auto done = guarded<PipelineOutput>(
+                 [&] { return Result<PipelineOutput>(runPipeline(*scan, recipe, cache, request, context)); }))
       output = std::move(*done);
     else
       output.error = done.error();
@@ -197,6 +245,7 @@ void EditorSession::Runner::run() {
 }
 
 void EditorSession::Runner::runCoarse() {
+  if (!isRectifiedAs(*session.scan_, session.recipe_.preparation.rectify)) return;  // begins with the page
   inkKey = stageKeys(*session.scan_, session.recipe_, session.output_.frame)[StageId::Filtered];
   const bool hasCurves = !session.curves().empty();
   if (hasCurves && inkKey == shownInkKey) return;
@@ -258,7 +307,10 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
   overtaken.clear();
   if (!wasCancelled) {
     // Only of runs that no newer one has overtaken: a drag does not use up a number for every line it comes past.
-    if (output.numbers) numbers = output.numbers->known;
+    if (output.numbers) {
+      numbers = output.numbers->known;
+      numbersPage = scan->rectification;
+    }
     // An empty page is not a failure, it is a beginning.
     const bool isBeginning =
         session.isBlankPage() && session.recipe_.penStrokes.empty() && session.recipe_.imports.empty();

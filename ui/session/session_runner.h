@@ -36,7 +36,10 @@ struct EditorSession::Runner {
   Inbox inbox;
   StageCache cache;
   QString path, openProblem;
-  CurveNumbers numbers;  ///< Apart from the recipe, as no undo takes them back.
+  CurveNumbers numbers;                      ///< Apart from the recipe, as no undo takes them back.
+  std::optional<Rectification> numbersPage;  ///< Of which page of the picture their places are.
+  /// Numbers that came with this recipe.
+  void takeNumbers(CurveNumbers, const Recipe&);
   bool openedWithRecipe = false, wasRestored = false;
 
   std::uint64_t recipeGeneration = 1;                           ///< Counts changes of recipe or scan.
@@ -70,7 +73,10 @@ struct EditorSession::Runner {
   void adopt(OpenedScan opened, const QString& scanPath, bool isRestored);
   void applyScan(std::uint64_t id, const QString& scanPath, bool isRestored,
                  const std::shared_ptr<Result<OpenedScan>>& result);
-  void dropOldDrawing();
+  void dropResults();
+  void announceNothingSelected();
+  void applyPage(const std::shared_ptr<const Scan>& picture, std::shared_ptr<const Scan> page,
+                 std::uint64_t generation);
   void applyStage(const std::shared_ptr<const Scan>&, std::uint64_t generation, StageId, const PipelineOutput&);
   void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,
                 const PipelineOutput&, double milliseconds);

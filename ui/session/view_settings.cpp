@@ -136,6 +136,12 @@ void ViewSettings::setMeasure(std::optional<Measure> measure) {
   emit measureChanged();
 }
 
+void ViewSettings::setSheetCorners(const std::optional<SheetCorners>& corners) {
+  if (sheetCorners_ == corners) return;
+  sheetCorners_ = corners;
+  emit changed();
+}
+
 void ViewSettings::setScanOnly(bool scanOnly) {
   if (scanOnly_ == scanOnly) return;
   scanOnly_ = scanOnly;

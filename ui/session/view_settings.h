@@ -8,6 +8,7 @@
 
 #include "core/base/vec2.h"
 #include "core/curve/closest_point.h"
+#include "core/image/rectification.h"
 
 namespace batten {
 
@@ -52,10 +53,11 @@ enum class Tool {
   Scale,       ///< Drag measures a known length; the Scan panel asks how long it is.
   Direction,   ///< Click turns the direction in which a curve is exported; drag of its ring moves the start.
   Junctions,   ///< Click on a junction pairs its strokes in the next way; click on two branches pairs these.
+  Sheet,       ///< Drag moves the corners of the sheet by which the page is to be rectified.
 };
 inline constexpr std::array kTools = {Tool::Select,   Tool::Thresholds, Tool::Corners,   Tool::Pen,
                                       Tool::Segments, Tool::Lines,      Tool::Rectangle, Tool::Lasso,
-                                      Tool::Scale,    Tool::Direction,  Tool::Junctions};
+                                      Tool::Scale,    Tool::Direction,  Tool::Junctions, Tool::Sheet};
 
 /// Its place in arrays with one entry a tool.
 constexpr std::size_t indexOf(Tool tool) { return static_cast<std::size_t>(tool); }
@@ -102,6 +104,10 @@ class ViewSettings : public QObject {
   };
   const std::optional<Measure>& measure() const { return measure_; }
   void setMeasure(std::optional<Measure>);
+  /// Corners of the sheet that the user has moved, px of the page that is shown, until it is rectified by them.
+  const std::optional<SheetCorners>& sheetCorners() const { return sheetCorners_; }
+  void setSheetCorners(const std::optional<SheetCorners>&);
+  void requestRectify() { emit rectifyRequested(); }
   bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
   void setScanOnly(bool);
 
@@ -111,6 +117,7 @@ class ViewSettings : public QObject {
   void toolChanged(batten::Tool tool);
   void selectedRegionChanged();
   void measureChanged();
+  void rectifyRequested();
 
  private:
   std::array<bool, kLayers.size()> visible_{};
@@ -121,6 +128,7 @@ class ViewSettings : public QObject {
   double suggestionAngleDeg_ = 35.0;
   double suggestionScalePx_ = 14.0;
   std::optional<Measure> measure_;
+  std::optional<SheetCorners> sheetCorners_;
   bool scanOnly_ = false, showsUniform_ = false, maskUncleaned_ = false;
   bool combShowsRadius_ = false, radiusIsLinear_ = false;
 };

@@ -12,6 +12,7 @@
 
 #include "app/cli/batch/drawn_lines.h"
 #include "app/cli/batch/page_record.h"
+#include "core/base/content_hash.h"
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
 #include "core/base/platform.h"
@@ -19,6 +20,8 @@
 #include "core/base/shown_text.h"
 #include "core/exchange/save_atomically.h"
 #include "core/image/file/scan_reader.h"
+#include "core/image/rectify/resample.h"
+#include "core/image/rectify/sheet_map.h"
 
 namespace batten::cli {
 namespace {
@@ -57,12 +60,38 @@ QByteArray linkTo(const std::string& file, const fs::path& folder) {
   return QByteArray::fromStdString((relative.empty() ? whole : relative).generic_string()).toPercentEncoding("/");
 }
 
-/// The scan made small by averaging; the empty image if it cannot be read.
-QImage smallPicture(const BatchPage& page) {
+/// How the page was rectified before it was traced, by what the trace has printed.
+std::optional<Rectification> rectificationIn(const std::optional<PageRecord>& record) {
+  if (!record || !record->figures.is_object() || !record->figures.contains("rectified")) return std::nullopt;
+  const auto& said = record->figures["rectified"];
+  RectifyParams params;
+  Rectification made;
+  try {
+    for (std::size_t i = 0; i < params.cornersPx.size(); ++i)
+      params.cornersPx[i] =
+          Vec2(said.at("corners").at(i).at(0).get<double>(), said.at("corners").at(i).at(1).get<double>());
+    made.widthPx = said.at("width").get<int>();
+    made.heightPx = said.at("height").get<int>();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;  // not written by us
+  }
+  params.use = RectifyUse::Corners;
+  made.cornersPx = params.cornersPx;
+  constexpr int kMostPx = 100'000;
+  const bool isSized = std::min(made.widthPx, made.heightPx) > 0 && std::max(made.widthPx, made.heightPx) < kMostPx;
+  if (validate(params) || !isSized) return std::nullopt;
+  return made;
+}
+
+/// The page made small by averaging; the empty image if its scan cannot be read.
+QImage smallPicture(const BatchPage& page, const std::optional<Rectification>& rectification) {
   RunContext context;
   context.threads = 1;
-  const auto scan = readScan(page.scan, {.page = {page.page, PageChoice{}.pdfDpi}}, context);
+  auto scan = readScan(page.scan, {.page = {page.page, PageChoice{}.pdfDpi}}, context);
   if (!scan) return {};
+  if (rectification)
+    scan->grey =
+        resampled(scan->grey, SheetMap(*rectification), rectification->widthPx, rectification->heightPx, context);
   const GreyImage& grey = scan->grey;
   const int step =
       std::max(1, static_cast<int>(std::ceil(static_cast<double>(std::max(grey.width, grey.height)) / kPictureSide)));
@@ -129,10 +158,15 @@ Result<Card> cardOf(const BatchPage& page, const std::string* error, const fs::p
   }
   if (!hash) return card;
   const std::string number = page.page == 1 ? std::string() : "-p" + std::to_string(page.page);
-  card.picture = (pictures / (hash->substr(0, 24) + number + ".jpg")).string();
+  const auto rectification = card.kind == "done" ? rectificationIn(record) : std::nullopt;
+  // The same scan may be rectified otherwise the next time.
+  const std::string shape =
+      rectification ? "-" + HashBuilder().text(record->figures["rectified"].dump()).finish().hex().substr(0, 8)
+                    : std::string();
+  card.picture = (pictures / (hash->substr(0, 24) + number + shape + ".jpg")).string();
   QImage picture = pictureIn(card.picture);
   if (picture.isNull()) {
-    picture = smallPicture(page);
+    picture = smallPicture(page, rectification);
     if (picture.isNull()) {
       card.picture.clear();
       return card;

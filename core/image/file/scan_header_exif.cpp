@@ -86,6 +86,19 @@ std::vector<std::uint64_t> tiffPages(const ByteReader& tiff) {
   return pages;
 }
 
+/// What the camera says of its lens, in a directory of its own.
+std::optional<double> focal35Of(const ByteReader& tiff, std::uint64_t directory) {
+  constexpr double kShortestMm = 5.0, kLongestMm = 2000.0;
+  const std::uint64_t entries = tiff.u16(directory);
+  for (std::uint64_t i = 0; i < entries && tiff.has(directory + 2 + i * 12, 12); ++i) {
+    const std::uint64_t entry = directory + 2 + i * 12;
+    if (tiff.u16(entry) != 41989) continue;
+    const auto focal = static_cast<double>(valueOf(tiff, readTag(tiff, entry)));
+    if (focal >= kShortestMm && focal <= kLongestMm) return focal;  // 0: not known
+  }
+  return std::nullopt;
+}
+
 bool isFrame(std::uint32_t marker) {
   return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
@@ -193,6 +206,7 @@ class TiffDirectory {
 
 ScanHeader TiffTags::in(ScanHeader header) const {
   if (dpi) header.info.dpi = dpi;
+  if (focal35Mm) header.info.focal35Mm = focal35Mm;
   if (orientation) {
     header.info.exifOrientation = orientation->value;
     header.orientationAt = orientation->at;
@@ -220,6 +234,9 @@ TiffTags readTiffTags(const ByteReader& tiff, std::uint64_t directory) {
         break;
       case 283:
         yResolution = ratioOf(tiff, tag);
+        break;
+      case 34665:
+        tags.focal35Mm = focal35Of(tiff, valueOf(tiff, tag));
         break;
       case 296:
         perInch = valueOf(tiff, tag) == 3 ? kMillimetresPerInch / 10.0 : valueOf(tiff, tag) == 2 ? 1.0 : 0.0;

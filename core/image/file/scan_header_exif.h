@@ -18,6 +18,7 @@ struct TiffTags {
   };
   std::optional<double> dpi;
   std::optional<Orientation> orientation;
+  std::optional<double> focal35Mm;
   /// The header with what is stated here.
   ScanHeader in(ScanHeader header) const;
 };

@@ -17,18 +17,19 @@ namespace batten {
 namespace {
 
 constexpr std::int64_t kLargestLatticePx = 4'000'000;
-constexpr int kStationPx = 16;                             // [px] between the points of a course
-constexpr double kMostMisfit = 0.75;                       // [grid] drawn lines are less even
-constexpr double kLeastSeen = 0.8, kLeastSeenAlone = 0.7;  // of the lines; the latter where hardly any others are
-constexpr double kLeastCoverage = 0.7;                     // of the stretches of the lines that are seen
-constexpr double kAlone = 0.4, kLeastSelective = 0.25;     // of the thin lines over the ruling that belong to it
-constexpr double kLeastInk = 0.8;                          // of the length of the lines: they go on
-constexpr double kMostWidth = 0.3;                         // of the spacing
-constexpr double kDarkCoverage = 0.85;                     // asked of dark lines that make no grid
-constexpr int kDarkLines = 12;                             // likewise
-constexpr int kBorder = 4;                                 // [grid] so near to it a line runs to the border of the page
-constexpr double kLeastAtBorder = 0.5;                     // of the lines that run to the border of the page
-constexpr double kJoined = 0.9;                            // of the spaces between lines that a stroke crosses
+constexpr int kStationPx = 16;        // [px] between the points of a course
+constexpr double kMostMisfit = 0.75;  // [grid] drawn lines are less even
+constexpr double kLeastLineSeen = 0.8,
+                 kLeastLineSeenAlone = 0.7;             // of the lines; the latter where hardly any others are
+constexpr double kLeastCoverage = 0.7;                  // of the stretches of the lines that are seen
+constexpr double kAlone = 0.4, kLeastSelective = 0.25;  // of the thin lines over the ruling that belong to it
+constexpr double kLeastInk = 0.8;                       // of the length of the lines: they go on
+constexpr double kMostWidth = 0.3;                      // of the spacing
+constexpr double kDarkCoverage = 0.85;                  // asked of dark lines that make no grid
+constexpr int kDarkLines = 12;                          // likewise
+constexpr int kBorder = 4;                              // [grid] so near to it a line runs to the border of the page
+constexpr double kLeastAtBorder = 0.5;                  // of the lines that run to the border of the page
+constexpr double kJoined = 0.9;                         // of the spaces between lines that a stroke crosses
 constexpr double kLeastRulingDepth = 0.015;
 
 Plane mirrored(const Plane& in, const RunContext& context) {
@@ -86,7 +87,7 @@ std::optional<FoundLattice> judged(const Plane& grey, RulingLattice lattice, con
   const bool isEven = l.misfit <= kMostMisfit;
   const bool isThin = found.look.width <= std::max(2.0, kMostWidth * l.spacing);
   if (!isEven || !isThin || found.look.depth < kLeastRulingDepth) return std::nullopt;
-  if (l.seen < (l.selective >= kAlone ? kLeastSeenAlone : kLeastSeen) || l.coverage < kLeastCoverage ||
+  if (l.seen < (l.selective >= kAlone ? kLeastLineSeenAlone : kLeastLineSeen) || l.coverage < kLeastCoverage ||
       l.selective < kLeastSelective)
     return std::nullopt;
   if (inkAlongLines(grey, l, context) < kLeastInk) return std::nullopt;  // letters, dots or crossings in rows

@@ -142,6 +142,75 @@ void appendInks(std::vector<Parameter>& table) {
       {5.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.preparation.inks.rangeDeg; }));
 }
 
+/// Commas or blanks between the numbers.
+std::optional<SheetCorners> sheetCornersFromText(std::string_view text) {
+  std::array<double, 8> values{};
+  std::size_t count = 0;
+  for (std::string_view rest = text; !trimmed(rest).empty();) {
+    rest = trimmed(rest);
+    const std::size_t end = std::min(rest.find_first_of(", ;"), rest.size());
+    const auto value = numberFromText(rest.substr(0, end));
+    if (!value || count == values.size()) return std::nullopt;
+    values[count++] = *value;
+    rest = trimmed(rest.substr(end));
+    if (rest.starts_with(',') || rest.starts_with(';')) rest.remove_prefix(1);
+  }
+  if (count != values.size()) return std::nullopt;
+  SheetCorners corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = Vec2(values[2 * i], values[2 * i + 1]);
+  return corners;
+}
+
+std::string sheetToText(const RectifyParams& params) {
+  if (params.use == RectifyUse::Off) return "off";
+  if (params.use == RectifyUse::Automatic) return "auto";
+  std::string text;
+  for (const Vec2& corner : params.cornersPx) {
+    if (!text.empty()) text += ',';
+    text += numberToText(corner.x()) + ',' + numberToText(corner.y());
+  }
+  return text;
+}
+
+Parameter rectifyParameter() {
+  Parameter p = described(StageId::Thresholds,
+                          {"paper.rectify", "Rectify", "",
+                           "Makes a sheet photographed at an angle a rectangle: \"off\", \"auto\" to find its corners, "
+                           "or the corners as eight numbers X,Y,X,Y,X,Y,X,Y in px of the picture, clockwise from the "
+                           "upper left. All other places are then px of the rectified page."},
+                          ParameterType::Text);
+  p.get = [](const Recipe& r) { return sheetToText(r.preparation.rectify); };
+  p.set = [name = p.name](Recipe& r, std::string_view text) -> Result<void> {
+    RectifyParams& params = r.preparation.rectify;
+    RectifyParams after{RectifyUse::Off, {Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()}, params.format};
+    if (trimmed(text) == "auto") {
+      after.use = RectifyUse::Automatic;
+    } else if (trimmed(text) != "off") {
+      const auto corners = sheetCornersFromText(text);
+      if (!corners)
+        return refuse(name, text, "it must be \"off\", \"auto\", or the eight numbers X,Y,X,Y,X,Y,X,Y of four corners");
+      after.use = RectifyUse::Corners;
+      after.cornersPx = *corners;
+    }
+    params = after;
+    return {};
+  };
+  return p;
+}
+
+Parameter formatParameter() {
+  std::vector<Word<PaperFormat>> words = {{"auto", "Estimated", PaperFormat::Unknown}};
+  for (const PaperSize& paper : paperSizes())
+    words.push_back({std::string(paper.word), std::string(paper.name), paper.format});
+  return choice<PaperFormat>(
+      StageId::Thresholds,
+      {"paper.format", "Sheet", "",
+       "Format of a rectified sheet: sets its aspect ratio and resolution. auto: the aspect ratio is estimated from "
+       "the "
+       "perspective. No effect on a page that is not rectified."},
+      std::move(words), [](auto& r) -> auto& { return r.preparation.rectify.format; });
+}
+
 void appendLog(std::vector<Parameter>& table) {
   constexpr StageId kThresholds = StageId::Thresholds;
   table.push_back(boolean(
@@ -183,6 +252,8 @@ void appendPage(std::vector<Parameter>& table) {
        "Cuts off the surroundings of the sheet in a photograph, where the sheet is detected."},
       {{"cut-off", "Cut off", SheetUse::CutOff}, {"off", "Keep", SheetUse::Off}},
       [](auto& r) -> auto& { return r.preparation.sheet; }));
+  table.push_back(rectifyParameter());
+  table.push_back(formatParameter());
   appendInks(table);
   table.push_back(boolean(
       kThresholds,

@@ -10,6 +10,7 @@
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
 #include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/recipe/recipe_places.h"
 
 namespace batten {
 namespace {
@@ -26,10 +27,6 @@ void divide(const Parameter& p, double by, Recipe& recipe) {
   if (*value == 0.0) divided = 0.0;
   // Within its range by now: the value before stays if the table has further rules.
   (void)p.set(recipe, numberToText(divided));
-}
-
-void divide(std::vector<Vec2>& places, double by) {
-  for (Vec2& p : places) p /= by;
 }
 
 /// Means over factor x factor pixels, of the size of the coarse grey.
@@ -80,6 +77,8 @@ Scan coarsePage(const Scan& scan, int factor, const RunContext& context) {
   if (scan.fileHash != ContentHash{})
     coarse.fileHash = HashBuilder().text("coarse page").hash(scan.fileHash).integer(factor).finish();
   coarse.path = scan.path;
+  coarse.rectify = scan.rectify;
+  coarse.rectification = scan.rectification;
   coarse.grey = GreyImage(std::max(1, scan.grey.width / factor), std::max(1, scan.grey.height / factor));
   if (!scan.colour.isEmpty()) coarse.colour = coarseColours(scan.colour, coarse.grey, factor, context);
   const auto area = static_cast<std::uint32_t>(factor * factor);
@@ -114,27 +113,8 @@ Recipe coarseRecipe(Recipe recipe, const Scan& scan, int factor) {
     recipe.page->heightPx = scan.grey.height / factor;
     recipe.page->bottomMm += restPx * kMillimetresPerInch / dpi;
   }
-  for (PenStroke& stroke : recipe.penStrokes) divide(stroke.points, by);
-  for (RegionOfInterest& region : recipe.regions) divide(region.cornersPx, by);
-  for (EdgeChoice& choice : recipe.edges.choices) choice.positionPx /= by;
-  for (JunctionChoice& choice : recipe.edges.junctions) {
-    choice.positionPx /= by;
-    for (BranchPair& pair : choice.pairs) {
-      pair.firstPx /= by;
-      pair.secondPx /= by;
-    }
-  }
-  for (CornerMark& mark : recipe.cornerMarks) mark.positionPx /= by;
-  divide(recipe.refusedCornersPx, by);
-  for (SegmentPoint& point : recipe.segmentPoints) point.positionPx /= by;
-  for (ExtremumChoice& choice : recipe.extremumChoices) choice.positionPx /= by;
-  for (PieceChoice& choice : recipe.choices) {
-    divide(choice.anchorsPx, by);
-    divide(choice.keepPx, by);
-    divide(choice.splitsPx, by);
-    for (SpanChoice& span : choice.spanTargets) span.placePx /= by;
-  }
   recipe.curveNumbers = {};
+  movePlaces(recipe, [by](const Vec2& place) -> Vec2 { return place / by; });
   return recipe;
 }
 

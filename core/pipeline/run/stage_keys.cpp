@@ -70,6 +70,11 @@ ContentHash scanKey(const Scan& scan) {
   // A scan that was not read from a file has no file hash; its pixels identify it.
   const bool hasFile =
       std::any_of(scan.fileHash.bytes.begin(), scan.fileHash.bytes.end(), [](auto b) { return b != 0; });
+  if (scan.rectification) {
+    for (const Vec2& corner : scan.rectification->cornersPx) add(h, corner);
+    h.number(scan.rectification->bendPx).number(scan.rectification->outsideShare);
+  }
+  h.text(scan.rectifyNote);
   if (hasFile) h.hash(scan.fileHash).integer(scan.page.number).number(scan.page.pdfDpi);
   if (hasFile) return h.finish();
   if (!scan.colour.isEmpty()) h.bytes(std::as_bytes(std::span(scan.colour.pixels)));

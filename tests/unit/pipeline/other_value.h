@@ -25,6 +25,7 @@ inline std::string otherValue(const Parameter& p) {
   }
   if (p.name == "fairing.alpha") return "0.5";
   if (p.name == "fairing.profile") return "0:0.01 0.25:-0.5 1:0.02";
+  if (p.name == "paper.rectify") return "10,20,300,24,310,420.5,8,400";
   if (p.name.starts_with("inks.")) return "black,215";
   std::string grid = "12.25";
   for (int i = 1; i < kRegions; ++i) grid += i % 3 == 0 ? ",0.1" : ",a";

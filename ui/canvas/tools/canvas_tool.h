@@ -59,5 +59,6 @@ std::unique_ptr<CanvasTool> makeRegionTool(CanvasScene&, bool isLasso);
 std::unique_ptr<CanvasTool> makeScaleTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeDirectionTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeJunctionTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makeSheetTool(CanvasScene&);
 
 }  // namespace batten

@@ -8,7 +8,8 @@ namespace batten {
 
 std::optional<PanelStage> stageOfChange(const Recipe& a, const Recipe& b) {
   if (a == b) return std::nullopt;
-  if (a.dpi != b.dpi || a.scaleLine != b.scaleLine || !(a.log == b.log) || !(a.paper == b.paper))
+  if (a.dpi != b.dpi || a.scaleLine != b.scaleLine || !(a.log == b.log) || !(a.paper == b.paper) ||
+      !(a.preparation == b.preparation))
     return PanelStage::Scan;
   if (!(a.threshold == b.threshold)) return PanelStage::Threshold;
   if (!(a.filter == b.filter)) return PanelStage::CleanUp;

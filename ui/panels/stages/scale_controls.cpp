@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "core/image/rectification.h"
 #include "core/pipeline/recipe/scale_line.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
@@ -21,14 +22,6 @@
 namespace batten {
 namespace {
 
-struct Paper {
-  const char* name;
-  double shortMm, longMm;
-};
-constexpr std::array kPapers = {
-    Paper{"A5", 148, 210},         Paper{"A4", 210, 297},        Paper{"A3", 297, 420},
-    Paper{"A2", 420, 594},         Paper{"A1", 594, 841},        Paper{"A0", 841, 1189},
-    Paper{"Letter", 215.9, 279.4}, Paper{"Legal", 215.9, 355.6}, Paper{"Tabloid", 279.4, 431.8}};
 /// A scan whose sides are as those of the paper but for this share is the whole sheet.
 constexpr double kSameShape = 0.03;
 constexpr double kMillimetresPerCm = 10.0;
@@ -36,6 +29,10 @@ constexpr int kScaleFieldWidth = 92, kUnitWidth = 60;
 /// Millimetres of each unit, in the order of the list.
 constexpr std::array kScaleUnitMm = {1.0, kMillimetresPerCm, kMillimetresPerInch};
 const QString kScaleUnitKey = QStringLiteral("scale/unit");
+
+QString nameOf(const PaperSize& paper) {
+  return QString::fromLatin1(paper.name.data(), static_cast<qsizetype>(paper.name.size()));
+}
 
 /// Sides of the page in the order of the scan's.
 double ratioOf(double a, double b) { return std::max(a, b) / std::min(a, b); }
@@ -108,7 +105,7 @@ void ScaleControls::build() {
   paper_->setAccessibleName(tr("Paper"));
   paper_->setFixedWidth(kScaleFieldWidth);
   paper_->addItem(QStringLiteral("–"));
-  for (const Paper& paper : kPapers) paper_->addItem(QString::fromLatin1(paper.name));
+  for (const PaperSize& paper : paperSizes()) paper_->addItem(nameOf(paper));
   layout->addWidget(rowOf(tr("Paper"), tr("The whole picture is one sheet of this paper."), {paper_}, this));
   measure_->setToolTip(tr("Drag along something of known length.  (M)"));
   layout->addWidget(measure_);
@@ -180,19 +177,19 @@ void ScaleControls::setLength(double length) {
 }
 
 void ScaleControls::choosePaper(int index) {
-  if (index < 1 || index > std::ssize(kPapers) || !session_.hasScan()) return;
-  const Paper& paper = kPapers[index - 1];
+  if (index < 1 || index > std::ssize(paperSizes()) || !session_.hasScan()) return;
+  const PaperSize& paper = paperSizes()[index - 1];
   const PageFrame frame = frameFor(*session_.scan(), session_.recipe());
   const double longPx = std::max(frame.widthPx, frame.heightPx);
   Recipe after = session_.recipe();
   setResolution(after, longPx * kMillimetresPerInch / paper.longMm);
   const double scan = ratioOf(frame.widthPx, frame.heightPx), sheet = ratioOf(paper.shortMm, paper.longMm);
-  change(tr("Paper %1").arg(QString::fromLatin1(paper.name)), std::move(after));
+  change(tr("Paper %1").arg(nameOf(paper)), std::move(after));
   // Said after the change, which writes its own note.
   if (std::abs(scan - sheet) > kSameShape * sheet)
     note_->setText(tr("The picture is not a whole sheet of %1: its aspect ratio is 1 : %2, not 1 : %3. The "
                       "longer side is used.")
-                       .arg(QString::fromLatin1(paper.name))
+                       .arg(nameOf(paper))
                        .arg(scan, 0, 'f', 2)
                        .arg(sheet, 0, 'f', 2));
 }
@@ -226,8 +223,8 @@ void ScaleControls::refresh() {
     width_->setEmpty(QStringLiteral("–"));
   else
     width_->setValue(width);
-  for (std::size_t i = 0; i < kPapers.size() && !assumed; ++i) {
-    const Paper& paper = kPapers[i];
+  for (std::size_t i = 0; i < paperSizes().size() && !assumed; ++i) {
+    const PaperSize& paper = paperSizes()[i];
     const double slack = 0.5;  // [mm] half a mm of cutting tells no paper from another
     if (std::abs(std::min(width, height) - paper.shortMm) < slack &&
         std::abs(std::max(width, height) - paper.longMm) < slack)

@@ -18,6 +18,7 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/import_units.h"
+#include "ui/panels/stages/rectify_controls.h"
 #include "ui/panels/stages/scale_controls.h"
 #include "ui/session/page_text.h"
 #include "ui/theme/theme.h"
@@ -79,7 +80,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   column->addWidget(caption(tr("Tones"), this));
   column->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   column->addWidget(swatch_);
-  buildPaper();
+  buildPaper(view);
   column->addStretch();
   connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
@@ -154,10 +155,11 @@ void ScanPanel::buildScale(ViewSettings& view) {
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
 }
 
-void ScanPanel::buildPaper() {
+void ScanPanel::buildPaper(ViewSettings& view) {
   column()->addWidget(caption(tr("Paper"), this));
   column()->addWidget(new ParameterEditor(
       session_, {"paper.colour", "paper.rulings", "paper.sheet", "paper.flatten", "paper.folds"}, this));
+  column()->addWidget(new RectifyControls(session_, view, this));
   paperNote_->setObjectName(QStringLiteral("scan.paperNote"));
   column()->addWidget(paperNote_);
   new QGridLayout(inkBox_);
@@ -203,7 +205,7 @@ void ScanPanel::refreshPaper() {
                              : tr("%1 horizontal ruled lines were removed."))
                 .arg(count);
   }
-  if (page && page->sheet)
+  if (page && page->sheet && !session_.scan()->rectification)
     said << tr("%1 % of the picture is outside the sheet and was cut off.")
                 .arg(100.0 * page->sheet->outsideShare, 0, 'f', 0);
   refreshInks();

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A sheet that was photographed at an angle is rectified, by the corners that were found or by those that are dragged.
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QComboBox>
+#include <QLabel>
+#include <cmath>
+
+#include "core/image/rectify/sheet_map.h"
+#include "tests/support/photo_page.h"
+#include "tests/ui/window_fixture.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+constexpr int kPhotoWidth = 540, kPhotoHeight = 720;
+
+test::PhotoCamera cameraOf(double tiltDeg) {
+  return test::PhotoCamera(
+      {.widthMm = 148.0, .heightMm = 210.0, .tiltDeg = tiltDeg, .panDeg = 0.5 * tiltDeg, .rollDeg = 3.0}, kPhotoWidth,
+      kPhotoHeight);
+}
+
+QImage photo(double tiltDeg) {
+  const Scan scan = renderPhoto(
+      cameraOf(tiltDeg), [](const Vec2& mm) { return std::abs((mm - Vec2(74, 100)).norm() - 45.0) < 0.8 ? 1.0 : 0.0; });
+  QImage image(kPhotoWidth, kPhotoHeight, QImage::Format_Grayscale8);
+  for (int y = 0; y < kPhotoHeight; ++y)
+    for (int x = 0; x < kPhotoWidth; ++x) image.scanLine(y)[x] = static_cast<uchar>(scan.grey.row(y)[x] / 257);
+  return image;
+}
+
+class RectifyWindow : public test::WindowFixture {
+ protected:
+  void open(double tiltDeg) {
+    ASSERT_NO_FATAL_FAILURE(openPage(photo(tiltDeg)));
+    window_->setStage(PanelStage::Scan);
+    rectify_ = find<QAbstractButton>("scan.rectify");
+    whole_ = find<QAbstractButton>("scan.wholePicture");
+    note_ = find<QLabel>("scan.rectifyNote");
+    ASSERT_TRUE(rectify_ && whole_ && note_);
+  }
+  bool isRectified() { return session().scan()->rectification.has_value(); }
+  /// Width over height of what the first curve's points span.
+  double aspect() {
+    Vec2 low(1e9, 1e9), high(-1e9, -1e9);
+    for (const PiecePoint& p : session().output().pieces->pieces.front().points) {
+      low = low.cwiseMin(p.at);
+      high = high.cwiseMax(p.at);
+    }
+    return (high - low).x() / (high - low).y();
+  }
+  void drag(const Vec2& from, const Vec2& to) {
+    QCoreApplication::processEvents();
+    auto* canvas = find<CurveCanvas>("canvas");
+    const QPoint a = canvas->toWidget(from).toPoint(), b = canvas->toWidget(to).toPoint();
+    QTest::mousePress(canvas, Qt::LeftButton, {}, a);
+    QTest::mouseMove(canvas, (a + b) / 2);
+    QTest::mouseMove(canvas, b);
+    QTest::mouseRelease(canvas, Qt::LeftButton, {}, b);
+  }
+  QAbstractButton* rectify_ = nullptr;
+  QAbstractButton* whole_ = nullptr;
+  QLabel* note_ = nullptr;
+};
+
+TEST_F(RectifyWindow, IsOfferedDoneKeepsTheMarksAndIsUndone) {
+  open(25.0);
+  ASSERT_TRUE(rectify_->isVisible()) << note_->text().toStdString();
+  EXPECT_TRUE(note_->text().contains(QStringLiteral("at an angle"))) << note_->text().toStdString();
+  EXPECT_FALSE(whole_->isVisible());
+  // A mark on the ring: it stays on it.
+  const Vec2 onRing = cameraOf(25.0).toPicture(Vec2(74 + 45, 100));
+  Recipe marked = session().recipe();
+  marked.cornerMarks.push_back({onRing});
+  session().change(QStringLiteral("Mark"), marked);
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(session().output().pieces->lostMarks.empty());
+  EXPECT_GT(std::abs(aspect() - 1.0), 0.02);
+  const int step = session().undoStack()->index();
+  const auto picture = session().scan();
+  rectify_->click();
+  EXPECT_EQ(session().undoStack()->index(), step + 1);
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  ASSERT_FALSE(session().output().error) << session().output().error->message;
+  EXPECT_NEAR(aspect(), 1.0, 0.012);
+  EXPECT_TRUE(session().output().pieces->lostMarks.empty());
+  ASSERT_EQ(session().recipe().cornerMarks.size(), 1u);
+  const SheetMap map(*session().scan()->rectification);
+  EXPECT_LT((map.toPicture(session().recipe().cornerMarks[0].positionPx) - onRing).norm(), 1e-6);
+  EXPECT_FALSE(rectify_->isVisible());
+  EXPECT_TRUE(whole_->isVisible());
+  EXPECT_TRUE(note_->text().contains(QStringLiteral("% of the picture was cut off"))) << note_->text().toStdString();
+  EXPECT_EQ(session().picture(), picture);
+
+  session().undoStack()->undo();
+  ASSERT_TRUE(waitUntil([&] { return !isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().scan(), picture) << "no copy of it";
+  EXPECT_EQ(session().recipe().cornerMarks[0].positionPx, onRing);
+  session().undoStack()->redo();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  EXPECT_NEAR(aspect(), 1.0, 0.012);
+  whole_->click();
+  ASSERT_TRUE(waitUntil([&] { return !isRectified() && !session().isBusy(); }));
+  EXPECT_LT((session().recipe().cornerMarks[0].positionPx - onRing).norm(), 1e-6);
+}
+
+TEST_F(RectifyWindow, TheFormatSetsTheScale) {
+  open(25.0);
+  rectify_->click();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  auto* format = find<QComboBox>("paper.format");
+  ASSERT_TRUE(format->isVisible());
+  format->setFocus();
+  for (int i = 0; i < 2; ++i) QTest::keyClick(format, Qt::Key_Down);
+  ASSERT_EQ(format->currentText(), QStringLiteral("A5"));
+  ASSERT_TRUE(waitUntil(
+      [&] { return session().scan()->rectification && session().scan()->rectification->dpi && !session().isBusy(); }));
+  const PageFrame frame = frameFor(*session().scan(), session().recipe());
+  EXPECT_NEAR(frame.heightPx * frame.mmPerPx, 210.0, 0.01);
+  EXPECT_NEAR(frame.widthPx * frame.mmPerPx, 148.0, 0.3);
+}
+
+TEST_F(RectifyWindow, CornersAreDraggedAndEnterRectifies) {
+  open(0.0);
+  EXPECT_FALSE(rectify_->isVisible()) << "seen from the front";
+  window_->action(ActionId::ToolSheet)->trigger();
+  EXPECT_EQ(window_->stage(), PanelStage::Scan);
+  EXPECT_TRUE(rectify_->isVisible());
+  const Vec2 start(0.1 * kPhotoWidth, 0.1 * kPhotoHeight), end(140, 110);
+  drag(start, end);
+  ASSERT_TRUE(window_->view().sheetCorners());
+  EXPECT_LT(((*window_->view().sheetCorners())[0] - end).norm(), 2.0);
+  EXPECT_EQ(session().recipe().preparation.rectify.use, RectifyUse::Off) << "until Enter";
+  QTest::keyClick(find<CurveCanvas>("canvas"), Qt::Key_Return);
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  EXPECT_LT((session().scan()->rectification->cornersPx[0] - end).norm(), 2.0);
+  EXPECT_EQ(window_->view().tool(), Tool::Select);
+  // On the rectified page the corners are its own; what cannot be a sheet is refused with the reason.
+  const Recipe before = session().recipe();
+  window_->action(ActionId::ToolSheet)->trigger();
+  const double width = session().scan()->grey.width, height = session().scan()->grey.height;
+  window_->view().setSheetCorners(SheetCorners{Vec2(0, 0), Vec2(width, height), Vec2(width, 0), Vec2(0, height)});
+  rectify_->click();
+  EXPECT_EQ(session().recipe(), before);
+  EXPECT_TRUE(note_->text().contains(QStringLiteral("cross"))) << note_->text().toStdString();
+  ASSERT_TRUE(settle());
+}
+
+TEST_F(RectifyWindow, ARecipeWithCornersOpensRectifiedAndFailsWithAReasonOnAnotherPicture) {
+  open(25.0);
+  rectify_->click();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  const Recipe kept = session().recipeToSave();
+  const double before = aspect();
+  session().restore(path_, kept);
+  ASSERT_TRUE(waitUntil([&] { return session().wasRestored() && isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().recipe().preparation.rectify, kept.preparation.rectify);
+  EXPECT_NEAR(aspect(), before, 1e-12);
+
+  Recipe wrong = kept;
+  for (Vec2& corner : wrong.preparation.rectify.cornersPx) corner += Vec2(3000.0, 0.0);
+  session().change(QStringLiteral("Wrong"), wrong);
+  ASSERT_TRUE(waitUntil([&] { return session().output().error.has_value() && !session().isBusy(); }));
+  EXPECT_NE(session().output().error->message.find("outside the picture"), std::string::npos);
+  session().undoStack()->undo();
+  ASSERT_TRUE(waitUntil([&] { return !session().output().error && !session().isBusy(); }));
+  EXPECT_NEAR(aspect(), before, 1e-12);
+}
+
+}  // namespace
+}  // namespace batten
