@@ -306,7 +306,8 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx) {
   sheet.cellPx = std::max(2, (std::max(widthPx, heightPx) + kSheetCells - 1) / kSheetCells);
   const int columns = std::max(1, widthPx / sheet.cellPx), rows = std::max(1, heightPx / sheet.cellPx);
   const double rimPx = kSheetRimShare * std::hypot(widthPx, heightPx);
-  const int rim = std::clamp(static_cast<int>(std::ceil(rimPx / sheet.cellPx)), 1, (std::min(columns, rows) - 1) / 2);
+  const int widest = (std::min(columns, rows) - 1) / 2;  // 0: too narrow a strip to have a rim
+  const int rim = std::min(std::max(1, static_cast<int>(std::ceil(rimPx / sheet.cellPx))), widest);
   sheet.inside = BitImage(columns, rows);
   for (int j = rim; j < rows - rim; ++j) {
     for (int i = rim; i < columns - rim; ++i) sheet.inside.set(i, j, true);

@@ -109,6 +109,30 @@ TEST_F(RectifyWindow, IsOfferedDoneKeepsTheMarksAndIsUndone) {
   EXPECT_LT((session().recipe().cornerMarks[0].positionPx - onRing).norm(), 1e-6);
 }
 
+TEST_F(RectifyWindow, MarksMoveOnceHoweverOftenItIsAskedForBeforeThePageIsThere) {
+  open(25.0);
+  const Vec2 onRing = cameraOf(25.0).toPicture(Vec2(74 + 45, 100));
+  Recipe marked = session().recipe();
+  marked.cornerMarks.push_back({onRing});
+  session().change(QStringLiteral("Mark"), marked);
+  ASSERT_TRUE(settle());
+  for (int i = 0; i < 2; ++i) rectify_->click();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  const auto markOnPicture = [&] {
+    return Vec2(SheetMap(*session().scan()->rectification).toPicture(session().recipe().cornerMarks.at(0).positionPx));
+  };
+  EXPECT_LT((markOnPicture() - onRing).norm(), 1e-6);
+  auto* format = find<QComboBox>("paper.format");
+  format->setFocus();
+  for (int i = 0; i < 2; ++i) QTest::keyClick(format, Qt::Key_Down);
+  ASSERT_TRUE(waitUntil(
+      [&] { return session().scan()->rectification && session().scan()->rectification->dpi && !session().isBusy(); }));
+  EXPECT_LT((markOnPicture() - onRing).norm(), 1e-6);
+  for (int i = 0; i < 2; ++i) whole_->click();
+  ASSERT_TRUE(waitUntil([&] { return !isRectified() && !session().isBusy(); }));
+  EXPECT_LT((session().recipe().cornerMarks.at(0).positionPx - onRing).norm(), 1e-6);
+}
+
 TEST_F(RectifyWindow, TheFormatSetsTheScale) {
   open(25.0);
   rectify_->click();

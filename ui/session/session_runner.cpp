@@ -221,6 +221,7 @@ void EditorSession::Runner::run() {
       inbox.post([this, scan, generation, stage, soFar] { applyStage(scan, generation, stage, soFar); });
     };
     PipelineOutput output;
+    output.frame = frameFor(*scan, recipe);
     if (!wanted)
       output.error = wanted.error();
     else if (auto done = guarded<PipelineOutput>(

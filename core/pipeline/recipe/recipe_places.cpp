@@ -82,7 +82,7 @@ CurveNumbers rectifiedNumbers(CurveNumbers numbers, const std::optional<Rectific
 
 Recipe rectifiedRecipe(Recipe recipe, const std::optional<Rectification>& before,
                        const std::optional<Rectification>& after, const RectifyParams& params) {
-  movePlaces(recipe, BetweenPages(before, after));
+  if (!isSamePage(before, after)) movePlaces(recipe, BetweenPages(before, after));
   recipe.preparation.rectify = params;
   if (recipe.scaleLine)
     setScaleLine(recipe, ScaleLine(*recipe.scaleLine));

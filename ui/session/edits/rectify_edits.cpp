@@ -2,6 +2,7 @@
 #include "ui/session/edits/rectify_edits.h"
 
 #include <QObject>
+#include <optional>
 #include <utility>
 
 #include "core/image/rectified_scan.h"
@@ -12,10 +13,20 @@
 namespace batten {
 namespace {
 
+// The page on which the places of the recipe lie; another one is shown as long as this one is being made.
+std::optional<Rectification> pageOfRecipe(const EditorSession& session) {
+  const RectifyParams& params = session.recipe().preparation.rectify;
+  if (params.use == RectifyUse::Off) return std::nullopt;
+  if (params.use == RectifyUse::Corners) {
+    if (auto made = rectificationOf(*session.picture(), params.cornersPx, params.format)) return *made;
+  }
+  return session.scan()->rectification;
+}
+
 Result<void> change(EditorSession& session, const QString& what, const RectifyParams& params) {
   const auto made = rectificationOf(*session.picture(), params.cornersPx, params.format);
   if (!made) return fail(made.error());
-  session.change(what, rectifiedRecipe(session.recipe(), session.scan()->rectification, *made, params));
+  session.change(what, rectifiedRecipe(session.recipe(), pageOfRecipe(session), *made, params));
   return {};
 }
 
@@ -41,7 +52,7 @@ Result<void> rectifyBy(EditorSession& session, const SheetCorners& cornersPx) {
 }
 
 Result<void> setSheetFormat(EditorSession& session, PaperFormat format) {
-  const auto& now = session.scan()->rectification;
+  const auto now = pageOfRecipe(session);
   if (!now) return {};
   return change(session, QObject::tr("Format of the sheet"), {RectifyUse::Corners, now->cornersPx, format});
 }
@@ -50,7 +61,7 @@ void stopRectifying(EditorSession& session) {
   RectifyParams params;
   params.format = session.recipe().preparation.rectify.format;
   session.change(QObject::tr("Whole picture"),
-                 rectifiedRecipe(session.recipe(), session.scan()->rectification, std::nullopt, params));
+                 rectifiedRecipe(session.recipe(), pageOfRecipe(session), std::nullopt, params));
 }
 
 }  // namespace batten
