@@ -24,13 +24,15 @@ constexpr double fallingFactor(int power, int order) {
   return f;
 }
 
-/// The pieces derived 0..4 times: row, then coefficients of the powers left, highest last.
+using PieceLanes = std::array<double, 6>;
+
+/// The pieces derived 0..4 times: by the powers left, the coefficients of all six.
 constexpr auto kDerived = [] {
-  std::array<std::array<std::array<double, 6>, 6>, 5> table{};
+  std::array<std::array<PieceLanes, 6>, 5> table{};
   for (int order = 0; order < 5; ++order) {
     for (std::size_t j = 0; j < 6; ++j) {
       for (int power = order; power < 6; ++power) {
-        table[order][j][power - order] = fallingFactor(power, order) * kPieces[j][power];
+        table[order][power - order][j] = fallingFactor(power, order) * kPieces[j][power];
       }
     }
   }
@@ -40,17 +42,18 @@ constexpr auto kDerived = [] {
 /// The polynomials that are 1 at one node of the rule of a span and 0 at the others.
 constexpr auto kSpeedPowers = lagrangePolynomials(kSpanRule.node);
 
-std::array<double, 6> pieceValues(double t, int order, double spacing) {
-  std::array<double, 6> values;
-  double scale = 1.0 / 120.0;
-  for (int i = 0; i < order; ++i) scale /= spacing;
-  const auto& table = kDerived[order];
-  for (std::size_t j = 0; j < 6; ++j) {
-    const auto& c = table[j];
-    values[j] = (c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))))) * scale;
+/// The six pieces at t, derived so often, times `scale`: side by side.
+template <int kOrder>
+PieceLanes pieceValues(double t, double scale) {
+  PieceLanes values = kDerived[kOrder][5 - kOrder];
+  for (int power = 4 - kOrder; power >= 0; --power) {
+    for (std::size_t j = 0; j < 6; ++j) values[j] = kDerived[kOrder][power][j] + t * values[j];
   }
+  for (double& value : values) value *= scale;
   return values;
 }
+
+constexpr double kPieceScale = 1.0 / 120.0;
 
 }  // namespace
 
@@ -63,7 +66,37 @@ UniformKnots::Place UniformKnots::placeOf(double u) const {
 
 BandRow UniformKnots::row(double u, int order) const {
   const Place place = placeOf(u);
-  return {place.span, pieceValues(place.at, order, spacing())};
+  const double step = spacing();
+  double scale = kPieceScale;
+  for (int i = 0; i < order; ++i) scale /= step;
+  switch (order) {
+    case 0:
+      return {place.span, pieceValues<0>(place.at, scale)};
+    case 1:
+      return {place.span, pieceValues<1>(place.at, scale)};
+    case 2:
+      return {place.span, pieceValues<2>(place.at, scale)};
+    case 3:
+      return {place.span, pieceValues<3>(place.at, scale)};
+    default:
+      return {place.span, pieceValues<4>(place.at, scale)};
+  }
+}
+
+std::array<BandRow, 2> UniformKnots::firstRows(double u) const {
+  const auto [span, t] = placeOf(u);
+  return {BandRow{span, pieceValues<0>(t, kPieceScale)}, BandRow{span, pieceValues<1>(t, kPieceScale / spacing())}};
+}
+
+std::array<BandRow, 5> UniformKnots::rows(double u, bool bendOnly) const {
+  const auto [span, t] = placeOf(u);
+  const double step = spacing();
+  const double first = kPieceScale / step, second = first / step, third = second / step, fourth = third / step;
+  std::array<BandRow, 5> rows{BandRow{span, pieceValues<0>(t, kPieceScale)}, BandRow{span, pieceValues<1>(t, first)},
+                              BandRow{span, pieceValues<2>(t, second)}, BandRow{span, {}},
+                              BandRow{span, pieceValues<4>(t, fourth)}};
+  if (!bendOnly) rows[3].v = pieceValues<3>(t, third);
+  return rows;
 }
 
 UniformQuintic::UniformQuintic(const UniformKnots& knots, std::vector<Vec2> coefficients)

@@ -27,6 +27,10 @@ struct UniformKnots {
   /// The six basis values of derivative `order` (0..4) at u; closed: u modulo length. Beyond open ends the end
   /// polynomial runs on.
   BandRow row(double u, int order) const;
+  /// Those of the orders 0 and 1.
+  std::array<BandRow, 2> firstRows(double u) const;
+  /// Those of the orders 0 to 4; `bendOnly` leaves the third out.
+  std::array<BandRow, 5> rows(double u, bool bendOnly) const;
   struct Place {
     int span = 0;
     double at = 0.0;  ///< 0..1 inside the domain.

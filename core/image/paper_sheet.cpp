@@ -181,7 +181,7 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     const double roughness = cv::mean(cells.rough, patch)[0];
     const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
     // Even paper that is brighter than what it encloses: that is a drawn solid, and no dark sheet on a table.
-    const bool isPaper = mean[0] >= level + kSheetContrast && roughness <= kMostRoughness;
+    const bool isPaper = mean[0] >= level + kSolidContrast && roughness <= kMostRoughness;
     if (isPaper) continue;
     if (!shaded) shaded.emplace(sheet, cells);
     if (shaded->isOne(patch)) continue;

@@ -21,9 +21,9 @@ constexpr int kPaperCells = 7;                           // beyond them: what li
 constexpr int kFewestCells = 2;                          // of them, at the border of the picture
 constexpr int kNextDepth = kNoneOf + kPaperCells + 3;    // cells: where the paper goes on without a step
 constexpr float kMostStepSeen = 12.0f;                   // [grey] ink and things on the table do not count for more
-constexpr float kGreatestStep = 30.0f;  // [grey] a darker table is told by its cells; a solid is darker
-constexpr float kLeastStep = 2.5f;      // [grey] in brightness or tint
-constexpr double kLeastShowing = 0.75;  // of the places show the step
+constexpr float kGreatestStep = 30.0f;                   // [grey] a darker table is told by its cells
+constexpr float kLeastStep = 2.5f;                       // [grey] in brightness or tint
+constexpr double kLeastShowing = 0.75;                   // of the places show the step
 constexpr float kLeastOfStep = 0.4f, kMostOfStep = 2.5f;
 constexpr float kLeastOwn = 0.5f;    // of the step: the rest may be shading
 constexpr float kLeastSharp = 0.6f;  // of the step, within the edge
@@ -150,6 +150,7 @@ bool isSheetEdge(const StraightEdge& edge, const SideSteps& steps) {
   if (std::fabs(step) < kLeastStep || std::fabs(step) > kGreatestStep || !isAllAlong(edge, steps, step) ||
       !isSharp(edge, steps, step))
     return false;
+  if (edge.channel == 0 && step >= kSolidContrast) return false;
   // Shading goes on a little farther in and out, and changes its slope slowly.
   const std::optional<float> outer = medianStep(edge, steps, -kNextDepth), inner = medianStep(edge, steps, kNextDepth);
   const float beside = outer && inner ? 0.5f * (*outer + *inner) : inner.value_or(0.0f);

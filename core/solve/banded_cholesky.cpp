@@ -127,13 +127,20 @@ bool BandedCholesky::factor(const BandedMatrix& matrix, double leastPivot) {
   cyclic_ = matrix.isCyclic();
   band_ = cyclic_ ? 2 * halfWidth_ : halfWidth_;
   const auto width = static_cast<std::ptrdiff_t>(band_) + 1;
-  lower_.assign(size_ * width, 0.0);
-  for (int i = 0; i < size_; ++i) {
-    for (int k = 0; k <= halfWidth_; ++k) {
-      if (!cyclic_ && i + k >= size_) break;
-      const int p = place(i), q = place((i + k) % size_);
-      const int row = std::max(p, q), column = std::min(p, q);
-      lower_[row * width + band_ - row + column] += matrix.entry(i, k);
+  if (cyclic_) {
+    lower_.assign(size_ * width, 0.0);
+    for (int i = 0; i < size_; ++i) {
+      for (int k = 0; k <= halfWidth_; ++k) {
+        const int p = place(i), q = place(i + k < size_ ? i + k : i + k - size_);
+        const int row = std::max(p, q), column = std::min(p, q);
+        lower_[row * width + band_ - row + column] += matrix.entry(i, k);
+      }
+    }
+  } else {
+    lower_.resize(size_ * width);
+    double* row = lower_.data();
+    for (int r = 0; r < size_; ++r, row += width) {
+      for (int j = 0; j <= band_; ++j) row[j] = r - band_ + j < 0 ? 0.0 : matrix.entry(r - band_ + j, band_ - j);
     }
   }
   return withBand(band_, [&](auto known) { return factorRows<known()>(lower_, size_, band_, leastPivot); });
@@ -157,7 +164,7 @@ BandedMatrix BandedCholesky::inverseBand() const {
   for (int i = 0; i < size_; ++i) {
     for (int k = 0; k <= halfWidth_; ++k) {
       if (!cyclic_ && i + k >= size_) break;
-      const int p = place(i), q = place((i + k) % size_);
+      const int p = place(i), q = place(i + k < size_ ? i + k : i + k - size_);
       inverse.entry(i, k) = z[std::min(p, q) * width + std::abs(p - q)];
     }
   }

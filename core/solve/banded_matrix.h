@@ -43,7 +43,13 @@ class BandedMatrix {
   void addOuter(const BandRow& row, double weight);
   /// += factor * other (same size and kind).
   void add(const BandedMatrix& other, double factor);
-  Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd operator*(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd y;
+    multiply(x, y);
+    return y;
+  }
+  /// y = this x.
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   /// The open matrix of `count` unknowns from `first` on (modulo n), without what couples them to the others. Cyclic
   /// matrices: count <= n - halfWidth.
   BandedMatrix block(int first, int count) const;

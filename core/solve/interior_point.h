@@ -7,6 +7,7 @@
 #include <concepts>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/base/cancel_check.h"
 #include "core/base/termination.h"
@@ -21,11 +22,11 @@ concept QuadraticProgram = requires(const P& p, typename P::Factor& factor, cons
   { p.size() } -> std::convertible_to<Eigen::Index>;
   { p.rowCount() } -> std::convertible_to<Eigen::Index>;
   { p.linear() } -> std::convertible_to<const Eigen::VectorXd&>;  // b
-  { p.multiply(v) } -> std::convertible_to<Eigen::VectorXd>;      // A v
+  p.multiply(v, out);                                             // out = A v
   { p.bound(i) } -> std::convertible_to<double>;                  // h_i
   { p.dotRow(i, v) } -> std::convertible_to<double>;              // r_i . v
   p.addRow(i, 1.0, out);                                          // out += factor r_i'
-  { p.dotRows(v) } -> std::convertible_to<Eigen::VectorXd>;       // of all i
+  p.dotRows(v, out);                                              // of all i
   p.addRows(v, out);                                              // out += sum v_i r_i'
   { p.factorise(v, factor) } -> std::convertible_to<bool>;        // A + sum v_i r_i' r_i; an empty v is zero
   factor.solveInPlace(out);
@@ -70,8 +71,9 @@ class InteriorPoint {
     const bool hasRows = problem_.rowCount() > 0;
     result.why = hasRows ? iterateAll(result) : Termination::Exact;
     if (hasRows) result.lowerBound = std::max(result.lowerBound, lowerBound());
-    result.x = x_;
-    result.objective = x_.dot(problem_.multiply(x_)) - 2.0 * problem_.linear().dot(x_);
+    problem_.multiply(x_, product_);
+    result.objective = x_.dot(product_) - 2.0 * problem_.linear().dot(x_);
+    result.x = std::move(x_);
     return result;
   }
 
@@ -83,14 +85,18 @@ class InteriorPoint {
   static constexpr double kStuck = 1e-10;
 
   /// All rows, scaled.
-  Eigen::VectorXd rows(const Eigen::VectorXd& v) const { return scale_ * problem_.dotRows(v); }
+  void rows(const Eigen::VectorXd& v, Eigen::VectorXd& out) const {
+    problem_.dotRows(v, out);
+    out *= scale_;
+  }
 
   Termination iterateAll(InteriorPointResult& result) {
     const Eigen::Index count = problem_.rowCount();
     setScale(count / 2);
     bounds_.resize(count);
     for (Eigen::Index i = 0; i < count; ++i) bounds_[i] = scale_ * problem_.bound(i);
-    s_ = (rows(x_) - bounds_).cwiseMax(1.0);
+    rows(x_, s_);
+    s_ = (s_ - bounds_).cwiseMax(1.0);
     z_ = Eigen::VectorXd::Ones(count);
     const bool mayAbort = std::isfinite(limits_.abortAbove);
     int stuck = 0;  // steps in a row
@@ -120,66 +126,72 @@ class InteriorPoint {
 
   /// Residuals A x - b - G'z and G x - h - s.
   void residuals() {
-    dual_ = problem_.multiply(x_) - problem_.linear();
-    problem_.addRows(-scale_ * z_, dual_);
-    primal_ = rows(x_) - bounds_ - s_;
+    problem_.multiply(x_, product_);
+    dual_ = product_ - problem_.linear();
+    weights_ = -scale_ * z_;
+    problem_.addRows(weights_, dual_);
+    rows(x_, primal_);
+    primal_ = primal_ - bounds_ - s_;
   }
 
   /// Lagrange's dual value for the multipliers: a proven lower bound.
-  double lowerBound() const {
-    double lagrangian = x_.dot(problem_.multiply(x_)) - 2.0 * problem_.linear().dot(x_);
+  double lowerBound() {
+    double lagrangian = x_.dot(product_) - 2.0 * problem_.linear().dot(x_);
     for (Eigen::Index i = 0; i < z_.size(); ++i) lagrangian -= 2.0 * z_[i] * (primal_[i] + s_[i]);
-    Eigen::VectorXd solved = dual_;
-    plain_.solveInPlace(solved);
-    return lagrangian - dual_.dot(solved);
+    solved_ = dual_;
+    plain_.solveInPlace(solved_);
+    return lagrangian - dual_.dot(solved_);
   }
 
-  /// The Newton step for the complementarity target `rc`.
-  void direction(const typename Problem::Factor& m, const Eigen::VectorXd& rc, Eigen::VectorXd& dx, Eigen::VectorXd& ds,
-                 Eigen::VectorXd& dz) const {
-    dx = -dual_;
-    problem_.addRows((-scale_ * (rc + z_.cwiseProduct(primal_))).cwiseQuotient(s_), dx);
-    m.solveInPlace(dx);
-    ds = rows(dx) + primal_;
-    dz = -(rc + z_.cwiseProduct(ds)).cwiseQuotient(s_);
+  /// The Newton step dx_, ds_, dz_ for the complementarity target rc_.
+  void direction() {
+    dx_ = -dual_;
+    weights_ = (-scale_ * (rc_ + z_.cwiseProduct(primal_))).cwiseQuotient(s_);
+    problem_.addRows(weights_, dx_);
+    factor_.solveInPlace(dx_);
+    rows(dx_, ds_);
+    ds_ += primal_;
+    dz_ = -(rc_ + z_.cwiseProduct(ds_)).cwiseQuotient(s_);
   }
 
-  double longestStep(const Eigen::VectorXd& ds, const Eigen::VectorXd& dz) const {
+  double longestStep() const {
     double step = 1.0;
     for (Eigen::Index i = 0; i < s_.size(); ++i) {
-      if (ds[i] < 0.0) step = std::min(step, -s_[i] / ds[i]);
-      if (dz[i] < 0.0) step = std::min(step, -z_[i] / dz[i]);
+      if (ds_[i] < 0.0) step = std::min(step, -s_[i] / ds_[i]);
+      if (dz_[i] < 0.0) step = std::min(step, -z_[i] / dz_[i]);
     }
     return step;
   }
 
   /// @return the share of the way that was gone; none where a system is singular, and when the run is cancelled.
   std::optional<double> iterate() {
-    typename Problem::Factor m;
-    if (!problem_.factorise(scale_ * scale_ * z_.cwiseQuotient(s_), m) || check_.isCancelled()) return std::nullopt;
+    weights_ = scale_ * scale_ * z_.cwiseQuotient(s_);
+    if (!problem_.factorise(weights_, factor_) || check_.isCancelled()) return std::nullopt;
     const Eigen::Index count = s_.size();
-    Eigen::VectorXd dx, ds(count), dz(count), rc = s_.cwiseProduct(z_);
-    direction(m, rc, dx, ds, dz);
-    const double affine = longestStep(ds, dz);
+    rc_ = s_.cwiseProduct(z_);
+    direction();
+    const double affine = longestStep();
     const double mu = s_.dot(z_) / static_cast<double>(count);
-    const double muAffine = (s_ + affine * ds).dot(z_ + affine * dz) / static_cast<double>(count);
+    const double muAffine = (s_ + affine * ds_).dot(z_ + affine * dz_) / static_cast<double>(count);
     const double sigma = std::pow(std::clamp(muAffine / mu, 0.0, 1.0), 3);
-    rc += ds.cwiseProduct(dz) - Eigen::VectorXd::Constant(count, sigma * mu);
-    direction(m, rc, dx, ds, dz);
-    if (!dx.allFinite() || !ds.allFinite() || !dz.allFinite()) return std::nullopt;
-    const double step = std::min(1.0, kStep * longestStep(ds, dz));
-    x_ += step * dx;
-    s_ += step * ds;
-    z_ += step * dz;
+    rc_ += ds_.cwiseProduct(dz_) - Eigen::VectorXd::Constant(count, sigma * mu);
+    direction();
+    if (!dx_.allFinite() || !ds_.allFinite() || !dz_.allFinite()) return std::nullopt;
+    const double step = std::min(1.0, kStep * longestStep());
+    x_ += step * dx_;
+    s_ += step * ds_;
+    z_ += step * dz_;
     return step;
   }
 
   const Problem& problem_;
   InteriorPointLimits limits_;
   CancelCheck check_;
-  typename Problem::Factor plain_;
+  typename Problem::Factor plain_, factor_;  ///< Of A, and of the Newton step.
   double scale_ = 1.0;
   Eigen::VectorXd x_, s_, z_, dual_, primal_, bounds_;  ///< Unknowns, slacks, multipliers, residuals; h, scaled.
+  Eigen::VectorXd dx_, ds_, dz_, rc_, weights_;         ///< Of the step.
+  Eigen::VectorXd product_, solved_;                    ///< A x_; what lowerBound() works in.
 };
 
 }  // namespace batten

@@ -62,6 +62,7 @@ std::string libraryOf(const std::string& header) {
   if (header.starts_with("Eigen/")) return "eigen";
   if (header.starts_with("tl/")) return "expected";
   if (header.starts_with("openssl/")) return "openssl";
+  if (header == "immintrin.h") return "intrinsics";
   if (header.starts_with("nlohmann/")) return "json";
   if (header.starts_with("CLI/")) return "cli11";
   if (header == "qcustomplot.h") return "qcustomplot";

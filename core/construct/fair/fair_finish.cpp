@@ -260,16 +260,18 @@ class FinishedFit {
 
   /// True if the curvature itself (the programs see it to first order) has more extrema than the structure.
   bool hasMoreExtrema(const UniformQuintic& curve, const FairStructure& structure) const {
-    const auto stations = checkStations(curve, kFineChecksPerSpan, context_);
+    const UniformKnots& knots = curve.knots();
+    const int steps = kFineChecksPerSpan * knots.spans, count = steps + (knots.closed ? 0 : 1);
     Vec2 low = curve.at(0.0, 0)[0], high = low;
-    for (const FrameStation& s : stations) {
-      const Vec2 p = curve.at(s.u, 0)[0];
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
+    std::vector<double> kappa;
+    kappa.reserve(static_cast<std::size_t>(count));
+    for (int j = 0; j < count && !context_.isCancelled(); ++j) {
+      const PlaneDerivatives d = curve.at(j * knots.length / steps, 2);
+      low = low.cwiseMin(d[0]);
+      high = high.cwiseMax(d[0]);
+      kappa.push_back(frameCurvature(d));
     }
     const double least = kWrongWay / (high - low).norm();
-    std::vector<double> kappa;
-    for (const FrameStation& s : stations) kappa.push_back(s.kappa);
     return countExtrema(kappa, least) > std::ssize(structure.extrema);
   }
 

@@ -56,11 +56,7 @@ Vec2 unitNormal(const Vec2& velocity) {
 
 FrameStation makeStation(const UniformQuintic& base, double u, bool bendOnly) {
   const UniformKnots& knots = base.knots();
-  std::array<BandRow, 5> rows;
-  for (int order = 0; order < 5; ++order) {
-    if (order == 3 && bendOnly) continue;
-    rows[order] = knots.row(u, order);
-  }
+  std::array<BandRow, 5> rows = knots.rows(u, bendOnly);
   FrameStation s = frameStation(base.at(u, 4), rows);
   s.u = u;
   return s;
@@ -111,6 +107,11 @@ void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions&
 }
 
 }  // namespace
+
+double frameCurvature(const PlaneDerivatives& d) {
+  const double w = std::max(d[1].squaredNorm(), 1e-12), v = std::sqrt(w);
+  return cross(d[1], d[2]) * (1.0 / (w * v));
+}
 
 FrameStation frameStation(const PlaneDerivatives& d, const std::array<BandRow, 5>& b) {
   FrameStation s;
@@ -231,8 +232,8 @@ OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, do
   const double speed = std::max(p[1].norm(), 1e-12);
   const Vec2 normal = leftNormal(p[1]) / speed;
   const double kappa = cross(p[1], p[2]) / (speed * speed * speed);
-  const double offset = dot(base.knots().row(u, 0), d);
-  const double rate = dot(base.knots().row(u, 1), d);
+  const auto [value, slope] = base.knots().firstRows(u);
+  const double offset = dot(value, d), rate = dot(slope, d);
   return {p[0] + offset * normal, p[1] * (1.0 - kappa * offset) + rate * normal};
 }
 

@@ -39,6 +39,8 @@ struct FrameStation {
 
 /// The same from derivatives 0..4 of the curve, which runs at about unit speed, and the basis rows of these orders.
 FrameStation frameStation(const PlaneDerivatives&, const std::array<BandRow, 5>& rows);
+/// Its curvature alone, from derivatives 1 and 2.
+double frameCurvature(const PlaneDerivatives&);
 
 /// The mean of the points over some px of the line.
 struct FairBlock {

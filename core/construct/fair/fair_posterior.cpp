@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/hot_loop.h"
 #include "core/solve/banded_cholesky.h"
 
 namespace batten {
@@ -19,6 +20,27 @@ constexpr int kMeasuredStep = 3;                                      // of the 
 
 double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::numbers::pi), 8); }
 
+/// out[i] = the sum of kernel[|k|] * v[i + k], |k| <= radius, over `weight`.
+BATTEN_HOT_LOOP void averageInside(const double* v, int count, const double* kernel, int radius, double weight,
+                                   double* __restrict out) {
+  constexpr int kLanes = 8;
+  int i = radius;
+  for (; i + kLanes <= count - radius; i += kLanes) {
+    double sums[kLanes] = {};
+    for (int k = -radius; k <= radius; ++k) {
+      const double w = kernel[k < 0 ? -k : k];
+      const double* from = v + i + k;
+      for (int lane = 0; lane < kLanes; ++lane) sums[lane] += w * from[lane];
+    }
+    for (int lane = 0; lane < kLanes; ++lane) out[i + lane] = sums[lane] / weight;
+  }
+  for (; i < count - radius; ++i) {
+    double sum = 0.0;
+    for (int k = -radius; k <= radius; ++k) sum += kernel[k < 0 ? -k : k] * v[i + k];
+    out[i] = sum / weight;
+  }
+}
+
 /// Gaussian average along the piece; open ends: over what there is.
 std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bool closed) {
   const int n = static_cast<int>(v.size());
@@ -26,7 +48,12 @@ std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bo
   std::vector<double> kernel(radius + 1);
   for (int k = 0; k <= radius; ++k) kernel[k] = std::exp(-0.5 * k * k / (sigma * sigma));
   std::vector<double> out(v.size());
+  double all = 0.0;
+  for (int k = -radius; k <= radius; ++k) all += kernel[std::abs(k)];
+  averageInside(v.data(), n, kernel.data(), radius, all, out.data());
   for (int i = 0; i < n; ++i) {
+    if (i == radius && n > 2 * radius) i = n - radius;
+    if (i >= n) break;
     double sum = 0.0, weight = 0.0;
     for (int k = -radius; k <= radius; ++k) {
       int j = i + k;

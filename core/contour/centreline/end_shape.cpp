@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/hot_loop.h"
 #include "core/base/statistics.h"
 #include "core/contour/centreline/stroke_profile.h"
 
@@ -143,7 +144,7 @@ class EndPlaces {
   int rows_, columns_;
 };
 
-// The darkness of an end at its places, row by row. [grey]
+// The darkness of an end at its places, column by column. [grey]
 using EndModel = std::vector<double>;
 
 // Shares of the darkness inside a cut, by the depth below it. Depths are multiples of kTipStepPx over the same number,
@@ -170,11 +171,21 @@ EndModel darkOfCut(const PenModel& pen, const EndPlaces& places, const CutShares
   std::vector<double> whole(places.columns());
   for (int k = 0; k < places.columns(); ++k) whole[k] = pen.dark * pen.across(places.across(k));
   EndModel dark;
-  for (int i = 0; i < places.rows(); ++i) {
-    for (int k = 0; k < places.columns(); ++k)
+  dark.reserve(static_cast<std::size_t>(places.rows()) * whole.size());
+  for (int k = 0; k < places.columns(); ++k) {
+    for (int i = 0; i < places.rows(); ++i)
       dark.push_back(whole[k] * shares.at(slope * places.across(k) - places.along(i)));
   }
   return dark;
+}
+
+// sums[k] += the sum of seen[j * columns + k] * reached[j], lane after lane.
+BATTEN_HOT_LOOP void addLanes(const double* seen, const double* reached, int lanes, int columns,
+                              double* __restrict sums) {
+  for (int j = 0; j < lanes; ++j, seen += columns) {
+    const double share = reached[j];
+    for (int k = 0; k < columns; ++k) sums[k] += seen[k] * share;
+  }
 }
 
 // A round end is made of lanes along the stroke: what of each is seen depends on the column, and how far it reaches on
@@ -184,24 +195,23 @@ class RoundLanes {
   RoundLanes(const PenModel& pen, const EndPlaces& places)
       : pen_(pen), count_(std::max(8, static_cast<int>(std::ceil(4.0 * pen.radius / pen.blur)))) {
     lane_ = 2.0 * pen.radius / count_;
-    for (int k = 0; k < places.columns(); ++k) {
-      for (int j = 0; j < count_; ++j) {
+    for (int j = 0; j < count_; ++j) {
+      for (int k = 0; k < places.columns(); ++k) {
         const double off = (places.across(k) - middleOf(j)) / pen.blur;
         seen_.push_back(std::abs(off) > kFar ? 0.0 : std::exp(-0.5 * off * off));
       }
     }
   }
   EndModel dark(const EndPlaces& places) const {
-    EndModel all;
-    std::vector<double> reached(count_);
-    for (int i = 0; i < places.rows(); ++i) {
+    const int rows = places.rows(), columns = places.columns();
+    EndModel all(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    std::vector<double> reached(count_), sums(columns);
+    for (int i = 0; i < rows; ++i) {
       for (int j = 0; j < count_; ++j) reached[j] = edgeShare((tipOf(j) - places.along(i)) / pen_.blur);
-      for (int k = 0; k < places.columns(); ++k) {
-        const double* seen = seen_.data() + std::ptrdiff_t{k} * count_;
-        double sum = 0.0;
-        for (int j = 0; j < count_; ++j) sum += seen[j] * reached[j];
-        all.push_back(pen_.dark * sum * lane_ / (pen_.blur * std::sqrt(2.0 * std::numbers::pi)));
-      }
+      std::fill(sums.begin(), sums.end(), 0.0);
+      addLanes(seen_.data(), reached.data(), count_, columns, sums.data());
+      for (int k = 0; k < columns; ++k)
+        all[k * rows + i] = pen_.dark * sums[k] * lane_ / (pen_.blur * std::sqrt(2.0 * std::numbers::pi));
     }
     return all;
   }
@@ -216,7 +226,7 @@ class RoundLanes {
   const PenModel& pen_;
   int count_;
   double lane_ = 0.0;
-  std::vector<double> seen_;  // by column and lane
+  std::vector<double> seen_;  // by lane and column
 };
 
 struct FittedEnd {
@@ -224,17 +234,31 @@ struct FittedEnd {
   double misfit = std::numeric_limits<double>::infinity();
 };
 
+constexpr int kTips = 2 * kTipSteps + 1, kTipLanes = kTips + 1;
+
+// The misfit of every tip, the last first; behind them one that is none. `model` runs on by one number.
+BATTEN_HOT_LOOP void addMisfits(const EndPatch& patch, const double* model, int modelRows, double* __restrict misfit) {
+  double sums[kTipLanes] = {};
+  for (int i = 0; i < patch.rows; ++i) {
+    const double* levels = patch.level.data() + std::ptrdiff_t{i} * patch.columns;
+    for (int k = 0; k < patch.columns; ++k) {
+      const double level = levels[k];
+      const double* at = model + std::ptrdiff_t{k} * modelRows + i * EndPlaces::kStepsPerRow;
+      for (int tip = 0; tip < kTipLanes; ++tip) sums[tip] += (level - at[tip]) * (level - at[tip]);
+    }
+  }
+  for (int tip = 0; tip < kTipLanes; ++tip) misfit[tip] = sums[tip];
+}
+
 // Where an end of this shape fits best.
 FittedEnd fittedEnd(const EndPatch& patch, const PenModel& pen, EndModel model) {
   for (double& level : model) level = pen.paper - level;
-  std::array<double, 2 * kTipSteps + 1> misfit{};
-  for (int i = 0; i < patch.rows; ++i) {
-    for (int k = 0; k < patch.columns; ++k) {
-      const double level = patch.level[i * patch.columns + k];
-      const double* at = model.data() + std::ptrdiff_t{i * EndPlaces::kStepsPerRow + 2 * kTipSteps} * patch.columns + k;
-      for (int tip = 0; tip <= 2 * kTipSteps; ++tip, at -= patch.columns) misfit[tip] += (level - *at) * (level - *at);
-    }
-  }
+  const int modelRows = static_cast<int>(std::ssize(model)) / patch.columns;
+  model.push_back(0.0);
+  std::array<double, kTipLanes> lanes{};
+  addMisfits(patch, model.data(), modelRows, lanes.data());
+  std::array<double, kTips> misfit{};
+  std::reverse_copy(lanes.begin(), lanes.begin() + kTips, misfit.begin());
   const auto best = static_cast<int>(std::min_element(misfit.begin(), misfit.end()) - misfit.begin());
   FittedEnd end{(best - kTipSteps) * kTipStepPx, misfit[best] + pen.misfit};
   if (best == 0 || best == 2 * kTipSteps) return end;

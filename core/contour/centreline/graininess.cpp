@@ -83,10 +83,16 @@ BATTEN_HOT_LOOP void medianOfLanes(const Lanes* places, float* __restrict median
 
 // Five taps of a small Gaussian, so that the noise of single pixels counts little.
 float softGrey(const GreyImage& grey, const Vec2& at) {
+  constexpr double kReachPx = 2.0;                      // of the taps and the pixels around them
   constexpr float kCentreTap = 0.4f, kSideTap = 0.15f;  // sum 1
-  return kCentreTap * sampleGrey(grey, at.x(), at.y()) +
-         kSideTap * (sampleGrey(grey, at.x() - 1.0, at.y()) + sampleGrey(grey, at.x() + 1.0, at.y()) +
-                     sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
+  const auto soft = [&](const auto& sample) {
+    return kCentreTap * sample(grey, at.x(), at.y()) +
+           kSideTap * (sample(grey, at.x() - 1.0, at.y()) + sample(grey, at.x() + 1.0, at.y()) +
+                       sample(grey, at.x(), at.y() - 1.0) + sample(grey, at.x(), at.y() + 1.0));
+  };
+  const bool isInside =
+      at.x() > kReachPx && at.y() > kReachPx && at.x() < grey.width - kReachPx && at.y() < grey.height - kReachPx;
+  return isInside ? soft(sampleGreyInside) : soft(sampleGrey);
 }
 
 std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, int most) {

@@ -74,6 +74,14 @@ BATTEN_HOT_LOOP void meanLoop(const float* first, int count, const float* w, flo
   }
 }
 
+BATTEN_HOT_LOOP void meansOfPaper(const float* p, int count, double* __restrict means) {
+  static_assert(kPaperSamples == 5);
+  for (int k = 0; k < count; ++k) {
+    const double sum = 0.0 + p[k] + p[k + 1] + p[k + 2] + p[k + 3] + p[k + 4];
+    means[k] = sum / kPaperSamples;
+  }
+}
+
 // Gaussian of .5 px: two samples.
 constexpr int kSmoothHalf = 5;
 constexpr std::array<float, kSmoothHalf + 1> kSmoothKernel = {0.2021f, 0.1779f, 0.1212f, 0.0639f, 0.0261f, 0.00825f};
@@ -91,6 +99,18 @@ BATTEN_HOT_LOOP void smoothInside(const float* p, int count, float* __restrict o
                       w[3] * (p[k - 3] + p[k + 3]) + w[4] * (p[k - 4] + p[k + 4]) + w[5] * (p[k - 5] + p[k + 5]);
     out[k] = sum / kSmoothSum;
   }
+}
+
+// One that has only `reach` samples to one side.
+float smoothEnd(const float* at, int reach) {
+  float sum = kSmoothKernel[0] * at[0], weight = kSmoothKernel[0];
+  BATTEN_UNROLL
+  for (int d = 1; d < kSmoothHalf; ++d) {
+    if (d > reach) break;
+    sum += kSmoothKernel[d] * (at[-d] + at[d]);
+    weight += 2.0f * kSmoothKernel[d];
+  }
+  return sum / weight;
 }
 
 }  // namespace
@@ -122,16 +142,21 @@ void meanOfProfiles(const float* first, int count, const float* weights, float s
   meanLoop(first, count, weights, sum, out);
 }
 
+void meansOfBoxes(const float* p, int box, int count, double* means) {
+  if (box == kPaperSamples) return meansOfPaper(p, count, means);
+  for (int k = 0; k < count; ++k) {
+    double sum = 0.0;
+    for (int j = 0; j < box; ++j) sum += p[k + j];
+    means[k] = sum / box;
+  }
+}
+
 void smoothAcrossStroke(const float* profile, int count, float* out) {
   smoothInside(profile, count, out);
-  for (int k = 0; k < count; ++k) {
-    if (k == kSmoothHalf && count > 2 * kSmoothHalf) k = count - kSmoothHalf;
-    float sum = kSmoothKernel[0] * profile[k], weight = kSmoothKernel[0];
-    for (int d = 1; d <= kSmoothHalf && k - d >= 0 && k + d < count; ++d) {
-      sum += kSmoothKernel[d] * (profile[k - d] + profile[k + d]);
-      weight += 2.0f * kSmoothKernel[d];
-    }
-    out[k] = sum / weight;
+  const int side = std::min(kSmoothHalf, (count + 1) / 2);
+  for (int k = 0; k < side; ++k) {
+    out[k] = smoothEnd(profile + k, k);
+    out[count - 1 - k] = smoothEnd(profile + count - 1 - k, k);
   }
 }
 

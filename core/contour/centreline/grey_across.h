@@ -18,6 +18,10 @@ inline constexpr int kMeanRows = 2 * kMeanHalf + 1;
 /// k away from the middle one. `sum`: of all the weights.
 void meanOfProfiles(const float* first, int count, const float* weights, float sum, float* out);
 
+inline constexpr int kPaperSamples = 5;  ///< Over which the paper beside a stroke is averaged, 1.25 px.
+/// The means of p[k] to p[k + box - 1], for `count` k. Fastest for a box of kPaperSamples.
+void meansOfBoxes(const float* p, int box, int count, double* means);
+
 /// A profile smoothed by a Gaussian of half a pixel; towards its ends by what there is to either side.
 void smoothAcrossStroke(const float* profile, int count, float* out);
 

@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/contour/centreline/border_sums.h"
 #include "core/contour/subpixel/curvature_shift.h"
 #include "core/contour/subpixel/pixel_edge.h"
 #include "core/polyline/polyline_tools.h"
@@ -39,65 +40,59 @@ struct Stroke {
 
 struct StrokeModel {
   double paper, slope, contrast;
-  int direction;
+  ResponseRow response;
 };
 
 int blurIndex(double blur) {
   return std::clamp(static_cast<int>(std::lround(blur / PixelResponse::kStepPx)) - 1, 0, PixelResponse::kBlurs - 1);
 }
 
+/// How pixels see the borders of strokes, and how the middle of a profile does, which has seen more blur.
+struct PageResponse {
+  const PixelResponse& pixels;
+  const PixelResponse& profile;
+
+  explicit PageResponse(int index)
+      : pixels(PixelResponse::forBlur(index)),
+        profile(PixelResponse::forBlur(blurIndex(std::sqrt(pixels.blur() * pixels.blur() + kProfileVariance)))) {}
+};
+
 /// The darkness of a stroke without blur: the profile's middle has lost some of it to the paper.
-double fullContrast(double measured, double width, const PixelResponse& response, int direction) {
-  const PixelResponse& wide =
-      PixelResponse::forBlur(blurIndex(std::sqrt(response.blur() * response.blur() + kProfileVariance)));
+double fullContrast(double measured, double width, const ResponseRow& wide) {
   double part = 0.0;
   for (const double u : {-kCoreWidths * width, 0.0, kCoreWidths * width})
-    part += (wide.at(u + 0.5 * width, direction).part - wide.at(u - 0.5 * width, direction).part) / 3.0;
+    part += (wide.at(u + 0.5 * width).part - wide.at(u - 0.5 * width).part) / 3.0;
   return measured / std::max(kLeastCorePart, part);
 }
 
-double inkPart(const PixelResponse& response, const StrokeModel& m, const Stroke& s, double distance) {
+double inkPart(const StrokeModel& m, const Stroke& s, double distance) {
   const double u = distance - s.middle;
-  return response.at(u + 0.5 * s.width, m.direction).part - response.at(u - 0.5 * s.width, m.direction).part;
+  return m.response.at(u + 0.5 * s.width).part - m.response.at(u - 0.5 * s.width).part;
 }
 
-double squaresLeft(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m, const Stroke& s) {
+double squaresLeft(const PixelWindow& window, const StrokeModel& m, const Stroke& s) {
   double sum = 0.0;
-  for (const PixelWindow::Pixel& p : window.pixels) {
-    const double e = p.grey - (m.paper + m.slope * p.distance - m.contrast * inkPart(response, m, s, p.distance));
-    sum += p.weight * e * e;
+  for (int i = 0; i < window.count(); ++i) {
+    const double distance = window.distance()[i];
+    const double e = window.grey()[i] - (m.paper + m.slope * distance - m.contrast * inkPart(m, s, distance));
+    sum += window.weight()[i] * e * e;
   }
   return sum;
 }
 
-/// Sums over the pixels for the step of both borders.
-struct BorderSums {
-  double ll = 0.0, lh = 0.0, hh = 0.0, l = 0.0, h = 0.0;  // by weight: normal equations, right side
-  double wll = 0.0, wlh = 0.0, whh = 0.0;                 // by weight squared
-  double squares = 0.0, weights = 0.0;
-  double det() const { return ll * hh - lh * lh; }
+/// What the sums tell of the middle: weighted least squares under white noise.
+PointInformation informationOf(const BorderSums& s, const SquareSums& w) {
+  const double a = (s.hh - s.lh) / s.det(), b = (s.ll - s.lh) / s.det();  // (1 1) times the inverse
+  const double gain = 0.5 * std::sqrt(std::max(0.0, a * a * w.ll + 2.0 * a * b * w.lh + b * b * w.hh));
+  const double taken = (s.hh * s.l * s.l - 2.0 * s.lh * s.l * s.h + s.ll * s.h * s.h) / s.det();
+  const double used = (s.hh * w.ll - 2.0 * s.lh * w.lh + s.ll * w.hh) / s.det();
+  return {gain, std::max(0.0, w.squares - taken), std::max(0.0, w.weights - used)};
+}
 
-  void add(const PixelWindow::Pixel& p, double e, double dl, double dh) {
-    const double w = p.weight, w2 = w * w;
-    ll += w * dl * dl;
-    lh += w * dl * dh;
-    hh += w * dh * dh;
-    l += w * dl * e;
-    h += w * dh * e;
-    wll += w2 * dl * dl;
-    wlh += w2 * dl * dh;
-    whh += w2 * dh * dh;
-    squares += w * e * e;
-    weights += w;
-  }
-  /// What they tell of the middle: weighted least squares under white noise.
-  PointInformation information() const {
-    const double a = (hh - lh) / det(), b = (ll - lh) / det();  // (1 1) times the inverse
-    const double gain = 0.5 * std::sqrt(std::max(0.0, a * a * wll + 2.0 * a * b * wlh + b * b * whh));
-    const double taken = (hh * l * l - 2.0 * lh * l * h + ll * h * h) / det();
-    const double used = (hh * wll - 2.0 * lh * wlh + ll * whh) / det();
-    return {gain, std::max(0.0, squares - taken), std::max(0.0, weights - used)};
-  }
+/// The pixels about a point, and what the model leaves of them.
+struct PointPixels {
+  PixelWindow window;
+  std::vector<double> left, byLow, byHigh;
 };
 
 /// A stroke, and how well the pixels tell where its middle lies.
@@ -107,27 +102,28 @@ struct PlacedStroke {
 };
 
 /// Newton steps for both borders.
-std::optional<PlacedStroke> mostLikely(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m,
-                                       double width) {
-  double low = -0.5 * width, high = 0.5 * width;
+std::optional<PlacedStroke> mostLikely(PointPixels& at, const StrokeModel& m, double width) {
+  const int count = at.window.fullCount();
+  for (std::vector<double>* values : {&at.left, &at.byLow, &at.byHigh}) {
+    if (std::ssize(*values) < count) values->resize(static_cast<std::size_t>(count));
+  }
+  const StrokePixels pixels{at.window.distance(), at.window.weight(), at.window.grey(), count};
+  const BorderResiduals residuals{at.left.data(), at.byLow.data(), at.byHigh.data()};
+  StrokeBorders borders{m.response, m.paper, m.slope, m.contrast, -0.5 * width, 0.5 * width};
   BorderSums sums;
   for (int step = 0; step < kStrokeNewtonSteps; ++step) {
-    sums = {};
-    for (const PixelWindow::Pixel& p : window.pixels) {
-      const auto in = response.at(p.distance - low, m.direction), out = response.at(p.distance - high, m.direction);
-      const double e = p.grey - (m.paper + m.slope * p.distance - m.contrast * (in.part - out.part));
-      sums.add(p, e, m.contrast * in.slope, -m.contrast * out.slope);
-    }
+    sums = borderKernels().sums(pixels, borders, residuals);
     const double det = sums.det();
     if (!(det > kLeastDeterminant * sums.ll * sums.hh)) return std::nullopt;
     const double moveLow = std::clamp((sums.hh * sums.l - sums.lh * sums.h) / det, -kLargestStepPx, kLargestStepPx);
     const double moveHigh = std::clamp((sums.ll * sums.h - sums.lh * sums.l) / det, -kLargestStepPx, kLargestStepPx);
-    low += moveLow;
-    high += moveHigh;
-    if (!(high - low > kNarrowestPx)) return std::nullopt;
+    borders.low += moveLow;
+    borders.high += moveHigh;
+    if (!(borders.high - borders.low > kNarrowestPx)) return std::nullopt;
     if (std::abs(moveLow) + std::abs(moveHigh) < kSettledPx) break;
   }
-  return PlacedStroke{{0.5 * (low + high), high - low}, sums.information()};
+  return PlacedStroke{{0.5 * (borders.low + borders.high), borders.high - borders.low},
+                      informationOf(sums, borderKernels().squares(pixels, residuals))};
 }
 
 /// Tone and width at a point as they are along the stroke, without the noise of single profiles.
@@ -164,47 +160,50 @@ class Placer {
     return p.measured && p.tone && p.part == StrokePart::Ink && tones_[i].contrast > kSmallestContrast;
   }
   /// Measures by how much the darkness that profiles show differs from that of the pixels' own model.
-  void tune(const PixelResponse& response, PixelWindow& window) {
+  void tune(const PageResponse& response, PointPixels& pixels) {
     const int stride = std::max(1, c_.count() / kGainPoints);
     double top = 0.0, bottom = 0.0;
     for (int i = 0; i < c_.count(); i += stride) {
       if (!canPlace(i)) continue;
-      const auto placed = place(i, response, window);
+      const auto placed = place(i, response, pixels);
       if (!placed) continue;
       const StrokeModel m = modelAt(i, response);
-      for (const PixelWindow::Pixel& p : window.pixels) {
-        const double model = m.contrast * inkPart(response, m, placed->stroke, p.distance);
-        top += p.weight * model * (m.paper + m.slope * p.distance - p.grey);
-        bottom += p.weight * model * model;
+      const PixelWindow& window = pixels.window;
+      for (int k = 0; k < window.count(); ++k) {
+        const double distance = window.distance()[k], weight = window.weight()[k];
+        const double model = m.contrast * inkPart(m, placed->stroke, distance);
+        top += weight * model * (m.paper + m.slope * distance - window.grey()[k]);
+        bottom += weight * model * model;
       }
     }
     if (bottom > 0.0) gain_ *= std::clamp(top / bottom, 1.0 / kLargestGainChange, kLargestGainChange);
   }
-  /// The stroke at point i. `window` then holds the pixels that it was found from.
-  std::optional<PlacedStroke> place(int i, const PixelResponse& response, PixelWindow& window) const {
+  /// The stroke at point i. `pixels` then holds those that it was found from.
+  std::optional<PlacedStroke> place(int i, const PageResponse& response, PointPixels& pixels) const {
     const CoursePoint& p = c_.points[i];
     const double width = tones_[i].width;
-    const double reach = std::min(0.5 * width + response.reach() + kFarthestPx, static_cast<double>(p.tone->reach));
-    window.read(grey_, p.base, leftNormal(p.tangent), -reach, reach);
-    const auto placed = mostLikely(window, response, modelAt(i, response), width);
+    const double reach =
+        std::min(0.5 * width + response.pixels.reach() + kFarthestPx, static_cast<double>(p.tone->reach));
+    pixels.window.read(grey_, p.base, leftNormal(p.tangent), -reach, reach);
+    const auto placed = mostLikely(pixels, modelAt(i, response), width);
     if (!placed || std::abs(placed->stroke.middle) > kFarthestPx ||
         std::abs(placed->stroke.width - width) > kWidthOffShare * width + kWidthOffPx)
       return std::nullopt;
     return placed;
   }
   /// [grey^2] What the model leaves of the pixels at point i; nothing where it does not describe them.
-  std::optional<double> squaresAt(int i, const PixelResponse& response, PixelWindow& window) const {
-    const auto placed = place(i, response, window);
+  std::optional<double> squaresAt(int i, const PageResponse& response, PointPixels& pixels) const {
+    const auto placed = place(i, response, pixels);
     if (!placed) return std::nullopt;
-    return squaresLeft(window, response, modelAt(i, response), placed->stroke);
+    return squaresLeft(pixels.window, modelAt(i, response), placed->stroke);
   }
 
  private:
-  StrokeModel modelAt(int i, const PixelResponse& response) const {
+  StrokeModel modelAt(int i, const PageResponse& response) const {
     const SmoothTone& tone = tones_[i];
-    StrokeModel m{tone.paper, tone.slope, 0.0, response.direction(leftNormal(c_.points[i].tangent))};
-    m.contrast = gain_ * fullContrast(tone.contrast, tone.width, response, m.direction);
-    return m;
+    const int direction = response.pixels.direction(leftNormal(c_.points[i].tangent));
+    const double contrast = gain_ * fullContrast(tone.contrast, tone.width, response.profile.row(direction));
+    return {tone.paper, tone.slope, contrast, response.pixels.row(direction)};
   }
 
   const StrokeCourse& c_;
@@ -234,10 +233,10 @@ int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>
   const std::vector<CoursePlace> some = sampleOf(courses, placers);
   const auto left = [&](int index) {
     std::vector<std::optional<double>> squares(some.size());
+    const PageResponse response(index);
     parallelFor(context, static_cast<int>(some.size()), kPointsPerBlock, [&](int begin, int end) {
-      PixelWindow window;
-      for (int k = begin; k < end; ++k)
-        squares[k] = placers[some[k].course].squaresAt(some[k].point, PixelResponse::forBlur(index), window);
+      PointPixels pixels;
+      for (int k = begin; k < end; ++k) squares[k] = placers[some[k].course].squaresAt(some[k].point, response, pixels);
     });
     std::vector<double> known;
     for (const auto& sum : squares)
@@ -285,30 +284,31 @@ void placeOnPixels(std::vector<StrokeCourse>& courses, const GreyImage& grey, co
   std::vector<Placer> placers;
   placers.reserve(courses.size());
   for (const StrokeCourse& c : courses) placers.emplace_back(c, grey);
-  const PixelResponse& response = PixelResponse::forBlur(pageBlur(courses, placers, context));
+  const PageResponse response(pageBlur(courses, placers, context));
   const auto each = [&](std::ptrdiff_t count, int perBlock, const auto& body) {
     parallelFor(context, static_cast<int>(count), perBlock, [&](int begin, int end) {
-      PixelWindow window;
-      for (int k = begin; k < end; ++k) body(k, window);
+      PointPixels pixels;
+      for (int k = begin; k < end; ++k) body(k, pixels);
     });
   };
-  each(std::ssize(courses), 1, [&](int k, PixelWindow& window) {
-    placers[k].tune(response, window);
-    placers[k].tune(response, window);
+  each(std::ssize(courses), 1, [&](int k, PointPixels& pixels) {
+    placers[k].tune(response, pixels);
+    placers[k].tune(response, pixels);
   });
   // A page is often one long line: the points are shared among the threads, not the lines.
   std::vector<CoursePlace> places;
   for (int c = 0; c < std::ssize(courses); ++c)
     for (int i = 0; i < courses[c].count(); ++i) places.push_back({c, i});
-  each(std::ssize(places), kPointsPerBlock, [&](int k, PixelWindow& window) {
+  each(std::ssize(places), kPointsPerBlock, [&](int k, PointPixels& pixels) {
     const auto [course, i] = places[k];
     CoursePoint& p = courses[course].points[i];
     p.information.reset();
     if (!placers[course].canPlace(i)) return;
-    if (const auto placed = placers[course].place(i, response, window)) placePoint(p, *placed);
+    if (const auto placed = placers[course].place(i, response, pixels)) placePoint(p, *placed);
   });
-  const double blur = std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
-  each(std::ssize(courses), 1, [&](int k, PixelWindow&) {
+  const double own = response.pixels.blur();
+  const double blur = std::sqrt(own * own + kPixelVariance + PixelWindow::kVariance);
+  each(std::ssize(courses), 1, [&](int k, PointPixels&) {
     moveBase(courses[k], blur);
     courses[k].wasPlacedOnPixels = true;
   });

@@ -68,6 +68,11 @@ int paperReach(const BitImage& ink, int x, int y, int most) {
     const int i = start >> 6, shift = start & 63;
     return shift == 0 ? inkWord(i) : (inkWord(i) >> shift) | (inkWord(i + 1) << (64 - shift));
   };
+  // Mostly it is near: one look at the pixels to both sides.
+  constexpr int kAtOnce = 32;
+  const std::uint64_t around = from(x - kAtOnce);
+  const int near = std::min(std::countr_one(around >> kAtOnce), std::countl_one(around << (kAtOnce - 1)));
+  if (near < kAtOnce) return std::min(most, near);
   for (int d = 0; d < most; d += 63) {
     const int right = std::countr_one(from(x + d));
     const int left = std::countl_one(from(x - d - 63));
@@ -77,16 +82,28 @@ int paperReach(const BitImage& ink, int x, int y, int most) {
   return most;
 }
 
-// Directions in which a pixel is linked in the pixel graph.
-int links(const BitImage& image, const SkeletonPixel& p) {
-  const int bits = neighbourhood(image, p.x, p.y);
-  int result = bits & 0x55;
-  for (int k = 1; k < 8; k += 2) {
-    const bool shared = ((bits >> (k - 1)) & 1) || ((bits >> ((k + 1) & 7)) & 1);
-    if (((bits >> k) & 1) && !shared) result |= 1 << k;
+// Directions in which a pixel is linked in the pixel graph, and how many, by its neighbours.
+struct PixelLinks {
+  std::uint8_t directions = 0, count = 0;
+};
+constexpr auto kPixelLinks = [] {
+  std::array<PixelLinks, 256> all{};
+  for (int bits = 0; bits < 256; ++bits) {
+    int directions = bits & 0x55;
+    for (int k = 1; k < 8; k += 2) {
+      const bool shared = ((bits >> (k - 1)) & 1) || ((bits >> ((k + 1) & 7)) & 1);
+      if (((bits >> k) & 1) && !shared) directions |= 1 << k;
+    }
+    all[bits] = {static_cast<std::uint8_t>(directions),
+                 static_cast<std::uint8_t>(std::popcount(static_cast<unsigned>(directions)))};
   }
-  return result;
+  return all;
+}();
+
+const PixelLinks& linksOf(const BitImage& image, const SkeletonPixel& p) {
+  return kPixelLinks[neighbourhood(image, p.x, p.y)];
 }
+int links(const BitImage& image, const SkeletonPixel& p) { return linksOf(image, p).directions; }
 
 class GraphWalker {
  public:
@@ -95,8 +112,8 @@ class GraphWalker {
 
   std::vector<SkeletonChain> chains() {
     for (const SkeletonPixel& p : pixels_) {
-      const int bits = links(skeleton_, p);
-      if (std::popcount(static_cast<unsigned>(bits)) == 2) continue;
+      const auto [bits, count] = linksOf(skeleton_, p);
+      if (count == 2) continue;
       walked_.set(p.x, p.y, true);
       if (bits == 0) chains_.push_back({{p}, false, true, true});
       for (int k = 0; k < 8; ++k) {
@@ -110,8 +127,8 @@ class GraphWalker {
   }
 
  private:
-  bool isNode(const SkeletonPixel& p) const { return std::popcount(static_cast<unsigned>(links(skeleton_, p))) != 2; }
-  bool isEnd(const SkeletonPixel& p) const { return std::popcount(static_cast<unsigned>(links(skeleton_, p))) == 1; }
+  bool isNode(const SkeletonPixel& p) const { return linksOf(skeleton_, p).count != 2; }
+  bool isEnd(const SkeletonPixel& p) const { return linksOf(skeleton_, p).count == 1; }
 
   void walkFromNode(const SkeletonPixel& node, int direction) {
     SkeletonChain chain;
@@ -211,12 +228,15 @@ double inkRadius(const BitImage& ink, int x, int y) {
   if (!ink.at(x, y)) return 0.0;
   std::int64_t best = std::numeric_limits<std::int64_t>::max();
   int reach = std::max(ink.width, ink.height);
+  const auto look = [&](int row, int dy) {
+    const std::int64_t dx = paperReach(ink, x, row, reach + 1), square = dx * dx + static_cast<std::int64_t>(dy) * dy;
+    const bool nearer = square < best;
+    if (nearer) best = square;
+    return nearer;
+  };
   for (int dy = 0; dy <= reach; ++dy) {
-    for (const int row : {y - dy, y + dy}) {
-      const std::int64_t dx = paperReach(ink, x, row, reach + 1);
-      best = std::min(best, dx * dx + static_cast<std::int64_t>(dy) * dy);
-    }
-    reach = static_cast<int>(std::sqrt(static_cast<double>(best)));
+    const bool above = look(y - dy, dy), below = dy > 0 && look(y + dy, dy);
+    if (above || below) reach = static_cast<int>(std::sqrt(static_cast<double>(best)));
   }
   return std::sqrt(static_cast<double>(best));
 }

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/centreline/stroke_profile.h"
 
+#include <array>
+
 #include "core/contour/centreline/grey_across.h"
 
 namespace batten {
 namespace {
 
 constexpr double kLeastStrokeContrast = 2.0;  // [grey] less is noise of the scan
-constexpr int kPaperSamples = 5;              // over which the paper beside a stroke is averaged, 1.25 px
 constexpr int kSpreadSamples = 8;             // to which the ink of a stroke spreads beyond its border, 2 px
 constexpr double kCrowdedShare = 0.25;        // of the contrast: if the outer end is so much darker, ink lies there
 constexpr double kCoreShare = 0.2;            // of the width to either side of the middle, where the ink is full
-constexpr double kPaperShare = 0.15;          // of the darkest: what is fainter counts as paper
+constexpr int kMeansAtOnce = 64;
+constexpr double kPaperShare = 0.15;  // of the darkest: what is fainter counts as paper
 
 // Paper across the profile: a line through the level at either side.
 struct PaperLine {
@@ -32,18 +34,24 @@ PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
   const int n = static_cast<int>(p.size()), half = n / 2;
   const int box = std::min(kPaperSamples, std::max(1, half - edge));
   double level[2], place[2], reach = half;
+  // Means of boxes that end so far from the middle, from the outer end in.
+  const int boxes = half - edge - box + 1;
+  std::array<double, kMeansAtOnce> means;
   for (int side = 0; side < 2; ++side) {
-    const auto mean = [&](int distance) {  // box that ends `distance` samples from the middle
-      return side == 0 ? meanOf(p, half - distance, box) : meanOf(p, half + distance - box + 1, box);
-    };
     int best = half;
-    const double outer = mean(half);
-    double brightest = outer;
-    for (int d = half - 1; d >= edge + box; --d) {
-      const double m = mean(d);
-      if (m > brightest) {
-        brightest = m;
-        best = d;
+    double outer = 0.0, brightest = 0.0;
+    for (int from = 0; from < boxes; from += kMeansAtOnce) {
+      const int count = std::min(kMeansAtOnce, boxes - from);
+      // At the left the outermost box is the first, at the right the last.
+      const int first = side == 0 ? from : n - box - (from + count - 1);
+      meansOfBoxes(p.data() + first, box, count, means.data());
+      for (int k = 0; k < count; ++k) {
+        const double m = means[side == 0 ? k : count - 1 - k];
+        if (from + k == 0) outer = brightest = m;
+        if (m > brightest) {
+          brightest = m;
+          best = half - from - k;
+        }
       }
     }
     const bool crowded = brightest - outer > kCrowdedShare * (brightest - ink);

@@ -29,6 +29,18 @@ inline float sampleGrey(const GreyImage& grey, double x, double y) {
   return (top + ty * (low - top)) * static_cast<float>(1.0 / GreyImage::kGreyUnit);
 }
 
+/// The same where all pixels around lie on the page: coordinates from .5 to .5 px before its right and lower border.
+inline float sampleGreyInside(const GreyImage& grey, double x, double y) {
+  const double fx = x - 0.5, fy = y - 0.5;
+  const int x0 = static_cast<int>(fx), y0 = static_cast<int>(fy);
+  const std::uint16_t* a = grey.row(y0) + x0;
+  const std::uint16_t* b = a + grey.pitch();
+  const auto tx = static_cast<float>(fx - x0), ty = static_cast<float>(fy - y0);
+  const float top = static_cast<float>(a[0]) + tx * (static_cast<float>(a[1]) - static_cast<float>(a[0]));
+  const float low = static_cast<float>(b[0]) + tx * (static_cast<float>(b[1]) - static_cast<float>(b[0]));
+  return (top + ty * (low - top)) * static_cast<float>(1.0 / GreyImage::kGreyUnit);
+}
+
 /// Grey levels across a stroke at kStrokeStepPx, 2 * half + 1 of them, from its right to its left, averaged over 3 px
 /// along its direction.
 std::vector<float> profileAcross(const GreyImage&, const Vec2& at, const Vec2& direction, int half);

@@ -78,13 +78,13 @@ bool readWindow(const GreyImage& grey, const OutlineFrame& frame, int i, const M
   if (!span.hasEdge() || edge.contrast() < kLeastEdgeContrast) return false;
   window.read(grey, frame.base[i], frame.normal[i], std::max(span.lo - kHalfStepPx, edge.position - reach),
               std::min(span.hi + kHalfStepPx, edge.position + reach));
-  return !window.pixels.empty();
+  return window.count() > 0;
 }
 
 // Index of the blur of the light, without that of the pixels themselves, which explains a sample of the points best.
 int pixelBlur(const GreyImage& grey, const OutlineFrame& frame, const MatchedEdges& m) {
   const int stride = std::max(1, frame.count() / kPixelBlurPoints);
-  const double widest = PixelResponse::forBlur(PixelResponse::kBlurs - 1).reach();
+  const double widest = PixelResponse::reachOf(PixelResponse::kBlurs * PixelResponse::kStepPx);
   const auto left = [&](int index) {
     const PixelResponse& response = PixelResponse::forBlur(index);
     PixelWindow window;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -17,9 +17,14 @@ constexpr double kNarrowSide = 0.15;  // [px] a projected side below this counts
 double density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi); }
 double distribution(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
-// First and second integral of the normal distribution of standard deviation s.
-double once(double x, double s) { return x * distribution(x / s) + s * density(x / s); }
-double twice(double x, double s) { return 0.5 * ((x * x + s * s) * distribution(x / s) + x * s * density(x / s)); }
+// The normal distribution of standard deviation s, and its first and second integral.
+struct NormalIntegrals {
+  double part, once, twice;
+};
+NormalIntegrals integralsOf(double x, double s) {
+  const double p = distribution(x / s), d = density(x / s);
+  return {p, x * p + s * d, 0.5 * ((x * x + s * s) * p + x * s * d)};
+}
 
 struct Answer {
   double part, slope;
@@ -27,7 +32,6 @@ struct Answer {
 
 constexpr double kReachBlurs = 2.5;  // of blur: farther from the edge the answer is 0 or 1 to 1 %,
 constexpr double kRangeBlurs = 4.0;  // and farther than this to 3e-5
-constexpr double kParallel = 1e-9;   // cosine: a row that runs along a strip crosses no side of it
 constexpr int kEdgeNewtonSteps = 4;
 constexpr double kLargestEdgeStepPx = 0.5, kSettledEdgePx = 2e-3;
 
@@ -61,31 +65,35 @@ struct EdgeSums {
 Answer answerOf(double d, double a, double b, double s) {
   if (b < kNarrowSide) {
     const double wide = std::hypot(s, b / std::sqrt(12.0));
-    const double hi = d + 0.5 * a, lo = d - 0.5 * a;
-    return {(once(hi, wide) - once(lo, wide)) / a, (distribution(hi / wide) - distribution(lo / wide)) / a};
+    const NormalIntegrals hi = integralsOf(d + 0.5 * a, wide), lo = integralsOf(d - 0.5 * a, wide);
+    return {(hi.once - lo.once) / a, (hi.part - lo.part) / a};
   }
   const double outer = 0.5 * (a + b), inner = 0.5 * (a - b);
-  return {(twice(d + outer, s) - twice(d + inner, s) - twice(d - inner, s) + twice(d - outer, s)) / (a * b),
-          (once(d + outer, s) - once(d + inner, s) - once(d - inner, s) + once(d - outer, s)) / (a * b)};
+  const NormalIntegrals last = integralsOf(d + outer, s), third = integralsOf(d + inner, s),
+                        second = integralsOf(d - inner, s), first = integralsOf(d - outer, s);
+  return {(last.twice - third.twice - second.twice + first.twice) / (a * b),
+          (last.once - third.once - second.once + first.once) / (a * b)};
 }
 
 }  // namespace
 
 PixelResponse::PixelResponse(double blur) : blur_(blur) {
-  reach_ = 0.5 + kReachBlurs * blur;
   range_ = 1.0 + kRangeBlurs * blur;
   columns_ = 2 * static_cast<int>(std::ceil(range_ * kPerPx)) + 2;
   range_ = 0.5 * (columns_ - 2) / kPerPx;
+  values_.reserve(std::size_t{2} * kDirections * static_cast<std::size_t>(columns_));
   for (int row = 0; row < kDirections; ++row) {
     const double angle = 0.25 * std::numbers::pi * row / (kDirections - 1);
     const double a = std::cos(angle), b = std::sin(angle);
     for (int k = 0; k < columns_; ++k) {
       const Answer answer = answerOf(static_cast<double>(k) / kPerPx - range_, a, b, blur);
-      part_.push_back(static_cast<float>(answer.part));
-      slope_.push_back(static_cast<float>(answer.slope));
+      values_.push_back(static_cast<float>(answer.part));
+      values_.push_back(static_cast<float>(answer.slope));
     }
   }
 }
+
+double PixelResponse::reachOf(double blur) { return 0.5 + kReachBlurs * blur; }
 
 const PixelResponse& PixelResponse::forBlur(int index) {
   static std::array<std::once_flag, kBlurs> made;
@@ -100,58 +108,20 @@ int PixelResponse::direction(const Vec2& normal) const {
   return static_cast<int>(std::lround(angle / (0.25 * std::numbers::pi) * (kDirections - 1)));
 }
 
-void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& normal, double lo, double hi) {
-  pixels.clear();
-  const Vec2 along(normal.y(), -normal.x());
-  const double middle = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
-  const Vec2 centre = base + middle * normal;
-  const double height = std::abs(normal.y()) * half + std::abs(along.y()) * kHalfPx;
-  const int top = std::max(0, static_cast<int>(std::ceil(centre.y() - height - 0.5)));
-  const int bottom = std::min(grey.height - 1, static_cast<int>(std::floor(centre.y() + height - 0.5)));
-  for (int y = top; y <= bottom; ++y) {
-    // Where the row of pixel centres crosses the two strips |along| < kHalfPx and lo..hi.
-    const double dy = y + 0.5 - centre.y();
-    constexpr double kEndless = std::numeric_limits<double>::infinity();
-    double from = -kEndless, to = kEndless;
-    const auto cut = [&](double rate, double offset, double limit) {
-      if (std::abs(rate) < kParallel) {
-        if (std::abs(offset) > limit) to = -kEndless;
-        return;
-      }
-      const double a = (-limit - offset) / rate, b = (limit - offset) / rate;
-      from = std::max(from, std::min(a, b));
-      to = std::min(to, std::max(a, b));
-    };
-    cut(normal.x(), dy * normal.y(), half);
-    cut(along.x(), dy * along.y(), kHalfPx);
-    if (!(from <= to)) continue;
-    const int first = std::max(0, static_cast<int>(std::ceil(centre.x() + from - 0.5)));
-    const int last = std::min(grey.width - 1, static_cast<int>(std::floor(centre.x() + to - 0.5)));
-    const std::uint16_t* row = grey.row(y);
-    if (first > last) continue;
-    pixels.resize(pixels.size() + static_cast<std::size_t>(last - first + 1));
-    Pixel* next = &*(pixels.end() - (last - first + 1));
-    for (int x = first; x <= last; ++x) {
-      const double dx = x + 0.5 - centre.x();
-      const double s = dx * along.x() + dy * along.y();
-      *next++ = {dx * normal.x() + dy * normal.y() + middle, std::max(0.0, 1.0 - std::abs(s) / kHalfPx),
-                 row[x] / GreyImage::kGreyUnit};
-    }
-  }
-}
-
 EdgePosition mostLikelyPosition(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge,
                                 double start, double gate) {
   double position = start;
+  const double reach = response.reach();
   std::optional<EdgeSums> known;
   const auto information = [&] { return known ? std::optional(known->information()) : std::nullopt; };
   for (int step = 0; step < kEdgeNewtonSteps; ++step) {
     EdgeSums sums;
-    for (const PixelWindow::Pixel& p : window.pixels) {
-      if (std::abs(p.distance - position) > response.reach()) continue;
-      const auto model = modelAt(response, edge, p.distance - position);
+    for (int i = 0; i < window.count(); ++i) {
+      const double distance = window.distance()[i] - position;
+      if (std::abs(distance) > reach) continue;
+      const auto model = modelAt(response, edge, distance);
       const double gradient = edge.contrast * model.slope;  // of the grey with respect to the position
-      sums.add(p.weight, gradient, p.grey - (edge.paper - edge.contrast * model.part));
+      sums.add(window.weight()[i], gradient, window.grey()[i] - (edge.paper - edge.contrast * model.part));
     }
     if (!(sums.bottom > 0.0)) return {start, information()};
     known = sums;
@@ -164,9 +134,10 @@ EdgePosition mostLikelyPosition(const PixelWindow& window, const PixelResponse& 
 
 double squaresLeft(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double position) {
   double sum = 0.0;
-  for (const PixelWindow::Pixel& p : window.pixels) {
-    const double e = p.grey - (edge.paper - edge.contrast * modelAt(response, edge, p.distance - position).part);
-    sum += p.weight * e * e;
+  for (int i = 0; i < window.count(); ++i) {
+    const double part = modelAt(response, edge, window.distance()[i] - position).part;
+    const double e = window.grey()[i] - (edge.paper - edge.contrast * part);
+    sum += window.weight()[i] * e * e;
   }
   return sum;
 }

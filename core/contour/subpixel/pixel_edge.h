@@ -6,8 +6,9 @@
 
 #include "core/base/vec2.h"
 #include "core/contour/subpixel/edge_profile.h"
+#include "core/contour/subpixel/pixel_window.h"
 #include "core/contour/subpixel/point_noise.h"
-#include "core/image/grey_image.h"
+#include "core/contour/subpixel/response_row.h"
 
 namespace batten {
 
@@ -23,48 +24,26 @@ class PixelResponse {
   /// [px] Standard deviation of the Gaussian.
   double blur() const { return blur_; }
   /// [px] Beyond this distance the answer is 0 or 1 to 1 %.
-  double reach() const { return reach_; }
+  double reach() const { return reachOf(blur_); }
+  static double reachOf(double blur);
 
   /// The row for edges with this unit normal.
   int direction(const Vec2& normal) const;
-  struct Value {
-    double part;   ///< 0..1: how much of the pixel is ink.
-    double slope;  ///< [1/px] its derivative with respect to the distance.
-  };
+  /// The table for a direction.
+  ResponseRow row(int direction) const { return {values_.data() + 2 * direction * columns_, range_, columns_}; }
+  using Value = ResponseRow::Value;
   /// For a pixel whose centre is `distance` px inside the ink (negative: outside).
-  Value at(double distance, int direction) const {
-    const double place = (distance + range_) * kPerPx;
-    if (!(place > 0.0)) return {0.0, 0.0};
-    if (place >= columns_ - 2) return {1.0, 0.0};
-    const int k = static_cast<int>(place);
-    const double f = place - k;
-    const int i = direction * columns_ + k;
-    return {part_[i] + f * (part_[i + 1] - part_[i]), slope_[i] + f * (slope_[i + 1] - slope_[i])};
-  }
+  Value at(double distance, int direction) const { return row(direction).at(distance); }
 
  private:
   explicit PixelResponse(double blur);
-  static constexpr int kPerPx = 32, kDirections = 33;
-  double blur_, reach_, range_;
+  static constexpr int kPerPx = ResponseRow::kPerPx, kDirections = 33;
+  double blur_, range_;
   int columns_;
-  std::vector<float> part_, slope_;
+  std::vector<float> values_;  ///< By direction and distance: part, slope.
 };
 
 inline constexpr double kPixelVariance = 1.0 / 12.0;  ///< [px^2] of a square pixel along any direction.
-
-/// The raw pixels around a place of an edge.
-struct PixelWindow {
-  static constexpr double kHalfPx = 1.0;                        ///< [px] along the edge; weights fall to 0 there.
-  static constexpr double kVariance = kHalfPx * kHalfPx / 6.0;  ///< [px^2] of the weights along the edge.
-  struct Pixel {
-    double distance;  ///< [px] of its centre along the normal.
-    double weight;    ///< 1 - |along| / kHalfPx.
-    double grey;      ///< [grey]
-  };
-  std::vector<Pixel> pixels;
-  /// Those with lo <= distance <= hi. Pixels beyond the page are left out.
-  void read(const GreyImage& grey, const Vec2& base, const Vec2& normal, double lo, double hi);
-};
 
 /// A straight edge, and the borders of the same ink or gap that are in sight.
 struct PixelEdge {

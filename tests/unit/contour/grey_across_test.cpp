@@ -48,6 +48,33 @@ TEST(GreyAcross, SamplesAreThoseOfOnePlaceAfterTheOther) {
   }
 }
 
+// Where all pixels around lie on the page, one need not look for its borders.
+TEST(GreyAcross, SamplesInsideAreThoseOfAnywhere) {
+  std::mt19937 random(6);
+  const GreyImage grey = randomGrey(97, 61, 1);
+  std::uniform_real_distribution<double> x(0.5, 96.5), y(0.5, 60.5);
+  for (int round = 0; round < 2000; ++round) {
+    const Vec2 at(round % 9 == 0 ? std::floor(x(random)) + 0.5 : x(random), y(random));
+    if (at.x() >= 96.5) continue;
+    ASSERT_EQ(sampleGreyInside(grey, at.x(), at.y()), sampleGrey(grey, at.x(), at.y())) << at.transpose();
+  }
+}
+
+TEST(GreyAcross, MeansOfBoxesAddTheirSamplesUpInOrder) {
+  for (const int box : {1, 3, kPaperSamples, 8}) {
+    for (const int count : {1, 4, 31}) {
+      const std::vector<float> row = randomRow(std::size_t(count + box), 9);
+      std::vector<double> found(count);
+      meansOfBoxes(row.data(), box, count, found.data());
+      for (int k = 0; k < count; ++k) {
+        double sum = 0.0;
+        for (int j = 0; j < box; ++j) sum += row[k + j];
+        ASSERT_EQ(found[k], sum / box) << box << " " << k;
+      }
+    }
+  }
+}
+
 TEST(GreyAcross, MeanOfProfilesAddsThemUpInOrder) {
   for (const int count : {1, 7, 8, 33, 69, 300}) {
     const std::vector<float> rows = randomRow(std::size_t(kMeanRows) * std::size_t(count), 2);

@@ -75,6 +75,16 @@ TEST(SheetEdges, DrawnLinesAndSolidsNearTheSidesAreNone) {
   EXPECT_FALSE(sheetOf(photoOf(tail)));
 }
 
+// Paper that is clearly brighter than what its edge encloses lies round a drawn solid, however faint and large that is.
+TEST(SheetEdges, FaintSolidsWithStraightSidesAreNone) {
+  constexpr double kFaintInk = 20.0;  // [grey]
+  const auto solid = [](double x, double y) {
+    const bool isInk = x > 80.0 && x < 740.0 && y < 585.0 && y > 360.0 - 150.0 * std::sin(x / 130.0);
+    return shading(x, y) - (isInk ? kFaintInk : 0.0);
+  };
+  EXPECT_FALSE(sheetOf(photoOf(solid)));
+}
+
 TEST(SheetEdges, ShadingIsNone) {
   EXPECT_FALSE(sheetOf(photoOf([](double x, double y) { return shading(x, y) + 25.0 * x / kWidth; })));
   const auto vignette = [](double x, double y) {

@@ -22,11 +22,11 @@ struct DenseProgram {
   Eigen::Index size() const { return b.size(); }
   Eigen::Index rowCount() const { return h.size(); }
   const Eigen::VectorXd& linear() const { return b; }
-  Eigen::VectorXd multiply(const Eigen::VectorXd& v) const { return a * v; }
+  void multiply(const Eigen::VectorXd& v, Eigen::VectorXd& out) const { out = a * v; }
   double bound(Eigen::Index i) const { return h[i]; }
   double dotRow(Eigen::Index i, const Eigen::VectorXd& v) const { return g.row(i).dot(v); }
   void addRow(Eigen::Index i, double factor, Eigen::VectorXd& out) const { out += factor * g.row(i).transpose(); }
-  Eigen::VectorXd dotRows(const Eigen::VectorXd& v) const { return g * v; }
+  void dotRows(const Eigen::VectorXd& v, Eigen::VectorXd& out) const { out = g * v; }
   void addRows(const Eigen::VectorXd& weights, Eigen::VectorXd& out) const { out += g.transpose() * weights; }
   bool factorise(const Eigen::VectorXd& weights, Factor& factor) const {
     Eigen::MatrixXd m = a;
