@@ -22,14 +22,14 @@ namespace {
 constexpr double kThinPx = 3.5;
 constexpr double kMayBeThinPx = 6.0;  // of ink in which thin strokes may have run together
 constexpr double kLargestPx = 16e6;   // of a fine page: its memory is that of a page of A4 at 400 dpi
-constexpr int kBesideFinePx = 3;  // [fine px] of a stroke: paper that the page's smoothing filled lies no farther off
+constexpr int kBesideFinePx = 4;  // [fine px] of a stroke: paper that the page's smoothing filled lies no farther off
 
 // Catmull and Rom's cubic a quarter of a pixel from the second of four pixels.
 constexpr std::array<float, 4> kQuarter = {-0.0703125f, 0.8671875f, 0.2265625f, -0.0234375f};
 
 // Two values for each of `count`: a quarter of a step before it and a quarter behind it.
 template <class At, class Put>
-void interpolate(int count, const At& at, const Put& put) {
+void interpolateQuarters(int count, const At& at, const Put& put) {
   const auto clamped = [&](int i) { return at(std::clamp(i, 0, count - 1)); };
   for (int i = 0; i < count; ++i) {
     const float before = clamped(i - 1), here = clamped(i), after = clamped(i + 1);
@@ -99,7 +99,7 @@ GreyImage enlarged(const GreyImage& grey, const RunContext& context) {
     for (int y = begin; y < end; ++y) {
       const std::uint16_t* from = grey.row(y);
       std::uint16_t* to = wide.data() + std::ptrdiff_t{y} * fine.width;
-      interpolate(
+      interpolateQuarters(
           grey.width, [&](int x) { return static_cast<float>(from[x]); },
           [&](int x, float value) { to[x] = toGrey(value); });
     }
@@ -108,7 +108,7 @@ GreyImage enlarged(const GreyImage& grey, const RunContext& context) {
   constexpr int kStrip = 64;
   parallelFor(context, (fine.width + kStrip - 1) / kStrip, 1, [&](int begin, int end) {
     for (int x = begin * kStrip; x < std::min(fine.width, end * kStrip); ++x) {
-      interpolate(
+      interpolateQuarters(
           grey.height, [&](int y) { return static_cast<float>(wide[std::ptrdiff_t{y} * fine.width + x]); },
           [&](int y, float value) { fine.row(y)[x] = toGrey(value); });
     }

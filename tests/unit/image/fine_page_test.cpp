@@ -10,14 +10,14 @@
 namespace batten {
 namespace {
 
-constexpr int kWidth = 240, kHeight = 160;
+constexpr int kLinePageWidth = 240, kLinePageHeight = 160;
 
 /// [grey] Of light paper with a level line of this width, dark by `depth` in its middle, blurred by .8 px.
 GreyImage pageWithLine(double widthPx, double depth, double gapFrom = -1.0, double gapTo = -1.0) {
-  GreyImage grey(kWidth, kHeight);
+  GreyImage grey(kLinePageWidth, kLinePageHeight);
   const auto step = [](double x) { return 0.5 * std::erfc(-x / (std::sqrt(2.0) * 0.8)); };
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kLinePageHeight; ++y) {
+    for (int x = 0; x < kLinePageWidth; ++x) {
       const double off = std::abs(y + 0.5 - 80.3);
       double cover = step(0.5 * widthPx - off) * step(x - 30.0) * step(210.0 - x);
       if (gapTo > gapFrom) cover *= 1.0 - step(x + 0.5 - gapFrom) * step(gapTo - x - 0.5);
@@ -29,7 +29,7 @@ GreyImage pageWithLine(double widthPx, double depth, double gapFrom = -1.0, doub
   return grey;
 }
 
-BitImage inkOf(const GreyImage& grey) {
+BitImage inkOfLinePage(const GreyImage& grey) {
   const auto thresholds = findThresholds(grey, {}, {}, {});
   EXPECT_TRUE(thresholds);
   auto ink = binarize(grey, *thresholds, {}, {});
@@ -64,12 +64,12 @@ TEST(FinePage, EnlargesInkPixelByPixel) {
 TEST(FinePage, IsMadeOfThinStrokesAlone) {
   for (const double widthPx : {2.0, 6.0}) {
     const GreyImage grey = pageWithLine(widthPx, 120.0);
-    const BitImage ink = inkOf(grey);
+    const BitImage ink = inkOfLinePage(grey);
     const auto fine = finePage(grey, ink, {}, {});
     ASSERT_TRUE(fine);
     EXPECT_EQ(fine->has_value(), widthPx < 3.0) << widthPx;
     if (!*fine) continue;
-    EXPECT_EQ((*fine)->grey.width, kFineFactor * kWidth);
+    EXPECT_EQ((*fine)->grey.width, kFineFactor * kLinePageWidth);
     // Its ink lies on the ink of the page.
     EXPECT_EQ(without((*fine)->ink, grown(enlarged(ink, {}), kFineFactor, {})).count(), 0);
     EXPECT_GT((*fine)->ink.count(), ink.count());
@@ -78,19 +78,19 @@ TEST(FinePage, IsMadeOfThinStrokesAlone) {
 
 TEST(FinePage, HasNoInkWhereItWasTakenOut) {
   const GreyImage grey = pageWithLine(2.0, 120.0);
-  BitImage ink = inkOf(grey);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 100; x < kWidth; ++x) ink.set(x, y, false);
+  BitImage ink = inkOfLinePage(grey);
+  for (int y = 0; y < kLinePageHeight; ++y)
+    for (int x = 100; x < kLinePageWidth; ++x) ink.set(x, y, false);
   const auto fine = finePage(grey, ink, {}, {});
   ASSERT_TRUE(fine && *fine);
-  for (int y = 0; y < kFineFactor * kHeight; ++y)
-    for (int x = kFineFactor * 102; x < kFineFactor * kWidth; ++x) ASSERT_FALSE((*fine)->ink.at(x, y));
+  for (int y = 0; y < kFineFactor * kLinePageHeight; ++y)
+    for (int x = kFineFactor * 102; x < kFineFactor * kLinePageWidth; ++x) ASSERT_FALSE((*fine)->ink.at(x, y));
 }
 
 /// What the page's ink has away from the ink that the grey shows is kept: a faint line, say.
 TEST(FinePage, KeepsInkThatOnlyThePageShows) {
   const GreyImage grey = pageWithLine(2.0, 120.0);
-  BitImage ink = inkOf(grey);
+  BitImage ink = inkOfLinePage(grey);
   for (int x = 40; x < 200; ++x) {
     ink.set(x, 120, true);
     ink.set(x, 121, true);
