@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/avx2.h"
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/image/bits/bit_steps.h"
@@ -78,8 +79,46 @@ LineFilter filterFor(double widthPx) {
   return filter;
 }
 
-BATTEN_HOT_LOOP void addRow(const float* from, float* __restrict to, int count) {
-  for (int i = 0; i < count; ++i) to[i] += from[i];
+void sumStepsPlain(const float* grey, const int* steps, int stepCount, int count, float* to) {
+  for (int i = 0; i < count; ++i) to[i] = 0.0f;
+  for (int k = 0; k < stepCount; ++k) {
+    const float* from = grey + steps[k];
+    for (int i = 0; i < count; ++i) to[i] += from[i];
+  }
+}
+
+#ifdef BATTEN_HAS_AVX2
+
+constexpr int kPixelLanes = 8;
+
+// Eight times kVectors pixels at once, whose sums stay in registers.
+template <int kVectors>
+BATTEN_AVX2 inline void sumBlock(const float* grey, const int* steps, int stepCount, float* to) {
+  __m256 sums[kVectors];
+  BATTEN_UNROLL
+  for (int v = 0; v < kVectors; ++v) sums[v] = _mm256_setzero_ps();
+  for (int k = 0; k < stepCount; ++k) {
+    const float* from = grey + steps[k];
+    BATTEN_UNROLL
+    for (int v = 0; v < kVectors; ++v) sums[v] = _mm256_add_ps(sums[v], _mm256_loadu_ps(from + kPixelLanes * v));
+  }
+  BATTEN_UNROLL
+  for (int v = 0; v < kVectors; ++v) _mm256_storeu_ps(to + kPixelLanes * v, sums[v]);
+}
+
+BATTEN_AVX2 void sumStepsAvx2(const float* grey, const int* steps, int stepCount, int count, float* to) {
+  int i = 0;
+  for (; i + 8 * kPixelLanes <= count; i += 8 * kPixelLanes) sumBlock<8>(grey + i, steps, stepCount, to + i);
+  for (; i + 4 * kPixelLanes <= count; i += 4 * kPixelLanes) sumBlock<4>(grey + i, steps, stepCount, to + i);
+  for (; i + 2 * kPixelLanes <= count; i += 2 * kPixelLanes) sumBlock<2>(grey + i, steps, stepCount, to + i);
+  for (; i + kPixelLanes <= count; i += kPixelLanes) sumBlock<1>(grey + i, steps, stepCount, to + i);
+  if (i < count) sumStepsPlain(grey + i, steps, stepCount, count - i, to + i);
+}
+
+#endif
+
+BATTEN_HOT_LOOP void darkestOf(const float* values, int count, float* __restrict darkest) {
+  for (int i = 0; i < count; ++i) darkest[i] = values[i] < darkest[i] ? values[i] : darkest[i];
 }
 
 // Brightness of one tile and what lies round it, and its means along lines.
@@ -106,12 +145,12 @@ class Tile {
   void meanAlong(const Direction& d, int reach) {
     const int from = margin_ - reach, count = kTile + 2 * reach;
     const auto weight = 1.0f / static_cast<float>(d.ahead.size());
+    const std::vector<int> aheadSteps = offsetsOf(d.ahead), backSteps = offsetsOf(d.back);
     for (int y = from; y < from + count; ++y) {
+      const float* grey = grey_.data() + index(from, y);
       float *ahead = ahead_.data() + index(from, y), *back = back_.data() + index(from, y);
-      std::fill_n(ahead, count, 0.0f);
-      std::fill_n(back, count, 0.0f);
-      for (const Step& s : d.ahead) addRow(grey_.data() + index(from + s.x, y + s.y), ahead, count);
-      for (const Step& s : d.back) addRow(grey_.data() + index(from + s.x, y + s.y), back, count);
+      stepSums()(grey, aheadSteps.data(), static_cast<int>(aheadSteps.size()), count, ahead);
+      stepSums()(grey, backSteps.data(), static_cast<int>(backSteps.size()), count, back);
       float* mean = mean_.data() + index(from, y);
       for (int i = 0; i < count; ++i) {
         mean[i] = 0.5f * weight * (ahead[i] + back[i]);
@@ -122,10 +161,8 @@ class Tile {
 
   // Darkest mean of all directions at every pixel.
   void noteDarkest() {
-    for (int y = margin_; y < margin_ + kTile; ++y) {
-      for (int x = margin_; x < margin_ + kTile; ++x)
-        best_[index(x, y)] = std::min(best_[index(x, y)], mean_[index(x, y)]);
-    }
+    for (int y = margin_; y < margin_ + kTile; ++y)
+      darkestOf(mean_.data() + index(margin_, y), kTile, best_.data() + index(margin_, y));
   }
 
   // Whether lines darker than `limit` lie at both sides of pixel (x, y) of the tile.
@@ -148,6 +185,11 @@ class Tile {
  private:
   int area() const { return side_ * side_; }  // a tile and what lies round it: some 10^4 pixels
   int index(int x, int y) const { return y * side_ + x; }
+  std::vector<int> offsetsOf(const std::vector<Step>& steps) const {
+    std::vector<int> offsets;
+    for (const Step& s : steps) offsets.push_back(index(s.x, s.y));
+    return offsets;
+  }
 
   int margin_, side_;
   std::vector<float> grey_, mean_, best_, ahead_, back_;
@@ -221,6 +263,15 @@ struct LineSearch {
 };
 
 }  // namespace
+
+StepSums plainStepSums() { return sumStepsPlain; }
+
+StepSums stepSums() {
+#ifdef BATTEN_HAS_AVX2
+  if (hasAvx2()) return sumStepsAvx2;
+#endif
+  return sumStepsPlain;
+}
 
 OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
                                   double widthPx, const RunContext& context) {

@@ -2,7 +2,9 @@
 #include "core/contour/centreline/pixel_placement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 
@@ -23,7 +25,8 @@ constexpr double kProfileVariance = 0.42;  // [px^2] of the smoothing that a pro
 constexpr int kBlurPoints = 400;           // that vote for the blur
 constexpr int kBlurEvery = 5;              // points: neighbours share their pixels
 constexpr int kStartBlur = 12;             // index of .65 px, the usual blur of a scanner
-constexpr int kGainPoints = 60;            // of a stroke that vote for its darkness
+constexpr std::array kBlurStrides = {6, 2, 1};  // of the search from there
+constexpr int kGainPoints = 60;                 // of a stroke that vote for its darkness
 constexpr double kLargestGainChange = 1.25;
 constexpr int kPointsPerBlock = 64;  // worked on together; the result does not depend on it
 constexpr int kStrokeNewtonSteps = 4;
@@ -228,6 +231,13 @@ std::vector<CoursePlace> sampleOf(const std::vector<StrokeCourse>& courses, cons
   return some;
 }
 
+/// Makes the tables that are asked for whatever the page is, side by side: later ones wait for each other.
+void makeTables(std::initializer_list<int> indices, const RunContext& context) {
+  parallelFor(context, static_cast<int>(indices.size()), 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) (void)PageResponse(*(indices.begin() + k));
+  });
+}
+
 /// Index of the blur that leaves least of the pixels' grey unexplained.
 int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>& placers, const RunContext& context) {
   const std::vector<CoursePlace> some = sampleOf(courses, placers);
@@ -246,9 +256,10 @@ int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>
     return upperMedian(known);
   };
   int best = kStartBlur;
+  makeTables({best - kBlurStrides[0], best, best + kBlurStrides[0]}, context);
   double least = left(best);
   // Downhill in ever shorter strides: what is left has one minimum.
-  for (const int far : {6, 2, 1}) {
+  for (const int far : kBlurStrides) {
     for (const int step : {-far, far}) {
       for (int next = best + step; next >= 0 && next < PixelResponse::kBlurs; next += step) {
         const double sum = left(next);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/graininess.h"
@@ -194,6 +196,28 @@ TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
     EXPECT_EQ(filterOrientedLines(closeInk(page.ink, 0.75 * width + 1.0, {}), page.grey, grain, width, {}).gaps.count(),
               0)
         << width;
+  }
+}
+
+TEST(StepSums, AreThoseOfOnePixelAfterTheOtherToTheLastBit) {
+  constexpr int kSide = 160;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> level(0.0f, 255.0f);
+  std::vector<float> grey(kSide * kSide);
+  for (float& value : grey) value = level(random);
+  for (const int count : {1, 7, 8, 31, 64, 88, 119}) {
+    std::vector<int> steps;
+    for (int k = 1; k <= 12; ++k) steps.push_back((k % 3 - 1) * k / 2 * kSide + k);
+    const float* from = grey.data() + kSide * kSide / 2;
+    std::vector<float> plain(count), fastest(count);
+    plainStepSums()(from, steps.data(), 12, count, plain.data());
+    stepSums()(from, steps.data(), 12, count, fastest.data());
+    for (int i = 0; i < count; ++i) {
+      float sum = 0.0f;
+      for (const int step : steps) sum += from[i + step];
+      ASSERT_EQ(plain[i], sum) << count << " " << i;
+      ASSERT_EQ(fastest[i], sum) << count << " " << i;
+    }
   }
 }
 
