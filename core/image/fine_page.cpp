@@ -19,7 +19,7 @@ namespace batten {
 namespace {
 
 // Of strokes, twice the area of their ink by its border: the paper between them is as narrow.
-constexpr double kThinPx = 3.5;
+constexpr double kThinPx = 3.0;
 constexpr double kMayBeThinPx = 6.0;  // of ink in which thin strokes may have run together
 constexpr double kLargestPx = 16e6;   // of a fine page: its memory is that of a page of A4 at 400 dpi
 constexpr int kBesideFinePx = 4;  // [fine px] of a stroke: paper that the page's smoothing filled lies no farther off
