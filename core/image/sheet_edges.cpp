@@ -150,7 +150,7 @@ bool isSheetEdge(const StraightEdge& edge, const SideSteps& steps) {
   if (std::fabs(step) < kLeastStep || std::fabs(step) > kGreatestStep || !isAllAlong(edge, steps, step) ||
       !isSharp(edge, steps, step))
     return false;
-  if (edge.channel == 0 && step >= kSolidContrast) return false;
+  if (medianStep({edge.first, edge.last, 0}, steps, 0).value_or(0.0f) >= kSolidContrast) return false;
   // Shading goes on a little farther in and out, and changes its slope slowly.
   const std::optional<float> outer = medianStep(edge, steps, -kNextDepth), inner = medianStep(edge, steps, kNextDepth);
   const float beside = outer && inner ? 0.5f * (*outer + *inner) : inner.value_or(0.0f);

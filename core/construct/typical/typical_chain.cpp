@@ -151,15 +151,6 @@ bool isClosed(const TypicalPath& path) {
          std::abs(b.kappa - a.kappa) <= kShare * std::abs(a.kappa);
 }
 
-/// True for a path with a segment too short to be one: its curvature would be all rounding.
-bool hasSliver(const TypicalPath& path) {
-  constexpr double kShortest = 0.5;
-  for (std::size_t e = 0; e < path.elements.size(); ++e) {
-    if (!((path.states[e + 1].point - path.states[e].point).norm() > kShortest)) return true;
-  }
-  return false;
-}
-
 /// A path with what speaks for it.
 struct Candidate {
   std::optional<FoundPath> path;
@@ -176,7 +167,7 @@ struct Candidate {
 Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, const TypicalLine& line,
                           const RunContext& context) {
   const auto fit = fitTypicalStructure(path, data, search, context);
-  if (!isOnLine(fit, data) || hasSliver(path) || (path.closed && !isClosed(path))) return {};
+  if (!isOnLine(fit, data) || firstSliver(path) || (path.closed && !isClosed(path))) return {};
   const auto curve = pathCurve(path, line);
   if (!curve || leavesLine(*curve, line)) return {};
   const int known = line.fair ? countedExtrema(*line.fair, line.closed) : 0;
@@ -213,10 +204,14 @@ std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2
   bool isLong = false;
   Candidate best;
   if (auto tiled = tiledPath(line)) {
-    PathData data = dataOf(line);
-    data.hold = kHoldPx;
+    PathData held = dataOf(line);
+    held.hold = kHoldPx;
     isLong = tiled->elements.size() > kManyElements;
-    best = fittedCandidate(std::move(*tiled), data, PathSearch::Simplify, line, context);
+    // A join too many may lead a path astray: then with doubts about what the fit finds, or as it was laid.
+    for (const PathSearch search : {PathSearch::Simplify, PathSearch::Tidy, PathSearch::Keep}) {
+      if (best.path || (isLong && search == PathSearch::Tidy)) continue;
+      best = fittedCandidate(*tiled, held, search, line, context);
+    }
   }
   if (best.path && isLong) return best.path;
   if (best.path && best.falseExtrema == 0) return orGrown(std::move(best), line, params, context);

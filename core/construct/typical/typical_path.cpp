@@ -185,4 +185,11 @@ bool TypicalPath::makeTypical(std::size_t e) {
   return update();
 }
 
+std::optional<std::size_t> firstSliver(const TypicalPath& path) {
+  for (std::size_t e = 0; e < path.elements.size(); ++e) {
+    if (!((path.states[e + 1].point - path.states[e].point).norm() > kShortestSegment)) return e;
+  }
+  return std::nullopt;
+}
+
 }  // namespace batten

@@ -77,6 +77,11 @@ struct TypicalPath {
   bool makeTypical(std::size_t e);
 };
 
+/// [units] A shorter segment is a sliver: its curvature would be all rounding.
+inline constexpr double kShortestSegment = 0.5;
+/// The first element that is a sliver.
+std::optional<std::size_t> firstSliver(const TypicalPath&);
+
 /// Length of the first derivative of a Hermite piece between two states: the arc length of a flat cubic over their
 /// chord.
 struct HermiteLength {

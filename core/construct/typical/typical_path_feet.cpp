@@ -43,6 +43,17 @@ PathFoot refined(const std::vector<PathGeometry>& geometry, const Vec2& p, PathF
   return foot;
 }
 
+/// From the foot of the point before. In sharp turns more elements may lie between two points than steps lead across.
+PathFoot nextFoot(const std::vector<PathGeometry>& geometry, const Vec2& p, const PathFoot& before) {
+  const PathFoot foot = refined(geometry, p, before);
+  const auto away = [&](const PathFoot& f) { return (geometry[f.element].at(f.t, 0)[0] - p).squaredNorm(); };
+  PathFoot ahead = before;
+  while (ahead.element + 1 < geometry.size() && away({ahead.element + 1}) <= away({ahead.element})) ++ahead.element;
+  if (ahead.element <= before.element + kLastChange) return foot;
+  ahead = refined(geometry, p, {ahead.element});
+  return away(ahead) < away(foot) ? ahead : foot;
+}
+
 }  // namespace
 
 std::vector<PathGeometry> geometryOf(const TypicalPath& path) {
@@ -57,7 +68,7 @@ void followFeet(const std::vector<PathGeometry>& geometry, const std::vector<Vec
   const bool fresh = feet.size() != points.size();
   if (fresh) feet.assign(points.size(), {});
   for (std::size_t i = 0; i < points.size(); ++i) {
-    feet[i] = refined(geometry, points[i], fresh && i > 0 ? feet[i - 1] : feet[i]);
+    feet[i] = fresh && i > 0 ? nextFoot(geometry, points[i], feet[i - 1]) : refined(geometry, points[i], feet[i]);
   }
 }
 

@@ -41,11 +41,14 @@ constexpr int kClosingSteps = 12;
 constexpr double kClosed = 1e-13;
 constexpr double kClosingDamping = 1e-6;  ///< Relative: only to keep the metric regular.
 
+/// Places of the user may have to move the path.
+bool isHeld(const PathData& data) { return data.hold > 0.0 && data.places.empty(); }
+
 /// Sum of squares of everything, as normal equations when asked.
 class PathSquares {
  public:
   PathSquares(const TypicalPath& start, const PathData& data)
-      : data_(data), unknowns_(start, true), before_(start), unit_(std::max(data.noise, 1e-6)) {}
+      : data_(data), unknowns_(start, true, isHeld(data)), before_(start), unit_(std::max(data.noise, 1e-6)) {}
   const PathUnknowns& unknowns() const { return unknowns_; }
 
   struct System {
@@ -145,7 +148,7 @@ class PathSquares {
       const PathFoot& foot = feet[i];
       const double r = foot.distance / unit_, squared = foot.distance * foot.distance;
       sum += c2 > 0.0 ? c2 / (unit_ * unit_) * std::log1p(squared / c2) : r * r;
-      if (!system) continue;
+      if (!system || !canMove(path, foot.element)) continue;
       const double weight = c2 > 0.0 ? 1.0 / std::sqrt(1.0 + squared / c2) : 1.0;
       const auto d = geometry[foot.element].at(foot.t, 1);
       const Vec2 n = leftNormal(d[1].normalized());
@@ -171,6 +174,12 @@ class PathSquares {
       system->gradient.noalias() += jacobian.transpose() * residuals;
     }
     return sum;
+  }
+
+  /// Whether any unknown moves an element.
+  bool canMove(const TypicalPath& path, std::size_t e) const {
+    const auto follows = [&](std::size_t s) { return unknowns_.isUnknown(s) || !path.isFree(s); };
+    return path.elements[e].typical || follows(e) || follows(e + 1);
   }
 
   static double add(System* system, const Row& row, double residual) {
@@ -220,6 +229,7 @@ class PathSquares {
     for (std::size_t s = 0; s <= last; ++s) {
       const bool free = path.isFree(s);
       if (!free && s < last && path.elements[s].typical) continue;
+      if (free && !unknowns_.isUnknown(s)) continue;
       const double behind = elementLength(path, s < last ? s : s - 1),
                    ahead = s > 0 ? elementLength(path, s - 1) : behind;
       const double reach = 0.25 * (behind + ahead);
@@ -340,26 +350,9 @@ class PathProblem final : public LevenbergProblem {
   Eigen::VectorXd damping_;  ///< What a damping of 1 adds to the diagonal.
 };
 
-}  // namespace
-
-std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations, const RunContext& context) {
-  if (path.elements.empty() || path.states.size() != path.elements.size() + 1) return std::nullopt;
-  if (!path.closed) {
-    path.states.front().point = data.start;
-    if (!path.endsTypical()) path.states.back().point = data.end;
-  }
-  PathProblem problem(path, data);
-  if (problem.unknowns().count() == 0) return std::nullopt;  // nothing can move
+/// How far the points lie from a path as it is.
+PathFit measured(const TypicalPath& path, const PathData& data) {
   PathFit fit;
-  LevenbergOptions options = kPathSteps;
-  options.iterations = maxIterations;
-  const LevenbergRun run = levenbergMarquardt(problem, options, context);
-  if (run.why == Termination::Degenerate) return std::nullopt;
-  if (run.iterations == 0 && !std::isfinite(problem.linearise())) return std::nullopt;  // cancelled
-  fit.iterations = run.iterations;
-  fit.converged = run.why != Termination::IterationLimit;
-  problem.closeGap(run.why);
-  fit.feet.clear();
   followFeet(geometryOf(path), data.points, fit.feet);
   double squares = 0.0;
   const double c2 = data.outlier * data.outlier;
@@ -369,6 +362,34 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
     fit.cost += c2 > 0.0 ? c2 * std::log1p(r2 / c2) : r2;
   }
   fit.rms = fit.feet.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(fit.feet.size()));
+  return fit;
+}
+
+}  // namespace
+
+std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations, const RunContext& context) {
+  if (path.elements.empty() || path.states.size() != path.elements.size() + 1) return std::nullopt;
+  if (!path.closed) {
+    path.states.front().point = data.start;
+    if (!path.endsTypical()) path.states.back().point = data.end;
+  }
+  PathProblem problem(path, data);
+  if (problem.unknowns().count() == 0) {
+    // Hermite pieces laid along their line are that line; else nothing can move.
+    if (!isHeld(data) || !path.update()) return std::nullopt;
+    PathFit fit = measured(path, data);
+    fit.converged = true;
+    return fit;
+  }
+  LevenbergOptions options = kPathSteps;
+  options.iterations = maxIterations;
+  const LevenbergRun run = levenbergMarquardt(problem, options, context);
+  if (run.why == Termination::Degenerate) return std::nullopt;
+  if (run.iterations == 0 && !std::isfinite(problem.linearise())) return std::nullopt;  // cancelled
+  problem.closeGap(run.why);
+  PathFit fit = measured(path, data);
+  fit.iterations = run.iterations;
+  fit.converged = run.why != Termination::IterationLimit;
   fit.unknowns = problem.unknowns().count();
   return fit;
 }

@@ -40,7 +40,8 @@ struct FoundPath {
 };
 
 /// Levenberg-Marquardt with analytic derivatives; closes or pins the path exactly at the end. The path becomes the best
-/// found, also when cancelled. Absent where the path or its start is impossible.
+/// found, also when cancelled. A path of Hermite pieces alone that is held to its line stays as it is. Absent where the
+/// path or its start is impossible.
 std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations,
                                const RunContext& context = {});
 

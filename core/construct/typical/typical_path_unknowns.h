@@ -25,10 +25,11 @@ inline constexpr double kLongestPathLogStep = 3.0;
 /// The unknowns of a path by column, and how a step changes it.
 class PathUnknowns {
  public:
-  PathUnknowns(const TypicalPath& path, bool pinned) {
+  /// @param held the path is laid along its line: only what lies near a typical curve has to give way.
+  PathUnknowns(const TypicalPath& path, bool pinned, bool held) {
     for (std::size_t s = 0; s < path.states.size(); ++s) {
       Columns c;
-      if (path.isFree(s)) {
+      if (path.isFree(s) && (!held || isNearTypical(path, s))) {
         const bool atEnd = s == 0 || s + 1 == path.states.size();
         if (!(atEnd && pinned && !path.closed)) c.place = take(2);
         c.angle = take(1);
@@ -40,6 +41,8 @@ class PathUnknowns {
     for (const PathElement& e : path.elements) shapes_.push_back(e.typical ? take(2) : -1);
   }
   int count() const { return count_; }
+  /// Whether a state has unknowns of its own.
+  bool isUnknown(std::size_t s) const { return states_[s].kappa.has_value(); }
   int shape(std::size_t e) const { return shapes_[e]; }
 
   TypicalPath moved(const TypicalPath& path, const Eigen::VectorXd& step) const {
@@ -70,8 +73,8 @@ class PathUnknowns {
       const Columns& c = states_[s];
       if (path.isFree(s)) {
         if (c.place) rows[s](0, *c.place) = rows[s](1, *c.place + 1) = 1.0;
-        rows[s](2, *c.angle) = 1.0;
-        rows[s](3, *c.kappa) = c.isLog ? path.states[s].kappa : 1.0;
+        if (c.angle) rows[s](2, *c.angle) = 1.0;
+        if (c.kappa) rows[s](3, *c.kappa) = c.isLog ? path.states[s].kappa : 1.0;
       } else if (path.elements[s - 1].typical) {
         rows[s] = behindTypical(path, s - 1, rows[s - 1]);
       } else {
@@ -156,6 +159,18 @@ class PathUnknowns {
     const int first = count_;
     count_ += n;
     return first;
+  }
+
+  /// Within so many elements that what a typical curve takes up has gone.
+  static bool isNearTypical(const TypicalPath& path, std::size_t s) {
+    constexpr std::size_t kGivesWay = 3;
+    const std::size_t count = path.elements.size();
+    for (std::size_t k = 0; k < kGivesWay; ++k) {
+      const bool isBefore = s > k || path.closed, isAfter = s + k < count || path.closed;
+      if (isBefore && path.elements[(s + count - 1 - k % count) % count].typical) return true;
+      if (isAfter && path.elements[(s + k) % count].typical) return true;
+    }
+    return false;
   }
 
   StateRows behindTypical(const TypicalPath& path, std::size_t e, const StateRows& start) const {

@@ -68,8 +68,12 @@ class StructureSearch {
     if (search != PathSearch::Simplify && !holdMonotone(doubts)) return std::nullopt;
     if (doubts) dropExtrema();
     if (divide) divideWhereNeeded(6);
-    if (search != PathSearch::Keep) simplify(doubts);
+    if (search != PathSearch::Keep) {
+      simplify(doubts);
+      dissolveSlivers();
+    }
     comeToRest();
+    if (search != PathSearch::Keep) dissolveSlivers();
     return context_.isCancelled() ? std::nullopt : std::optional(fit_);
   }
 
@@ -243,6 +247,35 @@ class StructureSearch {
       }
       if (!changed) return;
     }
+  }
+
+  /// A segment that its neighbours have all but consumed goes.
+  void dissolveSlivers() {
+    constexpr int kMostSlivers = 8;
+    for (int i = 0; i < kMostSlivers && !context_.isCancelled(); ++i) {
+      const auto sliver = firstSliver(path_);
+      if (!sliver) return;
+      auto without = withoutElement(path_, *sliver);
+      PathFit fit;
+      if (!without || !refit(*without, fit, 25)) return;
+      path_ = std::move(*without);
+      fit_ = std::move(fit);
+    }
+  }
+
+  /// Its neighbour takes an element over: a typical one as such, else as a Hermite piece.
+  static std::optional<TypicalPath> withoutElement(const TypicalPath& path, std::size_t e) {
+    const bool hasNext = e + 1 < path.elements.size();
+    for (const bool asTypical : {true, false}) {
+      for (const bool isNext : {true, false}) {
+        if (isNext ? !hasNext : e == 0) continue;
+        TypicalPath joined = path;
+        const std::size_t neighbour = isNext ? e + 1 : e - 1, first = std::min(e, neighbour);
+        joined.elements[e].trend = joined.elements[neighbour].trend;
+        if (asTypical ? joined.join(first) : joined.joinAsHermite(first)) return joined;
+      }
+    }
+    return std::nullopt;
   }
 
   template <class Change>

@@ -25,6 +25,8 @@ constexpr double kMostTurn = 0.8, kLeastTurn = 0.04, kLeastLength = 20.0;
 /// A Hermite piece that gives way to a typical curve is at least this long [units]: a sliver would take up what both
 /// neighbours leave.
 constexpr double kLeastHermite = 45.0;
+/// No piece is shorter [units], however sharply the line turns: room for the fit above kShortestSegment.
+constexpr double kShortestTile = 2.0 * kShortestSegment;
 constexpr double kMostLogRatio = 1.2;
 constexpr double kLeastTileTurn =
     1e-6;  // [rad] half the change of direction: a tile that is straight has a logarithm, too
@@ -161,10 +163,21 @@ class Tiling {
     return j;
   }
 
+  double between(int i, int j) const { return (at(j).state.point - at(i).state.point).norm(); }
+  bool isAtEnd(int i) const { return places_.back().s - at(i).s < kShortestTile; }
+
+  /// The first place that leaves room for a segment; the last one if there is none.
+  int nextPlace(int i) const {
+    const int last = static_cast<int>(places_.size()) - 1;
+    int next = std::min(i + 1, last);
+    while (next < last && between(i, next) < kShortestTile) ++next;
+    return isAtEnd(next) ? last : next;
+  }
+
   int farthestHermite(int i) const {
     const int last = static_cast<int>(places_.size()) - 1;
-    int best = std::min(i + 1, last);
-    for (int j = i + 2; j <= last; j += std::max(1, (j - i) / 12)) {
+    int best = nextPlace(i);
+    for (int j = best + 1; j <= last; j += std::max(1, (j - i) / 12)) {
       if (std::abs(at(j).state.angleRad - at(i).state.angleRad) > kMostTurn) break;
       TypicalPath one;
       one.elements.resize(1);
@@ -173,8 +186,12 @@ class Tiling {
       if (!nearMiddle(PathGeometry(one, 0), i, j, kHermiteMiss)) break;
       best = j;
     }
-    // A sliver at the end is shared out.
-    return last - best < best - i && best < last && last - best < 4 ? (i + last + 1) / 2 : best;
+    if (isAtEnd(best)) return last;
+    // A short piece at the end is shared out.
+    const int half = (i + last + 1) / 2;
+    const bool isShared = last - best < best - i && best < last && last - best < 4 &&
+                          std::min(between(i, half), between(half, last)) >= kShortestTile;
+    return isShared ? half : best;
   }
 
   void append(TypicalPath& path, int i, int j, bool typical) const {

@@ -12,7 +12,8 @@ namespace batten {
 /// wherever the curvature keeps its sign and goes one way quickly enough for h <= cos(phi) or h >= 1 / cos(phi);
 /// quintic Hermite pieces at inflections, straight parts, circular arcs and flat extrema, which typical curves cannot
 /// draw. So the path begins with the extrema and inflections that the points prove, and every typical curve with the
-/// way its curvature goes. In the line's units (px). Absent without a fair fit, or where the line is too short.
+/// way its curvature goes. No piece is a sliver. In the line's units (px). Absent without a fair fit, or where the line
+/// is too short.
 std::optional<TypicalPath> tiledPath(const TypicalLine& line);
 
 }  // namespace batten

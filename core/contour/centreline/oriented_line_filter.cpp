@@ -37,26 +37,38 @@ struct Step {
 };
 
 // One direction in which lines are followed.
-struct Direction {
-  std::vector<Step> ahead, back;  // of a line through 0
-  std::vector<Step> left, right;  // places at either side where the next line may be
+template <class Place>
+struct PlacesOfLine {
+  std::vector<Place> ahead, back;  // of a line through 0
+  std::vector<Place> left, right;  // at either side, where the next line may be
 };
+using DirectionSteps = PlacesOfLine<Step>;
+using Direction = PlacesOfLine<int>;  // where they stand in a tile, from the pixel of the line on
 
 struct LineFilter {
   std::vector<Direction> directions;
   int ridgeSides = 1;           // of the places at the sides: up to 1.5 widths
   int halfPx = 8, reachPx = 0;  // of a line, of the places at its sides
+  int margin() const { return halfPx + reachPx; }
+  int side() const { return kTile + 2 * margin(); }  // of a tile and what lies round it
 };
+
+std::vector<int> offsetsOf(const std::vector<Step>& steps, int side) {
+  std::vector<int> offsets;
+  for (const Step& s : steps) offsets.push_back(s.y * side + s.x);
+  return offsets;
+}
 
 LineFilter filterFor(double widthPx) {
   LineFilter filter;
   filter.halfPx = static_cast<int>(std::lround(std::clamp(kHalfWidths * widthPx, kShortestHalfPx, kLongestHalfPx)));
   const int count = static_cast<int>(kDirectionsPerPx * filter.halfPx);
   const double stepPx = std::max(kLeastSideStepPx, kSideStepWidths * widthPx);
+  std::vector<DirectionSteps> directions;
   for (int k = 0; k < count; ++k) {
     const double a = std::numbers::pi * k / count;
     const Vec2 t(std::cos(a), std::sin(a)), n(-t.y(), t.x());
-    Direction d;
+    DirectionSteps d;
     const auto step = [](const Vec2& v) {
       return Step{static_cast<int>(std::lround(v.x())), static_cast<int>(std::lround(v.y()))};
     };
@@ -74,7 +86,12 @@ LineFilter filterFor(double widthPx) {
         filter.reachPx = std::max({filter.reachPx, std::abs(s.x), std::abs(s.y)});
       }
     }
-    filter.directions.push_back(std::move(d));
+    directions.push_back(std::move(d));
+  }
+  const int side = filter.side();
+  for (const DirectionSteps& d : directions) {
+    filter.directions.push_back(
+        {offsetsOf(d.ahead, side), offsetsOf(d.back, side), offsetsOf(d.left, side), offsetsOf(d.right, side)});
   }
   return filter;
 }
@@ -125,8 +142,8 @@ BATTEN_HOT_LOOP void darkestOf(const float* values, int count, float* __restrict
 class Tile {
  public:
   Tile(const GreyImage& grey, int x0, int y0, const LineFilter& filter)
-      : margin_(filter.halfPx + filter.reachPx),
-        side_(kTile + 2 * margin_),
+      : margin_(filter.margin()),
+        side_(filter.side()),
         grey_(area()),
         mean_(area()),
         best_(area()),
@@ -145,12 +162,11 @@ class Tile {
   void meanAlong(const Direction& d, int reach) {
     const int from = margin_ - reach, count = kTile + 2 * reach;
     const auto weight = 1.0f / static_cast<float>(d.ahead.size());
-    const std::vector<int> aheadSteps = offsetsOf(d.ahead), backSteps = offsetsOf(d.back);
     for (int y = from; y < from + count; ++y) {
       const float* grey = grey_.data() + index(from, y);
       float *ahead = ahead_.data() + index(from, y), *back = back_.data() + index(from, y);
-      stepSums()(grey, aheadSteps.data(), static_cast<int>(aheadSteps.size()), count, ahead);
-      stepSums()(grey, backSteps.data(), static_cast<int>(backSteps.size()), count, back);
+      stepSums()(grey, d.ahead.data(), static_cast<int>(d.ahead.size()), count, ahead);
+      stepSums()(grey, d.back.data(), static_cast<int>(d.back.size()), count, back);
       float* mean = mean_.data() + index(from, y);
       for (int i = 0; i < count; ++i) {
         mean[i] = 0.5f * weight * (ahead[i] + back[i]);
@@ -167,15 +183,16 @@ class Tile {
 
   // Whether lines darker than `limit` lie at both sides of pixel (x, y) of the tile.
   bool isFlanked(const Direction& d, float limit, int x, int y) const {
-    const auto isDark = [&](const Step& s) { return mean_[index(margin_ + x + s.x, margin_ + y + s.y)] < limit; };
+    const float* here = mean_.data() + index(margin_ + x, margin_ + y);
+    const auto isDark = [&](int offset) { return here[offset] < limit; };
     return std::any_of(d.left.begin(), d.left.end(), isDark) && std::any_of(d.right.begin(), d.right.end(), isDark);
   }
   // [grey] How much darker than both its sides a line is at pixel (x, y), where it is fainter: ahead or behind.
   float ridge(const Direction& d, int sides, int x, int y) const {
-    const auto brightest = [&](const std::vector<Step>& places) {
+    const float* here = mean_.data() + index(margin_ + x, margin_ + y);
+    const auto brightest = [&](const std::vector<int>& places) {
       float most = 0.0f;
-      for (int k = 0; k < std::min(sides, static_cast<int>(places.size())); ++k)
-        most = std::max(most, mean_[index(margin_ + x + places[k].x, margin_ + y + places[k].y)]);
+      for (int k = 0; k < std::min(sides, static_cast<int>(places.size())); ++k) most = std::max(most, here[places[k]]);
       return most;
     };
     return std::min(brightest(d.left), brightest(d.right)) - ahead_[index(margin_ + x, margin_ + y)];
@@ -185,11 +202,6 @@ class Tile {
  private:
   int area() const { return side_ * side_; }  // a tile and what lies round it: some 10^4 pixels
   int index(int x, int y) const { return y * side_ + x; }
-  std::vector<int> offsetsOf(const std::vector<Step>& steps) const {
-    std::vector<int> offsets;
-    for (const Step& s : steps) offsets.push_back(index(s.x, s.y));
-    return offsets;
-  }
 
   int margin_, side_;
   std::vector<float> grey_, mean_, best_, ahead_, back_;

@@ -19,6 +19,7 @@ constexpr double kSharpRadius = 1.5;     // units
 constexpr double kSharpSlackPx = 0.4;    // a vertex is known to that
 constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute tips
 constexpr double kPointsPerPx = 4.0;     // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
+constexpr double kPointStepPx = 1.0;     // located points lie as far apart: a rounding may begin behind one
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
 constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                      // units: ends have hooks of their own
 constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;
@@ -69,9 +70,40 @@ double CornerJudge::chordTurn(double arc, double near, double before, double aft
   return -std::atan2(cross(in, out), in.dot(out));
 }
 
+CornerJudge::Nearest CornerJudge::nearestTo(const Vec2& place, int from, double reachPx) const {
+  const int n = static_cast<int>(contour_.points.size()), reach = static_cast<int>(kPointsPerPx * reachPx);
+  Nearest nearest;
+  for (int k = -reach; k <= reach; ++k) {
+    const int i = contour_.closed ? wrapIndex(from + k, n) : from + k;
+    if (i < 0 || i >= n) continue;
+    const double distance = (contour_.points[i].at - place).norm();
+    if (distance < nearest.distance) nearest = {i, distance};
+  }
+  return nearest;
+}
+
+// Of the largest rounding that fits between the located points on either side of a tip; infinite where there are none.
+double CornerJudge::unseenRadius(const CornerEvidence& e, int tip) const {
+  const int n = static_cast<int>(contour_.points.size());
+  double tangent = 0.0;
+  for (const int side : {-1, 1}) {
+    int i = tip;
+    for (int k = 0; k < n && !contour_.points[i].refined; ++k)
+      i = contour_.closed ? wrapIndex(i + side, n) : std::clamp(i + side, 0, n - 1);
+    if (!contour_.points[i].refined) return std::numeric_limits<double>::infinity();
+    tangent = std::max(tangent, (contour_.points[i].at - e.positionPx).norm());
+  }
+  return (tangent - kPointStepPx) / std::tan(0.5 * std::abs(e.angleRad));
+}
+
 double CornerJudge::certainty(const CornerEvidence& e) const {
-  const double unit = unitAt(e), angle = std::abs(e.angleRad), arc = arc_[e.pointIndex];
+  const double unit = unitAt(e), angle = std::abs(e.angleRad);
   if (!(angle > 0.0)) return 0.0;
+  Nearest tip{e.pointIndex, 0.0};
+  if (e.isLocated) tip = nearestTo(e.positionPx, e.pointIndex, kFarthestVertex * unit);
+  // Where the tip of a shape was filtered away the place that turns most may lie beside it.
+  const bool isTipLost = contour_.kind == ContourKind::Outline && !contour_.points[tip.index].refined;
+  const double arc = arc_[isTipLost ? tip.index : e.pointIndex];
   const bool toEnd = !contour_.closed && std::min(arc, length_ - arc) <= std::min(e.freeBefore, e.freeAfter);
   double worst = (toEnd ? kLeastLegToEnd : kLeastLeg) * unit / std::max(1e-9, std::min(e.freeBefore, e.freeAfter));
   const auto demand = [&worst](double value, double limit) { worst = std::max(worst, value / limit); };
@@ -91,15 +123,11 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   };
   if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
   if (e.isLocated) {
-    double off = std::numeric_limits<double>::infinity();
-    const int n = static_cast<int>(contour_.points.size()),
-              reach = static_cast<int>(kPointsPerPx * kFarthestVertex * unit);
-    for (int k = -reach; k <= reach; ++k) {
-      const int i = contour_.closed ? wrapIndex(e.pointIndex + k, n) : e.pointIndex + k;
-      if (i >= 0 && i < n) off = std::min(off, (contour_.points[i].at - e.positionPx).norm());
-    }
-    demand(off, kSharpRadius * unit * (1.0 / std::cos(0.5 * angle) - 1.0) + kSharpSlackPx);
-    demand(off, kFarthestVertex * unit);
+    double rounded = tip.distance / (kSharpRadius * unit * (1.0 / std::cos(0.5 * angle) - 1.0) + kSharpSlackPx);
+    // The guesses that stand for a lost tip say less than how far the sides were seen to go.
+    if (isTipLost) rounded = std::min(rounded, unseenRadius(e, tip.index) / (kSharpRadius * unit));
+    demand(rounded, 1.0);
+    demand(tip.distance, kFarthestVertex * unit);
   } else {
     demand(kLeastUnlocatedTurn, near);
     demand(std::abs(far - near), kUnlocatedShare * near);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/base/vec2.h"
@@ -24,7 +25,8 @@ struct CornerEvidence {
 /// How certain it is that such places are corners and neither bends nor dents: 0..1, from kCertainCorner on taken for
 /// granted. The unit of length is what rounds the line by itself: the width of the stroke, the blur of a border, or a
 /// multiple of the roughness. A corner is sharp at that scale: its vertex lies no farther from the line than that of a
-/// rounding of radius r, r (sec(angle / 2) - 1), r being 1.5 units. It has sides of 2.5 units and more, and they bend
+/// rounding of radius r, r (sec(angle / 2) - 1), r being 1.5 units; or, where the tip of a shape was filtered away, no
+/// larger rounding has room between what was seen of its sides. It has sides of 2.5 units and more, and they bend
 /// far less than it turns: chords over 3 and 6 units agree. Where the line turns back again within 8 units it may be a
 /// dent, unless it turns by 70 degrees.
 class CornerJudge {
@@ -34,6 +36,14 @@ class CornerJudge {
 
  private:
   double unitAt(const CornerEvidence&) const;
+  /// A point of the contour, and how far it lies from a place [px].
+  struct Nearest {
+    int index = 0;
+    double distance = std::numeric_limits<double>::infinity();
+  };
+  /// Within `reachPx` along the line.
+  Nearest nearestTo(const Vec2& place, int from, double reachPx) const;
+  double unseenRadius(const CornerEvidence&, int tip) const;
   Vec2 atArc(double) const;
   double chordTurn(double arc, double near, double before, double after) const;
 

@@ -8,6 +8,7 @@
 
 #include "core/construct/typical/typical_growing.h"
 #include "core/construct/typical/typical_path_fit.h"
+#include "core/construct/typical/typical_tiling.h"
 #include "core/curve/knot_operations.h"
 #include "core/curve/nurbs_curve.h"
 #include "tests/support/known_answers.h"
@@ -74,6 +75,68 @@ TEST(FitPath, APathOfWhichNothingCanMoveIsNoFit) {
   for (int i = 0; i < 40; ++i) data.points.emplace_back(20.0 * std::sin(0.16 * i), 20.0 - 20.0 * std::cos(0.16 * i));
   const auto fit = fitPath(path, data, 10, {});
   EXPECT_TRUE(!fit || std::isfinite(fit->rms));
+}
+
+// Where no typical curve has to give way, the pieces are the line that they are laid along: a fit to the noise of the
+// points would only take time.
+TEST(FitPath, HermitePiecesHeldToTheirLineStayAsTheyAre) {
+  TypicalPath path;
+  PathData data;
+  data.hold = 0.01;
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.3);
+  constexpr double kRadius = 200.0;
+  const auto at = [=](double angle) -> Vec2 { return kRadius * Vec2(std::sin(angle), 1.0 - std::cos(angle)); };
+  for (int i = 0; i <= 4; ++i) path.states.push_back({at(0.3 * i), 0.3 * i, 1.0 / kRadius});
+  path.elements.assign(4, PathElement{.typical = false});
+  for (int i = 0; i <= 200; ++i) {
+    const double angle = 1.2 * i / 200.0;
+    data.points.push_back(at(angle) + noise(random) * Vec2(-std::sin(angle), std::cos(angle)));
+  }
+  data.start = path.states.front().point;
+  data.end = path.states.back().point;
+  const TypicalPath before = path;
+  const auto fit = fitPath(path, data, 25);
+  ASSERT_TRUE(fit);
+  EXPECT_TRUE(fit->converged);
+  EXPECT_NEAR(fit->rms, 0.3, 0.05);
+  for (std::size_t s = 0; s < path.states.size(); ++s) {
+    EXPECT_EQ(path.states[s].point, before.states[s].point);
+    EXPECT_EQ(path.states[s].angleRad, before.states[s].angleRad);
+    EXPECT_EQ(path.states[s].kappa, before.states[s].kappa);
+  }
+}
+
+// A corner that nobody marked is a turn within a few tenths of a pixel. A segment as short would be refused, and the
+// chain with it.
+TEST(TiledPath, LeavesNoSliversInSharpTurns) {
+  for (const double rounding : {0.15, 0.3, 0.6}) {
+    TypicalLine line;
+    const double side = 100.0 + rounding;
+    auto fair = NurbsCurve::make(
+        2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 3},
+        {{0, 0}, {50, 8}, {100, 0}, {side, -0.16 * rounding}, {side, rounding}, {side, 50}, {110, 100}});
+    ASSERT_TRUE(fair);
+    line.fair = std::move(*fair);
+    const auto path = tiledPath(line);
+    ASSERT_TRUE(path);
+    EXPECT_FALSE(firstSliver(*path)) << rounding;
+    EXPECT_LT((path->states.back().point - Vec2(110, 100)).norm(), 0.5);  // the fit closes the rest
+  }
+}
+
+// Points wide apart, with more elements between two of them than a search from foot to foot leads across.
+TEST(PathFeet, AreFoundAcrossManyShortElements) {
+  TypicalPath path;
+  constexpr int kShortOnes = 60;
+  for (int i = 0; i <= kShortOnes; ++i) path.states.push_back({Vec2(100.0 + i, 0.0), 0.0, 0.0});
+  path.states.insert(path.states.begin(), {Vec2(0.0, 0.0), 0.0, 0.0});
+  path.states.push_back({Vec2(300.0, 0.0), 0.0, 0.0});
+  path.elements.assign(path.states.size() - 1, PathElement{.typical = false});
+  std::vector<PathFoot> feet;
+  followFeet(geometryOf(path), {{10, 1}, {90, 1}, {170, 1}, {250, 1}}, feet);
+  for (const PathFoot& foot : feet) EXPECT_NEAR(foot.distance, 1.0, 1e-9);
+  EXPECT_EQ(feet.back().element, path.elements.size() - 1);
 }
 
 TEST(TypicalPath, SplittingATypicalElementIsExact) {

@@ -78,6 +78,28 @@ TEST(CornerCertainty, SharpTurnsWithLongSidesAreCertain) {
   EXPECT_GE(found, 0.95 * all) << "of " << all;
 }
 
+// A pixel-sharp corner whose tip the neighbourhood filter took: what is left there was not located on the grey values,
+// and the place that turns most lies beside the tip.
+TEST(CornerCertainty, CornersWithoutTheirTipsAreCertain) {
+  constexpr double kLegPx = 150.0, kStepPx = 0.98;
+  int found = 0, all = 0;
+  for (const double cut : {3.5, 4.0, 4.5}) {
+    for (int phase = 0; phase < 8; ++phase) {
+      std::vector<Vec2> points;
+      int firstGuess = 0, guesses = 0;
+      for (double s = 0.125 * phase * kStepPx; s < kLegPx - cut; s += kStepPx) points.emplace_back(0.0, s);
+      firstGuess = static_cast<int>(points.size());
+      for (double t = 0.4; t < cut - 0.4; t += 0.67, ++guesses) points.emplace_back(1.0 + 0.8 * t, kLegPx - cut + t);
+      for (double s = cut; s < kLegPx; s += kStepPx) points.emplace_back(s, kLegPx);
+      ContourSet set = setOf(points, ContourKind::Outline, 0.003, 1);
+      for (int i = 0; i < guesses; ++i) set.contours[0].points[firstGuess + i].refined = false;
+      found += certainOn(set) == 1 ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_EQ(found, all);
+}
+
 // A rounding is a bend that someone drew, from three widths of the stroke or of the blur on.
 TEST(CornerCertainty, RoundedTurnsAreNot) {
   for (const ContourKind kind : {ContourKind::Outline, ContourKind::Centreline}) {
@@ -87,6 +109,17 @@ TEST(CornerCertainty, RoundedTurnsAreNot) {
         EXPECT_EQ(certainOn(setOf(bend(degrees * kDeg, radius, 150.0), kind, 0.05, 3)), 0)
             << degrees << " degrees, radius " << radius;
       }
+    }
+  }
+}
+
+// Without located points nothing was seen of the sides of a tip.
+TEST(CornerCertainty, RoundedTurnsOfPixelBordersAreNot) {
+  for (const double degrees : {60.0, 90.0, 120.0}) {
+    for (const double radius : {7.5, 9.0, 10.5}) {
+      ContourSet set = setOf(bend(degrees * kDeg, radius, 150.0), ContourKind::Outline, 0.05, 3);
+      for (ContourPoint& p : set.contours[0].points) p.refined = false;
+      EXPECT_EQ(certainOn(set), 0) << degrees << " degrees, radius " << radius;
     }
   }
 }
