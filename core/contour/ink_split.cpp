@@ -95,10 +95,11 @@ Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx, const R
 }
 
 // The solids of a pencil whose grain is closed; small ones are grain themselves, or strokes that cross.
-Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double mergeWidths, const RunContext& context) {
+Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double mergeWidths, double pixelsPerPx,
+                              const RunContext& context) {
   constexpr double kSolidWidths = 5.0;   // strokes side by side that have run together are narrower
   constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke
-  Result<InkLabels> labels = labelInk(body, context, mergeWidths);
+  Result<InkLabels> labels = labelInk(body, context, mergeWidths, pixelsPerPx);
   if (!labels) return fail(labels.error());
   const double pen = std::max(labels->penPx.value_or(0.0), widthPx);
   const auto opened = [&](double widths) {
@@ -111,9 +112,9 @@ Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double merge
   return solids;
 }
 
-Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, InkSplit& split,
-                          const RunContext& context) {
-  Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths);
+Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, double pixelsPerPx,
+                          InkSplit& split, const RunContext& context) {
+  Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths, pixelsPerPx);
   if (!labels) return fail(labels.error());
   split.strokes = std::move(labels->strokes);
   split.shapes = std::move(labels->shapes);
@@ -143,7 +144,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   Result<BitImage> body = withGrainClosed(both(split.strokes, split.pencil), widthPx, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
-  Result<BitImage> solids = pencilSolids(*body, widthPx, params.mergeWidths, context);
+  Result<BitImage> solids = pencilSolids(*body, widthPx, params.mergeWidths, pixelsPerPx, context);
   if (!solids) return fail(solids.error());
   split.strokes = without(std::move(split.strokes), *solids);
   split.shapes = either(std::move(split.shapes), *solids);
@@ -155,14 +156,14 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
 }  // namespace
 
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
-                          const RunContext& context) {
+                          const RunContext& context, double pixelsPerPx) {
   InkSplit split;
   split.strokes = split.shapes = BitImage(ink.width, ink.height);
   if (params.mode == EdgeMode::Outline) {
     split.shapes = ink;
   } else if (params.mode == EdgeMode::Centreline) {
     split.strokes = ink;
-  } else if (auto done = splitByLabel(ink, grey, params, split, context); !done) {
+  } else if (auto done = splitByLabel(ink, grey, params, pixelsPerPx, split, context); !done) {
     return fail(done.error());
   }
   if (params.choices.empty()) return split;

@@ -7,6 +7,7 @@
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_choices.h"
+#include "core/contour/edge_params.h"
 #include "core/image/bits/bit_image.h"
 #include "core/image/bits/run_pieces.h"
 
@@ -15,8 +16,13 @@ namespace batten {
 /// Notes on every line which choice of the user its ink follows (Contour::traceMode), and in the report which choices
 /// lie near no ink or asked for the middle of ink that has none.
 /// @param regions what a choice holds for. @param blots ink that has no middle and is followed along its border.
+/// @param pixelsPerPx of these pictures, along a pixel of the page.
 void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const EdgeChoice> choices, const BitImage& blots,
-                 const RunContext& context);
+                 double pixelsPerPx, const RunContext& context);
+
+/// Notes junctions chosen by the user that are not found: a choice near no junction waits for one; a pair of places
+/// that are not on two branches is left out. Where lines were made of several strokes, junctions are not known.
+void noteJunctionChoices(ContourSet& set, const EdgeParams& edges);
 
 /// Adds a sentence to the note of the report.
 void addNote(ContourSet& set, const std::string& sentence);

@@ -14,6 +14,7 @@
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/chosen_ink.h"
+#include "core/contour/fine_lines.h"
 #include "core/contour/ink_split.h"
 #include "core/contour/line_choices.h"
 #include "core/contour/outline/crack_contours.h"
@@ -202,7 +203,8 @@ BitImage notChosen(BitImage fillings, const RunPieces& regions, const EdgeParams
   return fillings;
 }
 
-Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
+// `page`: what an enlarged `grey` was made of, else absent.
+Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page, const EdgeParams& edges,
                              const ContourParams& params, const RunContext& context) {
   FoundLines found;
   if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
@@ -211,12 +213,12 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
     found.set = std::move(*borders);
     return found;
   }
-  Result<InkSplit> split = splitInk(ink, grey, edges, context);
+  Result<InkSplit> split = splitInk(ink, grey, edges, context, page != nullptr ? kFineFactor : 1.0);
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);
   const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths,
-                                  split->known.get()};
+                                  split->known.get(), page};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());
   split->known.reset();
@@ -315,48 +317,28 @@ std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
          " or longer was found: lower the smallest length or raise the thresholds.";
 }
 
-// A choice near no junction waits for one; a pair of places that are not on two branches is left out. Where lines were
-// made of several strokes, junctions are not known.
-void noteJunctionChoices(ContourSet& set, const EdgeParams& edges) {
-  constexpr int kTold = 3;  // of each kind, one by one
-  if (edges.mergeWidths > 0.0 || edges.intent) return;
-  int missing = 0, unmatched = 0;
-  for (int i = 0; i < std::ssize(edges.junctions); ++i) {
-    const Vec2& px = edges.junctions[i].positionPx;
-    std::string place = std::to_string(std::lround(px.x()));
-    place += ", " + std::to_string(std::lround(px.y()));
-    // The last of several choices for one junction counts.
-    const auto followsALater = [&](const StrokeJunction& j) {
-      return j.choice && *j.choice > i && (j.positionPx - px).norm() <= kInkReachPx;
-    };
-    if (std::ranges::any_of(set.junctions, followsALater)) continue;
-    const auto own = std::ranges::find_if(set.junctions, [i](const StrokeJunction& j) { return j.choice == i; });
-    if (own == set.junctions.end()) {
-      if (++missing <= kTold)
-        addNote(set, "Strokes were paired at a junction, but none is found near (" + place + "); the choice is kept.");
-    } else if (std::ssize(own->pairs) < std::ssize(edges.junctions[i].pairs) && ++unmatched <= kTold) {
-      addNote(set, "A pair of strokes at the junction near (" + place +
-                       ") was left out: its two places are not on two branches of it.");
-    }
+// The lines before the outlines are refined, and what the user chose of them.
+Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page,
+                                   const EdgeParams& edges, const ContourParams& params, const RunContext& context) {
+  Result<FoundLines> found = findLines(ink, grey, page, edges, params, context);
+  if (!found) return fail(found.error());
+  if (edges.mode == EdgeMode::Automatic && mayHaveLostANet(found->set, ink, edges, params)) {
+    Result<ContourSet> net = bordersOfNets(ink, params, context);
+    if (!net) return fail(net.error());
+    if (isMoreOfIt(*net, found->set)) found->set = std::move(*net);
   }
-  if (missing > kTold)
-    addNote(set,
-            counted(missing - kTold, "more paired junction is not found.", "more paired junctions are not found."));
-  if (unmatched > kTold)
-    addNote(set, "The same is true of " + counted(unmatched - kTold, "more junction.", "more junctions."));
+  noteChoices(found->set, found->regions, edges.choices, found->blots, page != nullptr ? kFineFactor : 1.0, context);
+  return std::move(found->set);
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                            const ContourParams& params, const RunContext& context) {
-  Result<FoundLines> found = findLines(ink, grey, edges, params, context);
-  if (!found) return fail(found.error());
-  ContourSet* set = &found->set;
-  if (edges.mode == EdgeMode::Automatic && mayHaveLostANet(*set, ink, edges, params)) {
-    Result<ContourSet> net = bordersOfNets(ink, params, context);
-    if (!net) return fail(net.error());
-    if (isMoreOfIt(*net, *set)) *set = std::move(*net);
-  }
-  noteChoices(*set, found->regions, edges.choices, found->blots, context);
+                            const ContourParams& params, const FinePage* fine, const RunContext& context) {
+  Result<ContourSet> found =
+      fine != nullptr ? findChosenLines(fine->ink, fine->grey, &grey, onFinePage(edges), onFinePage(params), context)
+                      : findChosenLines(ink, grey, nullptr, edges, params, context);
+  if (!found) return found;
+  if (fine != nullptr) found = fromFinePage(std::move(*found));
+  ContourSet* set = &*found;
   noteJunctionChoices(*set, edges);
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
@@ -384,20 +366,20 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   tellDropped(*set, edges);
   countRefined(*set);
   context.report(1.0);
-  return std::move(*set);
+  return found;
 }
 
 }  // namespace
 
 Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                                 const ContourParams& params, const RunContext& context) {
+                                 const ContourParams& params, const RunContext& context, const FinePage* fine) {
   if (auto error = validate(edges)) return fail(*error);
   if (auto error = validate(params)) return fail(*error);
   if (ink.width != grey.width || ink.height != grey.height) {
     return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
   }
   try {
-    return traceAll(ink, grey, edges, params, context);
+    return traceAll(ink, grey, edges, params, fine, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to trace the lines: raise the smallest length.");
   }

@@ -6,14 +6,17 @@
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
 #include "core/image/bits/bit_image.h"
+#include "core/image/fine_page.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
 
 /// Finds the lines of a page: outlines by crack following, centre lines by thinning, both refined on the raw grey
 /// values. The mask gives the topology only; positions come from `grey` if EdgeParams::subpixel is on.
+/// @param fine where strokes are thin: the topology comes from its mask instead, the positions from `grey` all the
+/// same.
 /// @return NoCurve, with advice, if no line is long enough.
 Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const ContourParams&,
-                                 const RunContext&);
+                                 const RunContext&, const FinePage* fine = nullptr);
 
 }  // namespace batten

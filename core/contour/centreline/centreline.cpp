@@ -14,6 +14,7 @@
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
+#include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/refinement.h"
 #include "core/contour/centreline/skeleton.h"
 #include "core/contour/centreline/stroke_mask.h"
@@ -24,6 +25,7 @@
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
+#include "core/image/fine_page.h"
 
 namespace batten {
 namespace {
@@ -149,6 +151,33 @@ RefinedStrokes placeStrokePaths(const std::vector<StrokePath>& paths, const Grai
     all.faint.insert(all.faint.end(), placed.faint.begin(), placed.faint.end());
   }
   return all;
+}
+
+// A stroke path on the page of which the one it was found on is an enlargement.
+StrokePath onPage(const StrokePath& fine) {
+  StrokePath path;
+  path.closed = fine.closed;
+  path.tip = fine.tip;
+  const int n = static_cast<int>(fine.points.size());
+  const auto take = [&](int i) {
+    const StrokePathPoint& p = fine.points[i];
+    path.points.push_back({p.at / kFineFactor, p.radius / kFineFactor, p.part});
+  };
+  int i = 0;
+  for (; i < n; i += kFineFactor) take(i);
+  if (!fine.closed && n > 0 && i - kFineFactor != n - 1) take(n - 1);
+  return path;
+}
+
+// The lines on the enlarged page, placed on the page.
+RefinedStrokes placeOnPage(const std::vector<StrokePath>& paths, const GraininessMap* grain, const GreyImage& page,
+                           bool subpixel, const RunContext& context) {
+  std::vector<StrokePath> reduced;
+  for (const StrokePath& path : paths) reduced.push_back(onPage(path));
+  RefinedStrokes placed = placeStrokePaths(reduced, grain, page, subpixel, context);
+  for (Contour& c : placed.contours) scaleContour(c, kFineFactor);
+  for (Vec2& at : placed.faint) at *= kFineFactor;
+  return placed;
 }
 
 // [grey] by which a stroke is darker than the paper on both its sides.
@@ -301,14 +330,16 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     ofKept.emplace(paths, grey, context);
     askHidden(paths, *ofKept);
   }
-  RefinedStrokes placed = placeStrokePaths(paths, ofKept ? &*ofKept : nullptr, grey, params.subpixel, context);
+  const GraininessMap* grain = ofKept ? &*ofKept : nullptr;
+  RefinedStrokes placed = options.page != nullptr ? placeOnPage(paths, grain, *options.page, params.subpixel, context)
+                                                  : placeStrokePaths(paths, grain, grey, params.subpixel, context);
   set.contours = std::move(placed.contours);
   if (context.isCancelled()) return cancelled();
   set.report.droppedShort += static_cast<int>(std::erase_if(
       set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); }));
   const BitImage& ink = found.bodies ? *found.bodies : strokes;
   BitImage seen = options.shapes != nullptr ? either(ink, *options.shapes) : ink;
-  for (const Vec2& at : placed.faint) setDisc(seen, at, 1.0);
+  for (const Vec2& at : placed.faint) setDisc(seen, at, options.page != nullptr ? kFineFactor : 1.0);
   set.contours = keepOnInk(std::move(set.contours), seen);
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);

@@ -203,7 +203,7 @@ std::optional<double> penOfStrokes(const InkGraph& graph) {
   return weightedMedian(std::move(widths));
 }
 
-Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContext& context) {
+Result<InkLabels> label(const BitImage& ink, double mergeWidths, double pixelsPerPx, const RunContext& context) {
   InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink};
   if (!thinToSkeleton(labels.skeleton, context)) return cancelled();
   InkGraph graph(labels.skeleton, ink, context);
@@ -222,7 +222,7 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContex
   std::vector<PieceVote> votes;
   for (const LabelledPiece& piece : page.pieces)
     votes.push_back({2 * shapeArea[piece.firstRun] > piece.areaPx, std::nullopt});
-  voteAmongAlike(votes, graph, page, std::hypot(ink.width, ink.height));
+  voteAmongAlike(votes, graph, page, std::hypot(ink.width, ink.height), pixelsPerPx);
   applyVotes(runs, page, votes, labels);
   if (labels.strokes.count() == 0) labels.penPx.reset();  // crumbs beside shapes that went with them
   return labels;
@@ -230,10 +230,10 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContex
 
 }  // namespace
 
-Result<InkLabels> labelInk(const BitImage& ink, const RunContext& context, double mergeWidths) {
+Result<InkLabels> labelInk(const BitImage& ink, const RunContext& context, double mergeWidths, double pixelsPerPx) {
   if (ink.width <= 0 || ink.height <= 0) return InkLabels{};
   try {
-    return label(ink, mergeWidths, context);
+    return label(ink, mergeWidths, pixelsPerPx, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.");
   }

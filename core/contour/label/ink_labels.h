@@ -25,7 +25,8 @@ struct InkLabels {
 /// or longer and joined to two, stays stroke.
 /// @param mergeWidths [stroke widths] how far apart the strokes of one line run that are to be merged; what is no wider
 /// than such a line and joined to strokes is not a shape. 0: no merging.
+/// @param pixelsPerPx of the ink, along a pixel of the page.
 /// @return OutOfMemory, Cancelled.
-Result<InkLabels> labelInk(const BitImage& ink, const RunContext&, double mergeWidths = 0.0);
+Result<InkLabels> labelInk(const BitImage& ink, const RunContext&, double mergeWidths = 0.0, double pixelsPerPx = 1.0);
 
 }  // namespace batten

@@ -18,7 +18,7 @@ constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a 
 constexpr double kLetterHeight = 5.0;
 constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexplained in an alphabet
 constexpr double kHairWidths = 0.5;
-constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib
+constexpr double kLeastBroadPx = 4.5;  // of the page: below it the grid of pixels is as large as the contrast of a nib
 constexpr int kLeastVoters = 5;
 // Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
 // them.
@@ -99,12 +99,12 @@ struct Tally {
   }
 };
 
-std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
+std::optional<InkLabel> decide(const Voter& voter, const Tally& t, double leastBroadPx) {
   if (t.voters < kLeastVoters || t.area <= 0.0) return {};
   // A pixel of every width counts as even (unevennessOf).
   const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
   const bool mayBeLetters = t.oneLine < kOneLineShare * t.voters;
-  if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && t.pen >= kLeastBroadPx * t.area)
+  if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && t.pen >= leastBroadPx * t.area)
     return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   if (t.shape < kFewShapes * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
@@ -114,7 +114,7 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
 }  // namespace
 
 void voteAmongAlike(std::vector<PieceVote>& votes, const InkGraph& graph, const PiecesOfPage& page,
-                    double pageDiagonalPx) {
+                    double pageDiagonalPx, double pixelsPerPx) {
   std::vector<Voter> voters;
   std::map<std::array<int, 3>, Tally> bins;
   for (std::size_t i = 0; i < votes.size(); ++i) {
@@ -136,7 +136,7 @@ void voteAmongAlike(std::vector<PieceVote>& votes, const InkGraph& graph, const 
         }
       }
     }
-    votes[v.piece].decision = decide(v, near);
+    votes[v.piece].decision = decide(v, near, kLeastBroadPx * pixelsPerPx);
   }
 }
 

@@ -17,6 +17,8 @@ struct PieceVote {
 /// One treatment for pieces that are alike in size and in width, as the letters of an alphabet: where one pen width
 /// does not explain them they were drawn with a broad nib or a brush and are shapes; else most of them decide.
 /// @param votes one per piece, with `isMostlyShape` set; `decision` is filled in.
-void voteAmongAlike(std::vector<PieceVote>& votes, const InkGraph&, const PiecesOfPage&, double pageDiagonalPx);
+/// @param pixelsPerPx of the ink, along a pixel of the page: narrower contrasts are no nib's.
+void voteAmongAlike(std::vector<PieceVote>& votes, const InkGraph&, const PiecesOfPage&, double pageDiagonalPx,
+                    double pixelsPerPx);
 
 }  // namespace batten

@@ -6,6 +6,7 @@
 
 #include "core/contour/trace_contours.h"
 #include "core/image/bits/laplacian_edges.h"
+#include "core/image/fine_page.h"
 #include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/fair_stage.h"
@@ -183,13 +184,22 @@ class PipelineRun {
     return *even_;
   }
 
+  /// Of outlines and of lines that stand for several strokes no more is wanted than the page shows.
+  Result<std::optional<FinePage>> fineOf(const BitImage& ink, const GreyImage& grey) {
+    const EdgeParams& edges = recipe_.edges;
+    if (edges.mode == EdgeMode::Outline || edges.mergeWidths > 0.0 || edges.intent) return std::nullopt;
+    return finePage(grey, ink, {recipe_.paper, recipe_.threshold, recipe_.filter}, context_);
+  }
+
   /// The lines of the page, or of the parts of it that the user wants.
   Result<ContourSet> traceRegions() {
     if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty.");
     const GreyImage& grey = flattenedScan();
     if (context_.isCancelled()) return cancelled();
-    const auto trace = [&](const BitImage& ink) {
-      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_);
+    const auto trace = [&](const BitImage& ink) -> Result<ContourSet> {
+      const auto fine = fineOf(ink, grey);
+      if (!fine) return fail(fine.error());
+      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_, *fine ? &**fine : nullptr);
     };
     if (recipe_.regions.empty()) {
       auto set = trace(out_.filtered->ink);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/fine_lines.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/contour/centreline/page_scale.h"
+#include "core/image/fine_page.h"
+
+namespace batten {
+namespace {
+
+// Centre lines have a point a pixel of the page already.
+void thinOut(Contour& outline) {
+  std::vector<ContourPoint> kept;
+  for (std::size_t i = 0; i < outline.points.size(); i += kFineFactor) kept.push_back(outline.points[i]);
+  const int last = static_cast<int>(kept.size()) - 1;
+  for (auto& [from, to] : outline.bridges) {
+    from = std::min((from + kFineFactor - 1) / kFineFactor, last);
+    to = std::max(from, to / kFineFactor);
+  }
+  outline.points = std::move(kept);
+  measureContour(outline);
+}
+
+}  // namespace
+
+EdgeParams onFinePage(EdgeParams edges) {
+  for (EdgeChoice& choice : edges.choices) choice.positionPx *= kFineFactor;
+  for (JunctionChoice& choice : edges.junctions) {
+    choice.positionPx *= kFineFactor;
+    for (BranchPair& pair : choice.pairs) {
+      pair.firstPx *= kFineFactor;
+      pair.secondPx *= kFineFactor;
+    }
+  }
+  return edges;
+}
+
+ContourParams onFinePage(ContourParams params) {
+  params.minLengthPx *= kFineFactor;
+  return params;
+}
+
+ContourSet fromFinePage(ContourSet set) {
+  for (Contour& c : set.contours) {
+    if (c.kind == ContourKind::Outline) thinOut(c);
+  }
+  scaleContours(set, 1.0 / kFineFactor);
+  return set;
+}
+
+}  // namespace batten
