@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace batten {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 constexpr double kFarthestMm = 1e5;
 constexpr std::size_t kMostLines = 20000;
 constexpr std::size_t kMostPoints = 500000;
+constexpr std::size_t kMostCorners = 50000;  // of points that turn sharply
 /// Of the size of a line: curves that are farther apart do not follow each other.
 constexpr double kSamePlace = 1e-6;
 
@@ -65,12 +67,17 @@ std::optional<Error> validateLine(const ImportedLine& line) {
 
 std::optional<Error> validate(const ImportedFile& file) {
   if (file.lines.size() > kMostLines) return bad("At most 20000 lines can be imported from a file.");
-  std::size_t points = 0;
+  std::size_t points = 0, corners = 0;
   for (const ImportedLine& line : file.lines) {
     points += line.points.size();
+    corners += line.corners.size();
     for (const auto& [curve, name] : line.curves) points += curve.isEmpty() ? 0 : curve.controlPointCount();
   }
   if (points > kMostPoints) return bad("At most 500000 points can be imported from a file.");
+  if (corners > kMostCorners) {
+    return bad("The points of a file may turn sharply at 50000 places at most, but do so at " +
+               std::to_string(corners) + ": put them in the order in which the line runs.");
+  }
   for (const ImportedLine& line : file.lines) {
     if (auto wrong = validateLine(line)) return wrong;
   }

@@ -97,9 +97,10 @@ void takePoints(PointFile points, std::optional<double> asked, ImportReport& rep
     const auto last = std::unique(line.points.begin(), line.points.end());
     line.points.erase(last, line.points.end());
     if (std::ssize(line.points) < 3) line.closed = false;
-    if (line.corners.empty() && !hasParts(line)) line.corners = sharpPoints(line.points, line.closed);
+    if (line.points.size() >= 2 && line.corners.empty() && !hasParts(line)) findCorners(line);
   }
-  const auto erased = std::erase_if(report.file.lines, [](const ImportedLine& line) { return line.points.size() < 2; });
+  const auto erased = std::erase_if(
+      report.file.lines, [](const ImportedLine& line) { return line.curves.empty() && line.points.size() < 2; });
   tellLeft(points.left + static_cast<int>(erased), report);
 }
 

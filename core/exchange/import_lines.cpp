@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "core/base/angle.h"
+#include "core/base/statistics.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -18,6 +20,14 @@ constexpr double kSharpTurn = 35.0 * kRadPerDeg;
 /// Polylines of no more points are drawn corner by corner; of longer ones a corner has to stand out from its
 /// neighbours.
 constexpr std::ptrdiff_t kFewPoints = 16;
+/// Of the size of a line: a point that lies farther from the middle of its neighbours was not put there by the tremor
+/// of a measurement. If it also turns by more than a round shape of chords does, it is a corner.
+constexpr double kMostTremor = 1.0 / 200.0, kCertainTurn = 60.0 * kRadPerDeg;
+/// A tremor turns a measured line at every point. A turn counts where it is that many times as large as most turns of
+/// chords of its length.
+constexpr double kStandsOut = 8.0;
+constexpr std::ptrdiff_t kLongestChord = 64;  // points
+constexpr std::size_t kMostCorners = 50'000;  // of a polygon; a file of more is refused
 
 /// DXF puts what has no layer on layer 0.
 std::string layerOf(const CadEntity& entity) { return entity.layer == "0" ? std::string() : entity.layer; }
@@ -86,7 +96,7 @@ class LineBuilder {
       ++left_;
       return;
     }
-    line.corners = sharpPoints(line.points, line.closed);
+    findCorners(line);
     lines_.push_back(std::move(line));
   }
 
@@ -151,23 +161,95 @@ class LineBuilder {
   int left_ = 0;
 };
 
+double sizeOf(const std::vector<Vec2>& points) {
+  Vec2 low = points.front(), high = low;
+  for (const Vec2& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (high - low).norm();
+}
+
+/// How a polyline turns at its points.
+class PointTurns {
+ public:
+  PointTurns(const std::vector<Vec2>& points, bool closed)
+      : points_(points), count_(std::ssize(points)), closed_(closed) {}
+
+  /// [rad] Between the chords to the points so many before and behind; 0 where an open line has none.
+  std::vector<double> over(std::ptrdiff_t chord) const {
+    std::vector<double> turns(points_.size(), 0.0);
+    const std::ptrdiff_t first = closed_ ? 0 : chord, last = closed_ ? count_ : count_ - chord;
+    for (std::ptrdiff_t i = first; i < last; ++i) {
+      const Vec2 in = at(i) - at(i - chord), out = at(i + chord) - at(i);
+      turns[i] = std::abs(std::atan2(cross(in, out), in.dot(out)));
+    }
+    return turns;
+  }
+
+  /// The shortest chord over which most turns are so small that a sharp one stands out; where none is, as on a coarse
+  /// polygon, the one over which they are smallest.
+  std::ptrdiff_t calmChord() const {
+    std::ptrdiff_t calmest = 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::ptrdiff_t chord = 1; chord <= std::min(kLongestChord, count_ / 8); chord *= 2) {
+      std::vector<double> turns = over(chord);
+      const double usual = upperMedian(turns);
+      if (usual < least) least = usual, calmest = chord;
+      if (usual <= kSharpTurn / kStandsOut) break;
+    }
+    return calmest;
+  }
+
+  /// How far a point lies from the middle of its neighbours.
+  double offMiddle(std::ptrdiff_t i) const { return (at(i) - 0.5 * (at(i - 1) + at(i + 1))).norm(); }
+
+  /// Whether the turn over chords is sharp, and far sharper than those one chord on.
+  bool standsOut(std::ptrdiff_t i, std::ptrdiff_t chord, const std::vector<double>& turns) const {
+    const auto turn = [&](std::ptrdiff_t k) { return turns[((k % count_) + count_) % count_]; };
+    if (turn(i) < kSharpTurn || turn(i) < 2.0 * std::max(turn(i - chord), turn(i + chord))) return false;
+    for (std::ptrdiff_t k = 1; k < chord; ++k)
+      if (turn(i - k) >= turn(i) || turn(i + k) > turn(i)) return false;
+    return true;
+  }
+
+ private:
+  const Vec2& at(std::ptrdiff_t i) const { return points_[((i % count_) + count_) % count_]; }
+
+  const std::vector<Vec2>& points_;
+  std::ptrdiff_t count_;
+  bool closed_;
+};
+
 }  // namespace
 
 std::vector<int> sharpPoints(const std::vector<Vec2>& points, bool closed) {
-  const std::ptrdiff_t n = std::ssize(points);
-  std::vector<double> turns(points.size(), 0.0);
-  for (std::ptrdiff_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
-    const Vec2 in = points[i] - points[(i + n - 1) % n];
-    const Vec2 out = points[(i + 1) % n] - points[i];
-    turns[i] = std::abs(std::atan2(cross(in, out), in.dot(out)));
-  }
+  const PointTurns line(points, closed);
+  const std::ptrdiff_t n = std::ssize(points), chord = n <= kFewPoints ? 1 : line.calmChord();
+  const std::vector<double> turns = line.over(1), calm = chord == 1 ? turns : line.over(chord);
+  const double farOff = kMostTremor * sizeOf(points);
   std::vector<int> corners;
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const double turn = turns[i];
-    const double beside = std::max(turns[(i + n - 1) % n], turns[(i + 1) % n]);
-    if (turn >= kSharpTurn && (n <= kFewPoints || turn >= 2.0 * beside)) corners.push_back(static_cast<int>(i));
+    const bool isMeant =
+        n <= kFewPoints ? turns[i] >= kSharpTurn : turns[i] > kCertainTurn && line.offMiddle(i) > farOff;
+    if (isMeant || line.standsOut(i, chord, calm)) corners.push_back(static_cast<int>(i));
   }
   return corners;
+}
+
+void findCorners(ImportedLine& line) {
+  line.corners = sharpPoints(line.points, line.closed);
+  const std::size_t n = line.points.size(), sides = line.closed ? n : n - 1;
+  if (std::ssize(line.points) <= kFewPoints || 2 * line.corners.size() <= n || line.corners.size() > kMostCorners)
+    return;
+  std::vector<ImportedCurve> curves;
+  for (std::size_t i = 0; i < sides; ++i) {
+    const Vec2 &from = line.points[i], &to = line.points[(i + 1) % n];
+    const double length = (to - from).norm();
+    auto side = NurbsCurve::make(1, {0.0, 0.0, length, length}, {from, to});
+    if (!side) return;
+    curves.push_back({std::move(*side)});
+  }
+  line.curves = std::move(curves);
+  line.points.clear();
+  line.corners.clear();
 }
 
 DrawingLines linesOf(const CadDrawing& drawing, double mmPerUnit) {

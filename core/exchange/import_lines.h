@@ -21,7 +21,12 @@ DrawingLines linesOf(const CadDrawing&, double mmPerUnit);
 /// Lines of Batten's own files; where the curves of one leave a gap it becomes two.
 std::vector<ImportedLine> linesOf(const ExportDocument&);
 
-/// The points of a polyline at which it turns sharply.
+/// The points of a polyline at which it turns sharply. A line of measured points trembles at each of them: there a turn
+/// counts as far as it is seen over more of the line, or moves farther than a tremor does.
 std::vector<int> sharpPoints(const std::vector<Vec2>& points, bool closed);
+
+/// Gives a line of points its corners. One of many points that turns sharply at most of them is a polygon: its points
+/// give way to its sides, which are exact, as those of a path are.
+void findCorners(ImportedLine&);
 
 }  // namespace batten

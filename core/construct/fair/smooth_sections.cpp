@@ -23,6 +23,8 @@ namespace {
 constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, it has a loop of its own
 constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorter stretches have no fairness to keep
 constexpr double kSeamShare = 1e-3;        // of a closed curve: what is nearer to its seam begins or ends there
+/// Of a piece that is taken apart at them: nobody draws a line that turns sharply so often from corner to corner.
+constexpr std::size_t kMostSharpFeatures = 1000;
 
 /// What lies between two parameters of a fit; of a closed one through its seam where `to` comes before `from`.
 Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, double to, bool closed) {
@@ -56,12 +58,25 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   return part;
 }
 
+std::string scatteredNote(std::size_t places) {
+  return "Too many sharp turns for the fair fit (" + std::to_string(places) + ", at most " +
+         std::to_string(kMostSharpFeatures) +
+         "): a curve close to the points was used. Put scattered points in the order in which the line runs, and mark "
+         "the "
+         "corners that are meant.";
+}
+
 }  // namespace
 
 SmoothSections::SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm,
                                const FairFitOptions& options)
     : piece_(piece), pixelMm_(pixelMm) {
-  sharp_ = united(sharpFeatures(piece, isStroke, pixelMm, options), piece, pixelMm, kLeastSmoothPx);
+  std::vector<PointRange> sharp = sharpFeatures(piece, isStroke, pixelMm, options);
+  if (sharp.size() > kMostSharpFeatures) {
+    scattered_ = sharp.size();
+    sharp = {{0, static_cast<int>(piece.points.size()) - 1}};
+  }
+  sharp_ = united(std::move(sharp), piece, pixelMm, kLeastSmoothPx);
   smooth_ = between(sharp_, piece);
 }
 
@@ -202,6 +217,10 @@ Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const
 Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
   auto whole = joinSections(piece_, pixelMm_, {sharp_, smooth_, fits_}, context);
   if (context.isCancelled()) return cancelled();
+  if (whole && scattered_) {
+    whole->report.note = scatteredNote(*scattered_);
+    return whole;
+  }
   const auto farness = [&](const PointDeviation& c) {
     return c.far + 10 * c.veryFar + (c.lengthRatio > kMostLengthRatio ? 1000 : 0);
   };

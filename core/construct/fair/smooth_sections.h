@@ -14,7 +14,7 @@
 namespace batten {
 
 /// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and sharp
-/// features.
+/// features. One of more than 1000 sharp features becomes one tight curve along its points, with a note.
 class SmoothSections {
  public:
   SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm, const FairFitOptions&);
@@ -46,6 +46,7 @@ class SmoothSections {
   const ConstructPiece& piece_;
   double pixelMm_;
   std::vector<PointRange> sharp_, smooth_;
+  std::optional<std::size_t> scattered_;  ///< Sharp features of a piece that has too many to be taken apart.
   std::vector<ConstructedPiece> fits_;
 };
 

@@ -15,7 +15,10 @@ PlaceTable::Place bernsteinPlace(int degree, double at) {
     }
     for (double& value : row) value *= factor;
     place.rows[order] = row;
-    for (std::size_t k = 0; k < kSpanPoints; ++k) place.pairs[order][2 * k] = place.pairs[order][2 * k + 1] = row[k];
+    for (std::size_t k = 0; k < kSpanPoints; ++k) {
+      place.pairs[order][2 * k] = place.pairs[order][2 * k + 1] = row[k];
+      place.columns[k][2 * order] = place.columns[k][2 * order + 1] = row[k];
+    }
     factor *= degree - order;
   }
   return place;

@@ -20,6 +20,7 @@ struct PlaceTable {
     double at = 0.0;
     std::array<std::array<double, kSpanPoints>, 4> rows{};
     std::array<std::array<double, 2 * kSpanPoints>, 4> pairs{};  ///< Every number of the rows twice: for x and y.
+    std::array<std::array<double, 8>, kSpanPoints> columns{};    ///< The same, by polynomial: those of all orders.
   };
   std::vector<Place> places;
 };

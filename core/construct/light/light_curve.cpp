@@ -12,6 +12,8 @@ namespace batten {
 namespace {
 
 constexpr int kMostInOneSpline = 8;  // extrema: a curve of more is cut into sections at once
+/// Sections of a curve: a hand draws far fewer in one line, and each takes 10 to 40 ms.
+constexpr std::ptrdiff_t kMostSections = 300;
 
 LightCurve sameCurve(const NurbsCurve& dense, LightObstacle obstacle) {
   LightCurve same{dense, {}};
@@ -37,6 +39,7 @@ LightCurve lightest(const NurbsCurve& dense, bool closed, const LightOptions& op
   const auto reference = LightReference::make(dense, closed, options.step, {}, context);
   if (!reference) return sameCurve(dense, LightObstacle::NoNormal);
   const LightSections sections = lightSections(dense, *reference, options);
+  if (std::ssize(sections.cuts) >= kMostSections) return sameCurve(dense, LightObstacle::Effort);
   LightCurve found;
   const bool mayBeCut = !sections.cuts.empty() &&
                         fewestOfSections(static_cast<int>(sections.cuts.size()) + 1, closed) <= options.mostPoints;

@@ -57,11 +57,11 @@ void LightSystem::placesOf(const LightShape& shape, int span) {
   for (int k = 0; k < perSpan_; ++k) {
     Place& place = places_[first + k];
     const PlaceTable::Place& table = table_.places[k];
+    PlaceSums sums;
+    sumPoints(table.columns, bezier, shape.degree + 1, sums);
     double scale = 1.0;
     for (std::size_t order = 0; order < 4; ++order) {
-      Vec2 sum = Vec2::Zero();
-      for (int j = 0; j <= shape.degree; ++j) sum += table.rows[order][j] * bezier[j];
-      place.state.d[order] = scale * sum;
+      place.state.d[order] = scale * Vec2(sums[2 * order], sums[2 * order + 1]);
       scale /= length;
     }
     completePlace(place.state);

@@ -21,6 +21,17 @@ BATTEN_HOT_LOOP void sumColumns(const WeighedRow* __restrict rows, int count, in
   }
 }
 
+BATTEN_HOT_LOOP void addPoints(const double* columns, const double* bezier, int points, double* __restrict out) {
+  double low[4] = {}, high[4] = {};
+  for (int k = 0; k < points; ++k, columns += 8, bezier += 2) {
+    const double xy[4] = {bezier[0], bezier[1], bezier[0], bezier[1]};
+    for (int i = 0; i < 4; ++i) low[i] += columns[i] * xy[i];
+    for (int i = 0; i < 4; ++i) high[i] += columns[4 + i] * xy[i];
+  }
+  for (int i = 0; i < 4; ++i) out[i] = low[i];
+  for (int i = 0; i < 4; ++i) out[4 + i] = high[i];
+}
+
 BATTEN_HOT_LOOP void sumResiduals(const WeighedRow* __restrict rows, int count, double* __restrict gradient) {
   double sums[kRowWidth] = {};
   for (int i = 0; i < count; ++i) {
@@ -125,6 +136,11 @@ BATTEN_HOT_LOOP void mixLanes(int degree, const double* __restrict atStart, cons
 }
 
 }  // namespace
+
+void sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
+               int points, PlaceSums& sums) {
+  addPoints(columns.front().data(), bezier.front().data(), points, sums.data());
+}
 
 void sumRows(const WeighedRow* rows, int count, int columns, LocalSquares& sums) {
   sumColumns(rows, count, columns, sums.squares.front().data());

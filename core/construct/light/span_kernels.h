@@ -19,6 +19,12 @@ inline constexpr int kLengthLanes = 12;
 inline constexpr int kXLanes = static_cast<int>(kSpanPoints);
 inline constexpr int kUnknownLanes = 2 * kXLanes + kLengthLanes;
 
+/// Position and three derivatives of `points` Bezier points at a place of which these are the columns, x and y in turn:
+/// summed point by point.
+using PlaceSums = std::array<double, 8>;
+void sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
+               int points, PlaceSums& sums);
+
 /// A row of a system with its weight (squared) and its weighted residual.
 struct WeighedRow {
   std::array<double, kRowWidth> row;

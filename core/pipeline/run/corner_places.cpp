@@ -84,6 +84,10 @@ std::vector<CornerSuggestion> possibleCorners(const ContourSet& set, const RunCo
 std::vector<Corner> certainCorners(const ContourSet& set, const GreyImage& page, std::span<const Vec2> refusedPx,
                                    double reachPx, const RunContext& context) {
   std::vector<Corner> corners;
+  // Lines of pen and import have none; where there are no others, thousands of turns are not looked at for nothing.
+  const bool anyFound =
+      std::any_of(set.contours.begin(), set.contours.end(), [](const Contour& line) { return !isDrawn(line.kind); });
+  if (!anyFound) return corners;
   for (const CornerSuggestion& s : possibleCorners(set, context)) {
     if (s.certainty < kCertainCorner || isDrawn(set.contours[s.contour].kind)) continue;
     if (!liesOnInk(s, set.contours[s.contour], page)) continue;

@@ -217,5 +217,22 @@ TEST(LightChain, LongStretchesWithoutExtremaAreDivided) {
   }
 }
 
+// Each section takes many milliseconds: a line of thousands of waves would hold everything up for minutes.
+TEST(LightChain, ACurveOfTooManySectionsStaysDense) {
+  constexpr int kQuintic = 5, kSpans = 6000;
+  std::vector<double> knots(kQuintic, 0.0);
+  std::vector<Vec2> points;
+  for (int i = 0; i <= kSpans; ++i) knots.push_back(3.0 * i);
+  knots.insert(knots.end(), kQuintic, 3.0 * kSpans);
+  for (int i = 0; i < kSpans + kQuintic; ++i) points.emplace_back(3.0 * i, i % 6 < 3 ? 0.0 : 6.0);
+  const auto curve = NurbsCurve::make(kQuintic, std::move(knots), std::move(points));
+  ASSERT_TRUE(curve);
+  const auto light = makeLight(*curve, false, lightWithin(0.05), {});
+  ASSERT_TRUE(light);
+  EXPECT_EQ(light->report.kind, LightKind::Dense);
+  EXPECT_EQ(light->report.obstacle, LightObstacle::Effort);
+  EXPECT_EQ(light->curve, *curve);
+}
+
 }  // namespace
 }  // namespace batten

@@ -165,5 +165,17 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
   }
 }
 
+// Scattered points, or a pen gone wild: thousands of sharp places would each be fitted around, again and again.
+TEST(SharpFeatures, ALineOfMoreThanAThousandIsNotTakenApart) {
+  std::vector<Vec2> zigzag;
+  for (int i = 0; i < 1100; ++i) zigzag.emplace_back(20.0 * i, i % 2 == 0 ? 0.0 : 60.0);
+  const auto points = alongPolygon(zigzag, false, 0.0);
+  const auto fit = test::fitOne(points, false);
+  ASSERT_TRUE(fit.has_value());
+  const std::string& note = fit->front().report.note;
+  EXPECT_NE(note.find("(1098, at most 1000)"), std::string::npos) << note;
+  EXPECT_LT(deviation(fit->front().curve, points, true).max, 1.5);
+}
+
 }  // namespace
 }  // namespace batten

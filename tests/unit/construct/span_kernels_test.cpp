@@ -43,6 +43,21 @@ TEST_F(SpanKernels, RowsAreSummedInTheirOrder) {
   }
 }
 
+TEST_F(SpanKernels, DerivativesAtAPlaceAreSummedPointByPoint) {
+  for (const int degree : {3, 5, 7}) {
+    const PlaceTable::Place place = bernsteinPlace(degree, 0.5 + 0.4 * any());
+    std::array<Vec2, kSpanPoints> bezier;
+    for (Vec2& point : bezier) point = Vec2(any(), any());
+    PlaceSums sums;
+    sumPoints(place.columns, bezier, degree + 1, sums);
+    for (std::size_t order = 0; order < 4; ++order) {
+      Vec2 sum = Vec2::Zero();
+      for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) sum += place.rows[order][k] * bezier[k];
+      EXPECT_EQ(Vec2(sums[2 * order], sums[2 * order + 1]), sum) << degree << " " << order;
+    }
+  }
+}
+
 TEST_F(SpanKernels, SquaresAreCarriedOverToTheUnknowns) {
   for (const int points : {4, 6}) {
     const int lengths = 7, own = 3, count = 2 * points + 1;

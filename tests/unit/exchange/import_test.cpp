@@ -15,6 +15,7 @@
 #include <string>
 
 #include "core/exchange/export_file.h"
+#include "core/exchange/import_lines.h"
 #include "core/exchange/occt/open_cascade.h"
 #include "core/exchange/point_file.h"
 #include "tests/unit/exchange/exchange_shapes.h"
@@ -109,6 +110,68 @@ TEST_F(Import, PolylinesBecomePointsWithTheirCorners) {
   EXPECT_EQ(report.file.lines[0].corners, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(report.file.lines[1].points.size(), 41u);
   EXPECT_EQ(report.file.lines[1].corners, (std::vector<int>{20}));
+}
+
+/// A line of many measured points, each off by a quarter of their distance: an arch that is sharp in its middle if
+/// `isSharp`.
+std::vector<Vec2> measuredArch(int count, bool isSharp) {
+  std::mt19937 random(5);
+  const double step = 0.02;
+  std::normal_distribution<double> tremor(0.0, 0.25 * step);
+  std::vector<Vec2> points;
+  for (int i = 0; i < count; ++i) {
+    const double x = step * (i - count / 2), width = step * count;
+    const double y = isSharp ? -std::abs(x) : -x * x / width;
+    points.emplace_back(x + tremor(random), y + tremor(random));
+  }
+  return points;
+}
+
+TEST(SharpPoints, ATremorMakesNoCornersAndHidesNone) {
+  EXPECT_TRUE(sharpPoints(measuredArch(30'000, false), false).empty());
+  const std::vector<int> corners = sharpPoints(measuredArch(30'000, true), false);
+  ASSERT_EQ(corners.size(), 1u);
+  EXPECT_NEAR(corners.front(), 15'000, 4);
+}
+
+TEST(SharpPoints, APolygonOfManyCornersHasThemAll) {
+  std::vector<Vec2> comb, star;
+  for (int i = 0; i < 200; ++i) {
+    comb.emplace_back(i, i % 2 == 0 ? 0.0 : 40.0);
+    const double radius = i % 2 == 0 ? 50.0 : 20.0, angle = 2.0 * std::numbers::pi * i / 200.0;
+    star.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  EXPECT_EQ(sharpPoints(comb, false).size(), 198u) << "all but its ends";
+  EXPECT_EQ(sharpPoints(star, true).size(), 200u);
+  // Round shapes of chords have none, however few.
+  for (const int count : {20, 40, 400}) {
+    std::vector<Vec2> ring;
+    for (int i = 0; i < count; ++i)
+      ring.emplace_back(std::cos(2.0 * std::numbers::pi * i / count), std::sin(2.0 * std::numbers::pi * i / count));
+    EXPECT_TRUE(sharpPoints(ring, true).empty()) << count;
+  }
+}
+
+TEST_F(Import, APolygonOfManyPointsHasExactSides) {
+  std::string comb = "x_mm,y_mm\n", few = comb;
+  for (int i = 0; i < 40; ++i) comb += std::to_string(i) + (i % 2 == 0 ? ",0\n" : ",40\n");
+  for (int i = 0; i < 10; ++i) few += std::to_string(i) + (i % 2 == 0 ? ",0\n" : ",40\n");
+  const ImportReport report = read("comb.csv", comb);
+  ASSERT_EQ(report.file.lines.size(), 1u);
+  const ImportedLine& line = report.file.lines.front();
+  EXPECT_TRUE(line.points.empty());
+  ASSERT_EQ(line.curves.size(), 39u);
+  for (const ImportedCurve& side : line.curves) EXPECT_EQ(side.curve.degree(), 1);
+  EXPECT_EQ(line.curves[3].curve.point(line.curves[3].curve.start()), Vec2(3.0, 40.0));
+  EXPECT_EQ(read("few.csv", few).file.lines.front().points.size(), 10u) << "drawn corner by corner";
+}
+
+TEST_F(Import, AScatterOfPointsIsRefusedAboveALimitThatIsNamed) {
+  std::string text = "x_mm,y_mm\n";
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0.0, 200.0);
+  for (int i = 0; i < 60'000; ++i) text += std::to_string(place(random)) + "," + std::to_string(place(random)) + "\n";
+  EXPECT_THAT(refusal("scatter.csv", text), HasSubstr("50000 places at most"));
 }
 
 TEST_F(Import, TheUnitIsThatOfTheFileElseMillimetresElseWhatTheUserSays) {
