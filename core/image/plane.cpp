@@ -2,6 +2,7 @@
 #include "core/image/plane.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/hot_loop.h"
@@ -27,17 +28,29 @@ BATTEN_HOT_LOOP void addRow(const std::uint16_t* in, std::uint32_t* __restrict s
   for (int i = 0; i < count; ++i) sums[i] += in[i];
 }
 
-/// Means of the sums by threes or fours, each over as many rows, as grey levels.
+BATTEN_HOT_LOOP void addThreeRows(const std::uint16_t* a, const std::uint16_t* b, const std::uint16_t* c,
+                                  std::uint32_t* __restrict sums, int count) {
+  for (int i = 0; i < count; ++i) sums[i] = std::uint32_t{a[i]} + b[i] + c[i];
+}
+BATTEN_HOT_LOOP void addFourRows(const std::uint16_t* const* rows, std::uint32_t* __restrict sums, int count) {
+  const std::uint16_t *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
+  for (int i = 0; i < count; ++i) sums[i] = std::uint32_t{a[i]} + b[i] + c[i] + d[i];
+}
+
+/// Means of the sums by threes or fours, each over as many rows, as grey levels. Sum and divisor are whole numbers that
+/// a float holds exactly, so that one division gives the float nearest to the mean.
 BATTEN_HOT_LOOP void meansByThrees(const std::uint32_t* sums, float* __restrict out, int count) {
+  constexpr auto kDivisor = static_cast<float>(9.0 * GreyImage::kGreyUnit);
   for (int i = 0; i < count; ++i) {
     const auto sum = static_cast<std::int32_t>(sums[3 * i] + sums[3 * i + 1] + sums[3 * i + 2]);
-    out[i] = static_cast<float>(static_cast<double>(sum) / 9.0 / GreyImage::kGreyUnit);
+    out[i] = static_cast<float>(sum) / kDivisor;
   }
 }
 BATTEN_HOT_LOOP void meansByFours(const std::uint32_t* sums, float* __restrict out, int count) {
+  constexpr auto kDivisor = static_cast<float>(16.0 * GreyImage::kGreyUnit);
   for (int i = 0; i < count; ++i) {
     const auto sum = static_cast<std::int32_t>(sums[4 * i] + sums[4 * i + 1] + sums[4 * i + 2] + sums[4 * i + 3]);
-    out[i] = static_cast<float>(static_cast<double>(sum) / 16.0 / GreyImage::kGreyUnit);
+    out[i] = static_cast<float>(sum) / kDivisor;
   }
 }
 void meansOf(const std::uint32_t* sums, float* out, int count, int shrink) {
@@ -50,11 +63,19 @@ void meansOf(const std::uint32_t* sums, float* out, int count, int shrink) {
 
 /// The blocks of one row that are whole. Sums of whole numbers are exact, in whatever order they are added.
 void shrinkRow(const GreyImage& image, int y, int shrink, std::vector<std::uint32_t>& sums, float* out) {
-  const int count = image.width / shrink;
-  sums.assign(static_cast<std::size_t>(image.width), 0);
-  for (int i = 0; i < shrink; ++i) addRow(image.row(y * shrink + i), sums.data(), count * shrink);
-  if (shrink == 3) return meansByThrees(sums.data(), out, count);
-  if (shrink == 4) return meansByFours(sums.data(), out, count);
+  const int count = image.width / shrink, first = y * shrink;
+  sums.resize(static_cast<std::size_t>(image.width));
+  if (shrink == 3) {
+    addThreeRows(image.row(first), image.row(first + 1), image.row(first + 2), sums.data(), count * shrink);
+    return meansByThrees(sums.data(), out, count);
+  }
+  if (shrink == 4) {
+    const std::array rows{image.row(first), image.row(first + 1), image.row(first + 2), image.row(first + 3)};
+    addFourRows(rows.data(), sums.data(), count * shrink);
+    return meansByFours(sums.data(), out, count);
+  }
+  std::fill(sums.begin(), sums.end(), 0u);
+  for (int i = 0; i < shrink; ++i) addRow(image.row(first + i), sums.data(), count * shrink);
   meansOf(sums.data(), out, count, shrink);
 }
 
@@ -121,24 +142,45 @@ void smoothAcross(const float* const* rows, float* out, int count, const std::ve
 
 void scaleGrey(const std::uint16_t* in, float* out, int count) { scaleRow(in, out, count); }
 
+namespace {
+
+/// A row smoothed along itself; its ends are repeated outside.
+void smoothWholeRow(const float* in, float* out, int width, const std::vector<float>& kernel,
+                    std::vector<float>& padded) {
+  const auto radius = static_cast<int>(kernel.size()) - 1;
+  // Some pixels, from a copy that goes on beyond the ends.
+  const auto smoothPart = [&](int begin, int end) {
+    padded.resize(static_cast<std::size_t>(end - begin + 2 * radius));
+    for (int i = 0; i < std::ssize(padded); ++i) padded[i] = in[std::clamp(begin - radius + i, 0, width - 1)];
+    smoothAlong(padded.data() + radius, out + begin, end - begin, kernel);
+  };
+  if (width <= 2 * radius) return smoothPart(0, width);
+  smoothPart(0, radius);
+  smoothAlong(in + radius, out + radius, width - 2 * radius, kernel);
+  smoothPart(width - radius, width);
+}
+
+}  // namespace
+
 Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context) {
   Plane out(in.width, in.height);
   const auto radius = static_cast<int>(kernel.size()) - 1;
   const auto width = static_cast<std::size_t>(in.width);
   parallelFor(context, in.height, kRowsPerBlock, [&](int begin, int end) {
-    const int first = begin - radius, count = end - begin + 2 * radius;
-    std::vector<float> padded(width + 2 * static_cast<std::size_t>(radius));
-    std::vector<float> strip(width * static_cast<std::size_t>(count));
-    std::vector<const float*> rows;
-    for (int i = 0; i < count; ++i) {
-      const float* source = in.row(std::clamp(first + i, 0, in.height - 1));
-      std::copy_n(source, width, padded.data() + radius);
-      std::fill_n(padded.data(), radius, source[0]);
-      std::fill_n(padded.data() + radius + in.width, radius, source[in.width - 1]);
-      rows.push_back(strip.data() + width * static_cast<std::size_t>(i));
-      smoothAlong(padded.data() + radius, strip.data() + width * static_cast<std::size_t>(i), in.width, kernel);
+    // The rows that one smoothed row is made of, each at its number modulo theirs.
+    const int count = 2 * radius + 1;
+    std::vector<float> padded, ring(width * static_cast<std::size_t>(count));
+    std::vector<const float*> rows(static_cast<std::size_t>(count));
+    const auto lineAt = [&](int y) { return ring.data() + width * static_cast<std::size_t>((y + count) % count); };
+    const auto load = [&](int y) {
+      smoothWholeRow(in.row(std::clamp(y, 0, in.height - 1)), lineAt(y), in.width, kernel, padded);
+    };
+    for (int y = begin - radius; y < begin + radius; ++y) load(y);
+    for (int y = begin; y < end; ++y) {
+      load(y + radius);
+      for (int i = 0; i < count; ++i) rows[i] = lineAt(y - radius + i);
+      smoothAcross(rows.data(), out.row(y), in.width, kernel);
     }
-    for (int y = begin; y < end; ++y) smoothAcross(rows.data() + (y - begin), out.row(y), in.width, kernel);
   });
   return out;
 }

@@ -101,6 +101,7 @@ class CellSamples {
 
 SheetCells sheetCellsOf(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
   SheetCells cells;
+  cells.hasTint = !colour.isEmpty();
   cells.sizePx = std::max(2, (std::max(grey.width, grey.height) + kSheetCells - 1) / kSheetCells);
   cells.columns = grey.width / cells.sizePx;
   cells.rows = grey.height / cells.sizePx;

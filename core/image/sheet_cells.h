@@ -12,9 +12,10 @@ namespace batten {
 /// A picture in squares of a few pixels: what the sheet of paper in it is found by.
 struct SheetCells {
   int sizePx = 1, columns = 0, rows = 0;
-  cv::Mat3f colour;  ///< Grey, red less grey, blue less grey; without ink.
-  cv::Mat1f rough;   ///< Mean difference of neighbours.
-  cv::Mat1f dark;    ///< [grey] The darkest pixel: a line through the cell shows.
+  bool hasTint = false;  ///< Of a grey picture the second and third of `colour` are 0.
+  cv::Mat3f colour;      ///< Grey, red less grey, blue less grey; without ink.
+  cv::Mat1f rough;       ///< Mean difference of neighbours.
+  cv::Mat1f dark;        ///< [grey] The darkest pixel: a line through the cell shows.
 };
 /// At least 2 px a cell, about 400 of them along the longer side. An empty colour image: the picture is grey.
 SheetCells sheetCellsOf(const GreyImage&, const ColourImage&, const RunContext&);

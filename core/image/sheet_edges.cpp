@@ -62,16 +62,19 @@ struct SideSteps {
   }
 };
 
+// A grey picture has no tint.
+int channelsOf(const SheetCells& cells) { return cells.hasTint ? kChannels : 1; }
+
 // Of the cells from one depth to another: lines and things that take less than half of them do not count.
 cv::Vec3f medianOf(const FromSide& from, int place, int first, int last) {
   std::array<std::array<float, kPaperCells>, kChannels> values{};
-  const int count = std::min(last - first, kPaperCells);
+  const int count = std::min(last - first, kPaperCells), channels = channelsOf(from.cells);
   for (int c = 0; c < count; ++c) {
     const cv::Vec3f& cell = from.cells.colour(from.at(place, first + c));
-    for (int k = 0; k < kChannels; ++k) values[k][c] = cell[k];
+    for (int k = 0; k < channels; ++k) values[k][c] = cell[k];
   }
-  cv::Vec3f median;
-  for (int k = 0; k < kChannels; ++k) {
+  cv::Vec3f median(0.0f, 0.0f, 0.0f);
+  for (int k = 0; k < channels; ++k) {
     const auto middle = values[k].begin() + count / 2;
     std::nth_element(values[k].begin(), middle, values[k].begin() + count);
     median[k] = *middle;
@@ -85,11 +88,14 @@ SideSteps stepsOf(const FromSide& from) {
       std::min(static_cast<int>(kDeepestEdge * from.deep()), from.deep() - 1 - kNoneOf - kPaperCells) + kNextDepth;
   for (int i = static_cast<int>(kFirstPlace * from.along()); i < kLastPlace * from.along(); i += kAlongStep)
     out.places.push_back(i);
+  std::vector<cv::Vec3f> medians(out.most + 1 + kNoneOf + 1);  // of kPaperCells cells, by the first of them
   for (const int i : out.places) {
+    for (int first = 0; first < std::ssize(medians); ++first)
+      medians[first] = medianOf(from, i, first, first + kPaperCells);
     for (int depth = out.least; depth <= out.most; ++depth) {
-      const cv::Vec3f outside = medianOf(from, i, std::max(0, depth - kNoneOf - kPaperCells), depth - kNoneOf);
-      const cv::Vec3f inside = medianOf(from, i, depth + kNoneOf + 1, depth + kNoneOf + 1 + kPaperCells);
-      out.steps.push_back(outside - inside);
+      const int before = depth - kNoneOf - kPaperCells;
+      const cv::Vec3f outside = before >= 0 ? medians[before] : medianOf(from, i, 0, depth - kNoneOf);
+      out.steps.push_back(outside - medians[depth + kNoneOf + 1]);
       out.brinks.push_back(from.cells.colour(from.at(i, depth - kNoneOf)) -
                            from.cells.colour(from.at(i, depth + kNoneOf)));
     }
@@ -104,7 +110,9 @@ struct StraightEdge {
 
 int depthAt(const StraightEdge& edge, int place, int places) {
   const double t = places > 1 ? static_cast<double>(place) / (places - 1) : 0.0;
-  return static_cast<int>(std::lround(std::lerp(edge.first, edge.last, t)));
+  const double depth = std::lerp(edge.first, edge.last, t);  // never negative
+  const int whole = static_cast<int>(depth);
+  return depth - whole < 0.5 ? whole : whole + 1;
 }
 
 // [grey] The median step along a line `farther` cells deeper than the edge. Absent: that is not in the picture.
@@ -158,7 +166,7 @@ bool isSheetEdge(const StraightEdge& edge, const SideSteps& steps) {
   return own >= std::max(kLeastStep, kLeastOwn * std::fabs(step));
 }
 
-std::optional<StraightEdge> straightEdge(const SideSteps& steps, int along) {
+std::optional<StraightEdge> straightEdge(const SideSteps& steps, int along, int channels) {
   const int n = static_cast<int>(steps.places.size());
   const int lean = static_cast<int>(kMostLean * along), most = steps.most - kNextDepth;
   StraightEdge best;
@@ -169,11 +177,11 @@ std::optional<StraightEdge> straightEdge(const SideSteps& steps, int along) {
       cv::Vec3f sum(0.0f, 0.0f, 0.0f);
       for (int p = 0; p < n; ++p) {
         const std::size_t at = steps.index(p, depthAt(line, p, n));
-        for (int k = 0; k < kChannels; ++k)
+        for (int k = 0; k < channels; ++k)
           sum[k] += std::clamp(steps.steps[at][k], -kMostStepSeen, kMostStepSeen) +
                     std::clamp(steps.brinks[at][k], -kMostStepSeen, kMostStepSeen);
       }
-      for (int k = 0; k < kChannels; ++k) {
+      for (int k = 0; k < channels; ++k) {
         if (std::fabs(sum[k]) <= greatest) continue;
         greatest = std::fabs(sum[k]);
         best = {first, last, k};
@@ -191,7 +199,7 @@ std::vector<cv::Mat1b> beyondSheetEdges(const SheetCells& cells) {
   for (int side = 0; side < 4; ++side) {
     const FromSide from{cells, side};
     const SideSteps steps = stepsOf(from);
-    const std::optional<StraightEdge> edge = straightEdge(steps, from.along());
+    const std::optional<StraightEdge> edge = straightEdge(steps, from.along(), channelsOf(cells));
     if (!edge) continue;
     const double slope = (edge->last - edge->first) / std::max(1.0, 1.0 * (steps.places.back() - steps.places.front()));
     cv::Mat1b beyond(cells.rows, cells.columns, static_cast<unsigned char>(0));

@@ -7,8 +7,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
-#include "core/image/bits/padded_bits.h"
+#include "core/base/hot_loop.h"
 
 namespace batten {
 namespace {
@@ -23,29 +24,75 @@ int neighbourhood(const BitImage& image, int x, int y) {
   return bits;
 }
 
-// Guo and Hall's A1 for the 64 pixels of word `i` at once: the removable ones in sub-iteration `odd`.
-std::uint64_t removable(const std::uint64_t* above, const std::uint64_t* row, const std::uint64_t* below, int i,
-                        bool odd) {
-  const auto west = [i](const std::uint64_t* r) { return (r[i] << 1) | (r[i - 1] >> 63); };
-  const auto east = [i](const std::uint64_t* r) { return (r[i] >> 1) | (r[i + 1] << 63); };
-  const std::uint64_t n = above[i], ne = east(above), e = east(row), se = east(below);
-  const std::uint64_t s = below[i], sw = west(below), w = west(row), nw = west(above);
-  const std::uint64_t c0 = ~n & (ne | e), c1 = ~e & (se | s), c2 = ~s & (sw | w), c3 = ~w & (nw | n);
-  const std::uint64_t oneBranch = (c0 ^ c1 ^ c2 ^ c3) & ~((c0 & c1) | (c2 & c3));
+constexpr int kBlockRows = 4;
+
+// Ink in blocks of 64 x 4 px, column by column, a block of paper all around: what lies above and below a block comes
+// before and behind it, and all its rows are worked on at once.
+struct BlocksOfInk {
+  explicit BlocksOfInk(const BitImage& ink)
+      : down((ink.height + kBlockRows - 1) / kBlockRows + 2),
+        words(static_cast<std::size_t>(ink.wordsPerRow + 2) * static_cast<std::size_t>(down) * kBlockRows, 0),
+        touched(words.size() / kBlockRows, 0) {}
+  std::uint64_t& word(int y, int i) { return words[std::ptrdiff_t{i + 1} * down * kBlockRows + kBlockRows + y]; }
+  int block(int y, int i) const { return (i + 1) * down + 1 + y / kBlockRows; }
+
+  int down;                          // blocks from one column to the next
+  std::vector<std::uint64_t> words;  // those of a block at kBlockRows times its number
+  std::vector<int> touched;          // the sub-iteration in which a block last lost a pixel
+};
+
+struct Loss {
+  int block;
+  std::uint64_t pixels[kBlockRows];
+};
+
+struct InkToThin {
+  const std::uint64_t* words;
+  const int* touched;
+  int down;
+};
+
+// What the blocks lose in a sub-iteration, by Guo and Hall's A1 for 64 pixels at once; a block whose surroundings
+// rested for a full round is left alone. @return how many of them lose anything.
+BATTEN_HOT_LOOP int collectLosses(InkToThin ink, const int* blocks, int count, int time, Loss* __restrict lost) {
+  const std::uint64_t odd = (time & 1) != 0 ? ~std::uint64_t{0} : 0;
   const auto atLeastTwo = [](std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d) {
     return (a & b) | (c & d) | ((a | b) & (c | d));
   };
-  const std::uint64_t a0 = nw | n, a1 = ne | e, a2 = se | s, a3 = sw | w;
-  const std::uint64_t b0 = n | ne, b1 = e | se, b2 = s | sw, b3 = w | nw;
-  const std::uint64_t pairs =
-      atLeastTwo(a0, a1, a2, a3) & atLeastTwo(b0, b1, b2, b3) & ~(a0 & a1 & a2 & a3 & b0 & b1 & b2 & b3);
-  const std::uint64_t side = odd ? ~((n | ne | ~se) & e) : ~((s | sw | ~nw) & w);
-  return row[i] & oneBranch & pairs & side;
+  int losses = 0;
+  for (int k = 0; k < count; ++k) {
+    const int block = blocks[k];
+    const int* touched = ink.touched + block;
+    int latest = 0;
+    for (int d = -ink.down; d <= ink.down; d += ink.down) {
+      for (int i = d - 1; i <= d + 1; ++i) latest = touched[i] > latest ? touched[i] : latest;
+    }
+    if (time > 2 && latest < time - 2) continue;
+    const std::uint64_t* row = ink.words + std::ptrdiff_t{block} * kBlockRows;
+    const std::uint64_t *west = row - std::ptrdiff_t{ink.down} * kBlockRows,
+                        *east = row + std::ptrdiff_t{ink.down} * kBlockRows;
+    std::uint64_t pixels[kBlockRows];
+    for (int y = 0; y < kBlockRows; ++y) {
+      const std::uint64_t n = row[y - 1], here = row[y], s = row[y + 1];
+      const std::uint64_t nw = (n << 1) | (west[y - 1] >> 63), ne = (n >> 1) | (east[y - 1] << 63);
+      const std::uint64_t w = (here << 1) | (west[y] >> 63), e = (here >> 1) | (east[y] << 63);
+      const std::uint64_t sw = (s << 1) | (west[y + 1] >> 63), se = (s >> 1) | (east[y + 1] << 63);
+      const std::uint64_t c0 = ~n & (ne | e), c1 = ~e & (se | s), c2 = ~s & (sw | w), c3 = ~w & (nw | n);
+      const std::uint64_t oneBranch = (c0 ^ c1 ^ c2 ^ c3) & ~((c0 & c1) | (c2 & c3));
+      const std::uint64_t a0 = nw | n, a1 = ne | e, a2 = se | s, a3 = sw | w;
+      const std::uint64_t b0 = n | ne, b1 = e | se, b2 = s | sw, b3 = w | nw;
+      const std::uint64_t pairs =
+          atLeastTwo(a0, a1, a2, a3) & atLeastTwo(b0, b1, b2, b3) & ~(a0 & a1 & a2 & a3 & b0 & b1 & b2 & b3);
+      const std::uint64_t side = (odd & ~((n | ne | ~se) & e)) | (~odd & ~((s | sw | ~nw) & w));
+      pixels[y] = here & oneBranch & pairs & side;
+    }
+    if ((pixels[0] | pixels[1] | pixels[2] | pixels[3]) == 0) continue;
+    lost[losses].block = block;
+    for (int y = 0; y < kBlockRows; ++y) lost[losses].pixels[y] = pixels[y];
+    ++losses;
+  }
+  return losses;
 }
-
-struct Word {
-  int y, i;
-};
 
 std::vector<SkeletonPixel> inkPixels(const BitImage& image) {
   std::vector<SkeletonPixel> pixels;
@@ -183,42 +230,39 @@ class GraphWalker {
 
 bool thinToSkeleton(BitImage& ink, const RunContext& context) {
   if (ink.width <= 0 || ink.height <= 0) return true;
-  PaddedBits bits(ink, false);
-  const std::ptrdiff_t stride = ink.wordsPerRow + 2;
-  // Sub-iteration in which a word last lost a pixel; a word whose surroundings rested for a full round is left alone.
-  std::vector<int> touched(stride * (ink.height + 2), 0);
-  const auto slot = [&](const Word& w) { return touched.data() + (w.y + 1) * stride + (w.i + 1); };
-  struct Loss {
-    Word word;
-    std::uint64_t pixels;
-  };
-  std::vector<Word> alive;
-  std::vector<Loss> lost;
-  for (int y = 0; y < ink.height; ++y) {
-    for (int i = 0; i < ink.wordsPerRow; ++i) {
-      if (ink.row(y)[i] != 0) alive.push_back({y, i});
+  BlocksOfInk bits(ink);
+  const auto forInk = [&](const auto& work) {
+    for (int y = 0; y < ink.height; ++y) {
+      for (int i = 0; i < ink.wordsPerRow; ++i) {
+        if (ink.row(y)[i] != 0) work(y, i);
+      }
     }
-  }
+  };
+  std::vector<int> alive;
+  forInk([&](int y, int i) {
+    bits.word(y, i) = ink.row(y)[i];
+    if (std::exchange(bits.touched[bits.block(y, i)], 1) == 0) alive.push_back(bits.block(y, i));
+  });
+  std::fill(bits.touched.begin(), bits.touched.end(), 0);
+  std::sort(alive.begin(), alive.end());  // as they lie in memory
+  std::vector<Loss> lost(alive.size());
   for (int time = 1, quiet = 0; quiet < 2; ++time) {
     if (context.isCancelled()) return false;
-    lost.clear();
-    for (const Word& w : alive) {
-      const int* t = slot(w);
-      int latest = 0;
-      for (std::ptrdiff_t d = -stride; d <= stride; d += stride) latest = std::max({latest, t[d - 1], t[d], t[d + 1]});
-      if (time > 2 && latest < time - 2) continue;
-      const std::uint64_t gone = removable(bits.row(w.y - 1), bits.row(w.y), bits.row(w.y + 1), w.i, (time & 1) != 0);
-      if (gone == 0) continue;
-      lost.push_back({w, gone});
+    const int losses = collectLosses({bits.words.data(), bits.touched.data(), bits.down}, alive.data(),
+                                     static_cast<int>(alive.size()), time, lost.data());
+    for (int k = 0; k < losses; ++k) {
+      std::uint64_t* words = bits.words.data() + std::ptrdiff_t{lost[k].block} * kBlockRows;
+      for (int y = 0; y < kBlockRows; ++y) words[y] &= ~lost[k].pixels[y];
+      bits.touched[lost[k].block] = time;
     }
-    for (const Loss& loss : lost) {
-      bits.row(loss.word.y)[loss.word.i] &= ~loss.pixels;
-      *slot(loss.word) = time;
-    }
-    quiet = lost.empty() ? quiet + 1 : 0;
-    if ((time & 7) == 0) std::erase_if(alive, [&](const Word& w) { return bits.row(w.y)[w.i] == 0; });
+    quiet = losses == 0 ? quiet + 1 : 0;
+    if ((time & 7) != 0) continue;
+    std::erase_if(alive, [&](int block) {
+      const std::uint64_t* words = bits.words.data() + std::ptrdiff_t{block} * kBlockRows;
+      return std::all_of(words, words + kBlockRows, [](std::uint64_t word) { return word == 0; });
+    });
   }
-  ink = bits.toImage();
+  forInk([&](int y, int i) { ink.row(y)[i] = bits.word(y, i); });
   return true;
 }
 

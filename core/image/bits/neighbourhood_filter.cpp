@@ -2,14 +2,15 @@
 #include "core/image/bits/neighbourhood_filter.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <utility>
 #include <vector>
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/image/bits/bit_steps.h"
 #include "core/image/bits/padded_bits.h"
+#include "core/image/bits/run_differences.h"
 #include "core/image/bits/run_pieces.h"
 
 namespace batten {
@@ -89,6 +90,13 @@ BATTEN_HOT_LOOP void stepRow(const RowOfStep& row, int coefficient) {
 
 using RowFlags = std::vector<std::uint8_t>;  // one byte a row: neighbouring rows are written by different threads
 
+/// What a row was before it changed.
+struct FormerRow {
+  int y;
+  std::vector<std::uint64_t> words;
+};
+using FormerRows = std::vector<FormerRow>;  // from the top
+
 /// An image, and which of its rows differ from an iteration before.
 struct FlaggedBits {
   PaddedBits bits;
@@ -96,14 +104,16 @@ struct FlaggedBits {
 };
 
 /// Runs one step from `in` into `out`, which holds the result of the same step one iteration ago: a row whose three
-/// rows of origin have not changed since then is already right.
-void runStep(const FlaggedBits& in, FlaggedBits& out, Step step, const FilterParams& params,
-             const RunContext& context) {
+/// rows of origin have not changed since then is already right. @return what the changed rows of `out` were.
+FormerRows runStep(const FlaggedBits& in, FlaggedBits& out, Step step, const FilterParams& params,
+                   const RunContext& context) {
   const bool replicate = params.border == FilterBorder::Replicate;
   const std::uint64_t flip = step == Step::Erosion ? ~std::uint64_t{0} : 0;
   const int height = in.bits.height();
   const int words = in.bits.wordsPerRow();
-  parallelFor(context, height, 2 * kRowsPerBlock, [&](int begin, int end) {
+  constexpr int kRows = 2 * kRowsPerBlock;
+  std::vector<FormerRows> parts((height + kRows - 1) / kRows);
+  parallelFor(context, height, kRows, [&](int begin, int end) {
     std::vector<std::uint64_t> before(words);
     for (int y = begin; y < end; ++y) {
       const auto flag = [&](int row) { return in.changed[std::clamp(row, 0, height - 1)]; };
@@ -114,20 +124,25 @@ void runStep(const FlaggedBits& in, FlaggedBits& out, Step step, const FilterPar
       std::copy_n(row, words, before.data());
       stepRow({in.bits.row(y - 1), in.bits.row(y), in.bits.row(y + 1), row, words, flip}, params.coefficient);
       out.bits.finishRow(y, replicate);
-      mark = std::equal(before.begin(), before.end(), row) ? 0 : 1;
+      if (std::equal(before.begin(), before.end(), row)) continue;
+      mark = 1;
+      parts[begin / kRows].push_back({y, before});
     }
   });
   out.bits.finishBorderRows(replicate);
+  FormerRows former;
+  for (FormerRows& part : parts)
+    former.insert(former.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+  return former;
 }
 
-bool sameRows(const PaddedBits& a, const PaddedBits& b) {
-  for (int y = 0; y < a.height(); ++y) {
-    if (!std::equal(a.row(y), a.row(y) + a.wordsPerRow(), b.row(y))) return false;
-  }
-  return true;
+/// Whether an iteration has undone the one before it. @param first, second what the rows were that each has changed.
+bool isUndone(const PaddedBits& now, const FormerRows& first, const FormerRows& second) {
+  return std::equal(first.begin(), first.end(), second.begin(), second.end(),
+                    [&](const FormerRow& a, const FormerRow& b) {
+                      return a.y == b.y && std::equal(a.words.begin(), a.words.end(), now.row(a.y));
+                    });
 }
-
-bool any(const RowFlags& flags) { return std::find(flags.begin(), flags.end(), std::uint8_t{1}) != flags.end(); }
 
 /// The pairs of one erosion and one dilation, until nothing changes.
 PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterReport& report,
@@ -138,45 +153,66 @@ PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterRep
   const Step second = params.order == FilterOrder::ErosionFirst ? Step::Dilation : Step::Erosion;
   FlaggedBits state{PaddedBits(image, replicate), RowFlags(rows, 1)};
   FlaggedBits middle{PaddedBits(image.width, image.height), RowFlags(rows, 1)};
-  PaddedBits previous = state.bits, beforePrevious = state.bits;
+  FormerRows changedBefore;
   report.why = Termination::IterationLimit;
   int limit = params.iterations;
   while (report.iterations < limit && !context.isCancelled()) {
-    std::swap(previous, beforePrevious);
-    previous = state.bits;
     runStep(state, middle, first, params, context);
     if (report.iterations == 0) std::fill(middle.changed.begin(), middle.changed.end(), std::uint8_t{1});
-    runStep(middle, state, second, params, context);
+    FormerRows changed = runStep(middle, state, second, params, context);
     ++report.iterations;
     context.report(static_cast<double>(report.iterations) / limit);
-    if (!any(state.changed)) {
+    if (changed.empty()) {
       report.why = Termination::FixedPoint;
       break;
     }
-    if (!report.alternates && report.iterations >= 2 && sameRows(state.bits, beforePrevious)) {
+    if (!report.alternates && report.iterations >= 2 && isUndone(state.bits, changedBefore, changed)) {
       // Two states take turns for ever: what the asked number of pairs gives is decided by its being odd or even.
       report.alternates = true;
       report.why = Termination::NoProgress;
       limit = report.iterations + (params.iterations - report.iterations) % 2;
     }
+    changedBefore = std::move(changed);
   }
   return std::move(state.bits);
 }
 
-/// Undoes the larger ones of the changes, and counts.
-void limitChanges(const BitImage& before, const FilterParams& params, FilteredImage& result,
-                  const RunContext& context) {
-  FilterReport& report = result.report;
-  if (params.maxChangePx > 0) {
-    const PieceRule large{.minArea = params.maxChangePx + 1};
-    const BitImage lost = keepPieces(without(before, result.ink), large, context);
-    const BitImage gained = keepPieces(without(result.ink, before), large, context);
-    result.ink = either(without(std::move(result.ink), gained), lost);
-    report.undone = lost.count() + gained.count();
+/// Undoes the larger ones of the changes from `from` to `to`, which are set in `from` alone. @return their pixels, and
+/// how many of them were undone.
+struct Changes {
+  std::int64_t all = 0, undone = 0;
+};
+template <class Undo>
+Changes limitChanges(const BitImage& from, const BitImage& to, int maxChangePx, const Undo& undo,
+                     const RunContext& context) {
+  Changes changes;
+  const RunPieces pieces = findPiecesOfDifference(from, to, Connectivity::Eight, context);
+  if (context.isCancelled()) return changes;
+  std::vector<std::int64_t> area(pieces.runs.size(), 0);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const InkRun& run = pieces.runs[i];
+    changes.all += run.x1 - run.x0;
+    if (maxChangePx <= 0 || area[pieces.piece[i]] <= maxChangePx) continue;
+    changes.undone += run.x1 - run.x0;
+    undo(run);
   }
-  report.inkAfter = result.ink.count();
-  report.inkLost = without(before, result.ink).count();
-  report.inkGained = report.inkAfter - (report.inkBefore - report.inkLost);
+  return changes;
+}
+
+/// Undoes the larger ones of the changes, and counts.
+void limitAllChanges(const BitImage& before, const FilterParams& params, FilteredImage& result,
+                     const RunContext& context) {
+  FilterReport& report = result.report;
+  // What is put back first is set in both, and so no change of the second kind.
+  const Changes lost = limitChanges(
+      before, result.ink, params.maxChangePx, [&](const InkRun& run) { setBits(result.ink, run); }, context);
+  const Changes gained = limitChanges(
+      result.ink, before, params.maxChangePx, [&](const InkRun& run) { clearBits(result.ink, run); }, context);
+  report.undone = lost.undone + gained.undone;
+  report.inkLost = lost.all - lost.undone;
+  report.inkGained = gained.all - gained.undone;
+  report.inkAfter = report.inkBefore - report.inkLost + report.inkGained;
   report.thinStrokesLost = static_cast<double>(report.inkLost) > kLostShare * static_cast<double>(report.inkBefore);
 }
 
@@ -218,7 +254,7 @@ Result<FilteredImage> neighbourhoodFilter(const BitImage& image, const FilterPar
     } else {
       result.ink = runPairs(image, params, result.report, context).toImage();
     }
-    if (!context.isCancelled()) limitChanges(image, params, result, context);
+    if (!context.isCancelled()) limitAllChanges(image, params, result, context);
     if (context.isCancelled()) return cancelled();
     return result;
   } catch (const std::bad_alloc&) {

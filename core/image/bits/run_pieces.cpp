@@ -7,17 +7,41 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/image/bits/run_differences.h"
 
 namespace batten {
 namespace {
 
 constexpr int kRowsPerStrip = 256;
 
-void appendRuns(const BitImage& image, int y, std::vector<InkRun>& runs) {
-  const std::uint64_t* row = image.row(y);
+/// The words of the rows of an image.
+struct RowsOfImage {
+  const BitImage& image;
+  int width() const { return image.width; }
+  int height() const { return image.height; }
+  int wordsPerRow() const { return image.wordsPerRow; }
+  const std::uint64_t* row(int y, std::vector<std::uint64_t>&) const { return image.row(y); }
+};
+
+/// The words of what is set in the first and not in the second.
+struct RowsOfDifference {
+  const BitImage &from, &without;
+  int width() const { return from.width; }
+  int height() const { return from.height; }
+  int wordsPerRow() const { return from.wordsPerRow; }
+  const std::uint64_t* row(int y, std::vector<std::uint64_t>& own) const {
+    own.resize(static_cast<std::size_t>(from.wordsPerRow));
+    const std::uint64_t *a = from.row(y), *b = without.row(y);
+    for (int i = 0; i < from.wordsPerRow; ++i) own[i] = a[i] & ~b[i];
+    return own.data();
+  }
+};
+
+void appendRuns(const std::uint64_t* row, int width, int y, std::vector<InkRun>& runs) {
+  const int words = (width + 63) / 64;
   std::uint64_t carry = 0;
   bool open = false;
-  for (int i = 0; i < image.wordsPerRow; ++i) {
+  for (int i = 0; i < words; ++i) {
     std::uint64_t changes = row[i] ^ ((row[i] << 1) | carry);
     carry = row[i] >> 63;
     for (; changes != 0; changes &= changes - 1) {
@@ -25,7 +49,7 @@ void appendRuns(const BitImage& image, int y, std::vector<InkRun>& runs) {
       if (open) {
         runs.back().x1 = x;
       } else {
-        runs.push_back({y, x, image.width});
+        runs.push_back({y, x, width});
       }
       open = !open;
     }
@@ -91,30 +115,32 @@ struct Strips {
   std::vector<InkRun> runs;
 };
 
-Strips gatherRuns(const BitImage& image, const RunContext& context) {
-  const int strips = (image.height + kRowsPerStrip - 1) / kRowsPerStrip;
+template <class Rows>
+Strips gatherRuns(const Rows& image, const RunContext& context) {
+  const int height = image.height(), strips = (height + kRowsPerStrip - 1) / kRowsPerStrip;
   std::vector<std::vector<InkRun>> parts(strips);
   Strips all;
-  all.rowStart.assign(image.height + 1, 0);
-  parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
+  all.rowStart.assign(height + 1, 0);
+  parallelFor(context, height, kRowsPerStrip, [&](int begin, int end) {
     std::vector<InkRun>& part = parts[begin / kRowsPerStrip];
+    std::vector<std::uint64_t> own;
     for (int y = begin; y < end; ++y) {
       const std::size_t before = part.size();
-      appendRuns(image, y, part);
+      appendRuns(image.row(y, own), image.width(), y, part);
       all.rowStart[y + 1] = static_cast<int>(part.size() - before);
     }
   });
-  for (int y = 0; y < image.height; ++y) all.rowStart[y + 1] += all.rowStart[y];
+  for (int y = 0; y < height; ++y) all.rowStart[y + 1] += all.rowStart[y];
   all.runs.reserve(all.rowStart.back());
   for (const auto& part : parts) all.runs.insert(all.runs.end(), part.begin(), part.end());
   return all;
 }
 
-}  // namespace
-
-RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context) {
+template <class Rows>
+RunPieces piecesOf(const Rows& image, Connectivity connectivity, const RunContext& context) {
   RunPieces result;
-  if (image.height <= 0 || image.width <= 0) return result;
+  const int height = image.height();
+  if (height <= 0 || image.width() <= 0) return result;
   Strips all = gatherRuns(image, context);
   if (context.isCancelled()) return result;
   const int slack = connectivity == Connectivity::Eight ? 1 : 0;
@@ -126,14 +152,25 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
              parent);
   };
   // Within a strip only its own runs are joined, so strips do not disturb each other; the seams come afterwards.
-  parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
+  parallelFor(context, height, kRowsPerStrip, [&](int begin, int end) {
     for (int y = begin + 1; y < end; ++y) join(y);
   });
-  for (int y = kRowsPerStrip; y < image.height; y += kRowsPerStrip) join(y);
+  for (int y = kRowsPerStrip; y < height; y += kRowsPerStrip) join(y);
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = parent[parent[i]];
   result.runs = std::move(all.runs);
   result.piece = std::move(parent);
   return result;
+}
+
+}  // namespace
+
+RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context) {
+  return piecesOf(RowsOfImage{image}, connectivity, context);
+}
+
+RunPieces findPiecesOfDifference(const BitImage& from, const BitImage& without, Connectivity connectivity,
+                                 const RunContext& context) {
+  return piecesOf(RowsOfDifference{from, without}, connectivity, context);
 }
 
 void setBits(BitImage& image, const InkRun& run) { setBits(image.row(run.y), run.x0, run.x1); }
@@ -201,7 +238,7 @@ void fillHoles(BitImage& image, int area, const RunContext& context) {
     std::vector<InkRun> runs;
     for (int y = begin; y < end; ++y) {
       runs.clear();
-      appendRuns(image, y, runs);
+      appendRuns(image.row(y), image.width, y, runs);
       for (std::size_t i = 1; i < runs.size(); ++i) {
         if (runs[i].x0 - runs[i - 1].x1 < area) setBits(gaps.row(y), runs[i - 1].x1, runs[i].x0);
       }

@@ -31,17 +31,11 @@ constexpr double kLeastAtBorder = 0.5;                     // of the lines that 
 constexpr double kJoined = 0.9;                            // of the spaces between lines that a stroke crosses
 constexpr double kLeastRulingDepth = 0.015;
 
-/// Square by square, so that the columns written to stay in the cache.
-Plane transposed(const Plane& in, const RunContext& context) {
-  constexpr int kSquare = 32;
+Plane mirrored(const Plane& in, const RunContext& context) {
+  constexpr int kRows = 32;
   Plane out(in.height, in.width);
-  parallelFor(context, in.height, kSquare, [&](int begin, int end) {
-    for (int x0 = 0; x0 < in.width; x0 += kSquare) {
-      for (int x = x0; x < std::min(x0 + kSquare, in.width); ++x) {
-        float* to = out.row(x);
-        for (int y = begin; y < end; ++y) to[y] = in.row(y)[x];
-      }
-    }
+  parallelFor(context, out.height, kRows, [&](int begin, int end) {
+    PlaneView{in, true}.copyRows(begin, end, out.row(begin));
   });
   return out;
 }
@@ -85,10 +79,8 @@ struct FoundLattice {
   LineLook look;
 };
 
-std::optional<FoundLattice> lookFor(const Plane& grey, const RunContext& context) {
-  auto lattice = findRulingLattice(grey, context);
-  if (!lattice) return std::nullopt;
-  FoundLattice found{std::move(*lattice), {}};
+std::optional<FoundLattice> judged(const Plane& grey, RulingLattice lattice, const RunContext& context) {
+  FoundLattice found{std::move(lattice), {}};
   const RulingLattice& l = found.lattice;
   found.look = lookOf(grey, l);
   const bool isEven = l.misfit <= kMostMisfit;
@@ -198,10 +190,14 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
   while (static_cast<std::int64_t>(image.width / shrink) * (image.height / shrink) > kLargestLatticePx) ++shrink;
   const Plane across = shrinkGrey(image, shrink, context);
   if (context.isCancelled()) return {};
-  const auto rows = lookFor(across, context);
+  std::optional<FoundLattice> rows, columns;
+  if (auto lattice = findRulingLattice({across, false}, context)) rows = judged(across, std::move(*lattice), context);
   if (context.isCancelled()) return {};
-  const Plane down = transposed(across, context);
-  const auto columns = lookFor(down, context);
+  Plane down;  // few pages have lines that run down, and only they need it
+  if (auto lattice = findRulingLattice({across, true}, context)) {
+    down = mirrored(across, context);
+    columns = judged(down, std::move(*lattice), context);
+  }
   std::vector<RulingFamily> families;
   if (context.isCancelled()) return families;
   if (rows && isPrinted(across, *rows, columns)) families.push_back(familyOf(*rows, across, false, shrink));

@@ -9,7 +9,6 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
-#include "core/image/ruling/ruling_stretches.h"
 
 namespace batten {
 namespace {
@@ -254,7 +253,7 @@ double RulingLattice::at(double k, double x) const {
   return Eigen::Map<const Terms>(coefficients.data()).dot(t) + slope * x;
 }
 
-std::optional<RulingLattice> findRulingLattice(const Plane& grey, const RunContext& context) {
+std::optional<RulingLattice> findRulingLattice(const PlaneView& grey, const RunContext& context) {
   const RulingStretches found = findRulingStretches(grey, context);
   if (context.isCancelled() || found.strips.empty()) return std::nullopt;
   const double spacing = commonSpacing(found, found.height, context);

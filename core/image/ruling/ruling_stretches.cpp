@@ -33,39 +33,50 @@ BATTEN_HOT_LOOP void meansOfFive(const float* in, float* __restrict out, int cou
 }
 
 /// Rows [first, past) of a plane averaged along x over 2 kAlong + 1 pixels. Made where they are needed: a whole plane
-/// of them would be fresh memory, which costs more than the sums.
+/// of them, or a mirrored one, would be fresh memory, which costs more than the sums.
 class AveragedRows {
  public:
-  explicit AveragedRows(const Plane& grey) : grey_(grey), padded_(static_cast<std::size_t>(grey.width) + 2 * kAlong) {}
+  explicit AveragedRows(const PlaneView& grey)
+      : grey_(grey), width_(grey.width()), padded_(static_cast<std::size_t>(width_) + 2 * kAlong) {}
 
   void make(int first, int past) {
     static_assert(kAlong == 2);
     first_ = first;
-    rows_.resize(static_cast<std::size_t>(grey_.width) * static_cast<std::size_t>(past - first));
+    rows_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(past - first));
+    grey_.copyRows(first, past, rows_.data());
     for (int y = first; y < past; ++y) {
-      const float* in = grey_.row(y);
-      std::copy_n(in, grey_.width, padded_.data() + kAlong);
-      std::fill_n(padded_.data(), kAlong, in[0]);
-      std::fill_n(padded_.data() + kAlong + grey_.width, kAlong, in[grey_.width - 1]);
-      meansOfFive(padded_.data(), rows_.data() + std::ptrdiff_t{y - first} * grey_.width, grey_.width);
+      float* row = rows_.data() + std::ptrdiff_t{y - first} * width_;
+      std::copy_n(row, width_, padded_.data() + kAlong);
+      std::fill_n(padded_.data(), kAlong, row[0]);
+      std::fill_n(padded_.data() + kAlong + width_, kAlong, row[width_ - 1]);
+      meansOfFive(padded_.data(), row, width_);
     }
   }
-  const float* row(int y) const { return rows_.data() + std::ptrdiff_t{y - first_} * grey_.width; }
-  int height() const { return grey_.height; }  ///< Of the plane.
+  const float* row(int y) const { return rows_.data() + std::ptrdiff_t{y - first_} * width_; }
+  int height() const { return grey_.height(); }  ///< Of the plane.
 
  private:
-  const Plane& grey_;
-  int first_ = 0;
+  const PlaneView& grey_;
+  int width_, first_ = 0;
   std::vector<float> padded_, rows_;
 };
 
-double noiseAcross(const Plane& grey) {
+/// Of the steps between rows averaged along x, at some places.
+double noiseAcross(const PlaneView& grey) {
+  const auto averaged = [&](int x, int y) {
+    const auto at = [&](int i) { return grey.at(std::clamp(i, 0, grey.width() - 1), y); };
+    return (at(x - 2) + at(x - 1) + at(x) + at(x + 1) + at(x + 2)) / 5.0f;
+  };
+  static_assert(kAlong == 2);
   std::vector<float> steps;
-  AveragedRows rows(grey);
-  for (int y = 0; y + 1 < grey.height; y += kNoiseStride) {
-    rows.make(y, y + 2);
-    for (int x = y % kNoiseStride; x < grey.width; x += kNoiseStride)
-      steps.push_back(rows.row(y + 1)[x] - rows.row(y)[x]);
+  const auto take = [&](int x, int y) { steps.push_back(averaged(x, y + 1) - averaged(x, y)); };
+  // As the plane lies in memory.
+  if (grey.isMirrored) {
+    for (int x = 0; x < grey.width(); x += kNoiseStride)
+      for (int y = 0; y + 1 < grey.height(); y += kNoiseStride) take(x, y);
+  } else {
+    for (int y = 0; y + 1 < grey.height(); y += kNoiseStride)
+      for (int x = 0; x < grey.width(); x += kNoiseStride) take(x, y);
   }
   return robustSigma(steps) / std::sqrt(2.0);
 }
@@ -107,21 +118,22 @@ RowsAround rowsAround(const AveragedRows& averaged, int y) {
 }
 
 /// Pixels in the middle of thin dark lines, strip by strip.
-std::array<std::vector<LinePixel>, kStrips> linePixels(const Plane& grey, const RunContext& context) {
+std::array<std::vector<LinePixel>, kStrips> linePixels(const PlaneView& grey, const RunContext& context) {
   static_assert(kSides.size() == 2);
   constexpr int kFarSide = kSides.back();
   std::array<std::vector<LinePixel>, kStrips> pixels;
   const float least = std::max(kLeastDepth, static_cast<float>(kDepthPerNoise * noiseAcross(grey)));
-  const int blocks = (grey.height + kRowsPerBlock - 1) / kRowsPerBlock;
+  const int width = grey.width(), height = grey.height();
+  const int blocks = (height + kRowsPerBlock - 1) / kRowsPerBlock;
   std::vector<std::array<std::vector<LinePixel>, kStrips>> parts(blocks);
-  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<std::uint8_t> marks((static_cast<std::size_t>(grey.width) + 7) / 8 * 8, 0);
+  parallelFor(context, height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<std::uint8_t> marks((static_cast<std::size_t>(width) + 7) / 8 * 8, 0);
     AveragedRows averaged(grey);
-    averaged.make(std::max(0, begin - kFarSide), std::min(grey.height, end + kFarSide));
-    for (int y = std::max(1, begin); y < std::min(end, grey.height - 1); ++y) {
+    averaged.make(std::max(0, begin - kFarSide), std::min(height, end + kFarSide));
+    for (int y = std::max(1, begin); y < std::min(end, height - 1); ++y) {
       const RowsAround rows = rowsAround(averaged, y);
-      markThinDark(rows, least, marks.data(), grey.width);
-      for (int x = 0; x < grey.width; ++x) {
+      markThinDark(rows, least, marks.data(), width);
+      for (int x = 0; x < width; ++x) {
         if (std::uint64_t eight = 0; x % 8 == 0) {
           std::memcpy(&eight, marks.data() + x, 8);
           if (eight == 0) {
@@ -132,7 +144,7 @@ std::array<std::vector<LinePixel>, kStrips> linePixels(const Plane& grey, const 
         if (marks[x] == 0) continue;
         const float bend = rows.above[x] - 2.0f * rows.here[x] + rows.below[x];
         const float shift = bend > 0.0f ? 0.5f * (rows.above[x] - rows.below[x]) / bend : 0.0f;
-        parts[begin / kRowsPerBlock][stripOf(x, grey.width)].push_back(
+        parts[begin / kRowsPerBlock][stripOf(x, width)].push_back(
             {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f + shift});
       }
     }
@@ -144,23 +156,40 @@ std::array<std::vector<LinePixel>, kStrips> linePixels(const Plane& grey, const 
 }
 
 /// Counts of y - slope x in bins of 1, the first at -offset.
-void project(const std::vector<LinePixel>& pixels, double slope, double offset, std::vector<float>& bins) {
-  std::fill(bins.begin(), bins.end(), 0.0f);
+void project(const std::vector<LinePixel>& pixels, double slope, double offset, std::vector<int>& bins) {
+  std::fill(bins.begin(), bins.end(), 0);
   const auto tilt = static_cast<float>(slope), shift = static_cast<float>(offset);
   for (const LinePixel& p : pixels) {
     const auto bin = static_cast<std::size_t>(p.y - tilt * p.x + shift);
-    if (bin < bins.size()) bins[bin] += 1.0f;
+    if (bin < bins.size()) ++bins[bin];
   }
 }
 
+BATTEN_HOT_LOOP int greatestOf(const int* counts, int count) {
+  int greatest = 0;
+  for (int i = 0; i < count; ++i) greatest = counts[i] > greatest ? counts[i] : greatest;
+  return greatest;
+}
+
+/// The squares of the counts that make at least half of `least`, added up.
+double scoreOf(const std::vector<int>& bins, float least) {
+  const auto isMuch = [&](int count) { return 2.0f * static_cast<float>(count) > least; };
+  double score = 0.0;
+  if (!isMuch(greatestOf(bins.data(), static_cast<int>(bins.size())))) return score;
+  for (const int count : bins) {
+    if (isMuch(count)) score += static_cast<double>(count) * count;
+  }
+  return score;
+}
+
 /// Places where three bins together hold enough pixels, each at their centre of mass.
-std::vector<double> peaksOf(const std::vector<float>& bins, double least, double offset) {
+std::vector<double> peaksOf(const std::vector<int>& bins, double least, double offset) {
   std::vector<double> places;
   const auto around = [&](std::size_t i) { return bins[i - 1] + bins[i] + bins[i + 1]; };
   for (std::size_t i = 2; i + 2 < bins.size(); ++i) {
-    const float here = around(i);
+    const double here = around(i);
     if (here < least || here < around(i - 1) || here <= around(i + 1)) continue;
-    const double shift = (bins[i + 1] - bins[i - 1]) / here;
+    const double shift = static_cast<float>(bins[i + 1] - bins[i - 1]) / static_cast<float>(here);
     const double place = static_cast<double>(i) + 0.5 + shift - offset;
     if (places.empty() || place - places.back() > 2.5) places.push_back(place);
   }
@@ -169,12 +198,28 @@ std::vector<double> peaksOf(const std::vector<float>& bins, double least, double
 
 }  // namespace
 
-RulingStretches findRulingStretches(const Plane& grey, const RunContext& context) {
+void PlaneView::copyRows(int first, int past, float* out) const {
+  if (!isMirrored) {
+    std::copy(plane.row(first), plane.row(first) + std::ptrdiff_t{past - first} * plane.width, out);
+    return;
+  }
+  constexpr int kSquare = 32;  // what is read of 32 rows stays in the cache
+  const std::ptrdiff_t size = width();
+  for (int x0 = 0; x0 < size; x0 += kSquare) {
+    const int x1 = std::min<int>(x0 + kSquare, width());
+    for (int y = first; y < past; ++y) {
+      float* row = out + (y - first) * size;
+      for (int x = x0; x < x1; ++x) row[x] = plane.row(x)[y];
+    }
+  }
+}
+
+RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& context) {
   RulingStretches out;
-  out.width = grey.width;
-  out.height = grey.height;
+  out.width = grey.width();
+  out.height = grey.height();
   out.stripWidth = out.width / kStrips;
-  if (std::min(grey.width, grey.height) < kLeastStretchSide) return out;
+  if (std::min(grey.width(), grey.height()) < kLeastStretchSide) return out;
   const auto pixels = linePixels(grey, context);
   if (context.isCancelled()) return out;
   const double offset = kSteepest * out.width + 2.0;
@@ -183,13 +228,11 @@ RulingStretches findRulingStretches(const Plane& grey, const RunContext& context
   std::vector<double> scores(2 * steps + 1, 0.0);
   const auto slopeOf = [&](int step) { return kSteepest * (step - steps) / steps; };
   parallelFor(context, 2 * steps + 1, 1, [&](int begin, int end) {
-    std::vector<float> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
+    std::vector<int> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       for (const auto& strip : pixels) {
         project(strip, slopeOf(i), offset, bins);
-        for (const float count : bins) {
-          if (2.0f * count > static_cast<float>(least)) scores[i] += static_cast<double>(count * count);
-        }
+        scores[i] += scoreOf(bins, static_cast<float>(least));
       }
     }
   });
@@ -197,7 +240,7 @@ RulingStretches findRulingStretches(const Plane& grey, const RunContext& context
   const auto best = static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
   if (scores[best] <= 0.0) return out;
   out.slope = slopeOf(best);
-  std::vector<float> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
+  std::vector<int> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
   for (const auto& strip : pixels) {
     project(strip, out.slope, offset, bins);
     out.strips.push_back(peaksOf(bins, least, offset));

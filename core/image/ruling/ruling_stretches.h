@@ -16,7 +16,19 @@ struct RulingStretches {
   std::vector<std::vector<double>> strips;  ///< Per strip: places in order, sub-pixel.
 };
 
+/// A plane as it is, or mirrored in its diagonal: rows are columns.
+struct PlaneView {
+  const Plane& plane;
+  bool isMirrored = false;
+
+  int width() const { return isMirrored ? plane.height : plane.width; }
+  int height() const { return isMirrored ? plane.width : plane.height; }
+  float at(int x, int y) const { return isMirrored ? plane.row(x)[y] : plane.row(y)[x]; }
+  /// Rows [first, past), one behind the other.
+  void copyRows(int first, int past, float* out) const;
+};
+
 /// The lines that fill at least a third of a strip, in the direction that the page has most of, up to 1 in 5.
-RulingStretches findRulingStretches(const Plane& grey, const RunContext& context);
+RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& context);
 
 }  // namespace batten

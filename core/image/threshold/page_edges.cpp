@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/image/bits/packed_flags.h"
 #include "core/image/bits/run_pieces.h"
+#include "core/image/threshold/binned_median.h"
 #include "core/image/threshold/region_surface.h"
 #include "core/image/threshold/region_thresholds.h"
 #include "core/image/threshold/region_values.h"
@@ -28,7 +31,7 @@ struct RegionNoise {
 
 float spreadAround(std::vector<float>& values, float centre) {
   for (float& value : values) value = std::fabs(value - centre);
-  return static_cast<float>(kSigmaPerMad) * upperMedian(values);
+  return static_cast<float>(kSigmaPerMad) * binnedMedian(values);
 }
 
 RegionNoise measureNoise(const Plane& u, const RunContext& context) {
@@ -43,7 +46,7 @@ RegionNoise measureNoise(const Plane& u, const RunContext& context) {
       }
     }
     if (gx.empty()) return;
-    const float mx = upperMedian(gx), my = upperMedian(gy);
+    const float mx = binnedMedian(gx), my = binnedMedian(gy);
     noise.slopeX[region] = mx;
     noise.slopeY[region] = my;
     noise.spread[region] = 0.5 * (spreadAround(gx, mx) + spreadAround(gy, my));
@@ -80,50 +83,14 @@ BATTEN_HOT_LOOP void flagAbove(const float* squares, const float* spread, float 
   }
 }
 
-void packFlags(const std::uint8_t* flags, int count, std::uint64_t* out) {
-  for (int x = 0; x < count; ++x) out[x >> 6] |= static_cast<std::uint64_t>(flags[x]) << (x & 63);
-}
+struct Gradients {
+  Plane squares;        ///< Squared lengths beyond the regions' own slope; the outermost rows and columns are flat.
+  float strong = 0.0f;  ///< 98 % of the certain gradients are smaller than this; 0 without any.
+};
 
-/// Squared gradient lengths beyond the regions' own slope. The outermost rows and columns count as flat.
-Plane gradientSquares(const Plane& u, const RegionNoise& noise, const RunContext& context) {
-  Plane squares(u.width, u.height);
-  const RegionSurface slopeX(noise.slopeX, u.width, u.height, true), slopeY(noise.slopeY, u.width, u.height, true);
-  parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<float> mx(u.width), my(mx.size());
-    for (int y = begin; y < end; ++y) {
-      float* row = squares.row(y);
-      if (y == 0 || y == u.height - 1) {
-        std::fill_n(row, u.width, 0.0f);
-        continue;
-      }
-      slopeX.fillRow(y, mx.data());
-      slopeY.fillRow(y, my.data());
-      gradientRow({u.row(y - 1), u.row(y), u.row(y + 1), mx.data(), my.data()}, row, 1, u.width - 1);
-      row[0] = row[u.width - 1] = 0.0f;
-    }
-  });
-  return squares;
-}
+using StrengthCounts = std::array<int, kStrengthBins>;
 
-/// 98 % of the certain gradients are smaller than this; 0 without any.
-float strongGradient(const Plane& squares, const RegionSurface& spread, const RunContext& context) {
-  const int blocks = (squares.height + kRowsPerBlock - 1) / kRowsPerBlock;
-  std::vector<std::array<int, kStrengthBins>> counts(blocks);
-  parallelFor(context, squares.height, kRowsPerBlock, [&](int begin, int end) {
-    auto& mine = counts[begin / kRowsPerBlock];
-    mine.fill(0);
-    std::vector<float> s(squares.width);
-    std::vector<std::uint8_t> flags(s.size());
-    for (int y = begin; y < end; ++y) {
-      spread.fillRow(y, s.data());
-      flagAbove(squares.row(y), s.data(), 0.0f, kCertain, flags.data(), squares.width);
-      for (int x = 0; x < squares.width; ++x) {
-        if (flags[x] == 0) continue;
-        const int bin = static_cast<int>(std::sqrt(squares.row(y)[x]) * kBinsPerGrey);
-        ++mine[std::min(bin, kStrengthBins - 1)];
-      }
-    }
-  });
+float strongOf(const std::vector<StrengthCounts>& counts) {
   std::int64_t total = 0, seen = 0;
   for (const auto& block : counts) {
     for (const int n : block) total += n;
@@ -133,6 +100,42 @@ float strongGradient(const Plane& squares, const RegionSurface& spread, const Ru
     if (seen * 50 >= total * 49) return (static_cast<float>(bin) + 0.5f) / kBinsPerGrey;
   }
   return 0.0f;
+}
+
+Gradients measureGradients(const Plane& u, const RegionNoise& noise, const RegionSurface& spread,
+                           const RunContext& context) {
+  Gradients found{Plane(u.width, u.height)};
+  const RegionSurface slopeX(noise.slopeX, u.width, u.height, true), slopeY(noise.slopeY, u.width, u.height, true);
+  std::vector<StrengthCounts> counts((u.height + kRowsPerBlock - 1) / kRowsPerBlock);
+  parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
+    StrengthCounts& mine = counts[begin / kRowsPerBlock];
+    mine.fill(0);
+    std::vector<float> mx(u.width), my(u.width), s(u.width);
+    std::vector<std::uint8_t> flags(u.width);
+    BitImage certain(u.width, 1);
+    for (int y = begin; y < end; ++y) {
+      float* row = found.squares.row(y);
+      if (y == 0 || y == u.height - 1) {
+        std::fill_n(row, u.width, 0.0f);
+        continue;
+      }
+      slopeX.fillRow(y, mx.data());
+      slopeY.fillRow(y, my.data());
+      gradientRow({u.row(y - 1), u.row(y), u.row(y + 1), mx.data(), my.data()}, row, 1, u.width - 1);
+      row[0] = row[u.width - 1] = 0.0f;
+      spread.fillRow(y, s.data());
+      flagAbove(row, s.data(), 0.0f, kCertain, flags.data(), u.width);
+      packFlags(flags.data(), u.width, certain.row(0));
+      for (int i = 0; i < certain.wordsPerRow; ++i) {
+        for (std::uint64_t bits = certain.row(0)[i]; bits != 0; bits &= bits - 1) {
+          const int bin = static_cast<int>(std::sqrt(row[i * 64 + std::countr_zero(bits)]) * kBinsPerGrey);
+          ++mine[std::min(bin, kStrengthBins - 1)];
+        }
+      }
+    }
+  });
+  found.strong = strongOf(counts);
+  return found;
 }
 
 /// Whether the gradient at (x, y) is at least as long as at both neighbours along its direction (4 directions).
@@ -159,7 +162,7 @@ std::vector<EdgePoint> findCrests(const Plane& u, const Plane& squares, const Bi
     for (int y = std::max(begin, 1); y < std::min(end, u.height - 1); ++y) {
       for (int i = 0; i < area.wordsPerRow; ++i) {
         for (std::uint64_t bits = area.row(y)[i]; bits != 0; bits &= bits - 1) {
-          const int x = i * 64 + __builtin_ctzll(bits);
+          const int x = i * 64 + std::countr_zero(bits);
           if (x < 1 || x >= u.width - 1 || !isCrest(u, squares, x, y)) continue;
           part.push_back({x, y, std::sqrt(squares.row(y)[x])});
         }
@@ -178,13 +181,13 @@ PageEdges findPageEdges(const Plane& u, const RunContext& context) {
   edges.area = BitImage(u.width, u.height);
   if (u.width < 3 || u.height < 3) return edges;
   const RegionNoise noise = measureNoise(u, context);
-  const Plane squares = gradientSquares(u, noise, context);
   const RegionSurface spread(noise.spread, u.width, u.height, true);
-  // On white-balanced scans the paper is clipped and has no noise: then the drawing's own edges set the scale.
-  const float floor = 0.06f * strongGradient(squares, spread, context) / kCertain;
+  const auto [squares, strong] = measureGradients(u, noise, spread, context);
   if (context.isCancelled()) return edges;
+  // On white-balanced scans the paper is clipped and has no noise: then the drawing's own edges set the scale.
+  const float floor = 0.06f * strong / kCertain;
   BitImage weak(u.width, u.height), certain(u.width, u.height);
-  parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
+  parallelFor(context, u.height, kRowsPerBlock, [&, &squares = squares](int begin, int end) {
     std::vector<float> s(u.width);
     std::vector<std::uint8_t> flags(s.size());
     for (int y = begin; y < end; ++y) {

@@ -25,6 +25,23 @@ struct Cells {
   std::size_t at(int x, int y) const { return std::ptrdiff_t{y} * columns + x; }
 };
 
+/// Adds a row to the sums of its cells, pixel by pixel from the left.
+template <int Size>
+void addCellsOf(const float* row, int cells, float* sums) {
+  for (int i = 0; i < cells; ++i) {
+    float sum = sums[i];
+    for (int k = 0; k < Size; ++k) sum += row[i * Size + k];
+    sums[i] = sum;
+  }
+}
+
+void addCells(const float* row, int width, int size, std::vector<float>& sums) {
+  const int whole = size == 4 || size == 8 ? width / size : 0;
+  if (size == 4) addCellsOf<4>(row, whole, sums.data());
+  if (size == 8) addCellsOf<8>(row, whole, sums.data());
+  for (int x = whole * size; x < width; ++x) sums[x / size] += row[x];
+}
+
 /// @param size side of a cell on the plane; divides 64.
 Cells measureCells(const Plane& grey, const BitImage& edges, int size, const RunContext& context) {
   Cells cells;
@@ -35,18 +52,20 @@ Cells measureCells(const Plane& grey, const BitImage& edges, int size, const Run
   cells.isFree.assign(count, 1);
   const std::uint64_t mask = (std::uint64_t{1} << size) - 1;
   parallelFor(context, cells.rows, 8, [&](int begin, int end) {
+    std::vector<float> sums(cells.columns);
+    std::vector<std::uint64_t> touched(edges.wordsPerRow);
     for (int j = begin; j < end; ++j) {
-      const int y1 = std::min((j + 1) * size, grey.height);
+      const int y0 = j * size, y1 = std::min(y0 + size, grey.height);
+      std::fill(sums.begin(), sums.end(), 0.0f);
+      std::fill(touched.begin(), touched.end(), std::uint64_t{0});
+      for (int y = y0; y < y1; ++y) {
+        addCells(grey.row(y), grey.width, size, sums);
+        for (int i = 0; i < edges.wordsPerRow; ++i) touched[i] |= edges.row(y)[i];
+      }
       for (int i = 0; i < cells.columns; ++i) {
         const int x0 = i * size, x1 = std::min(x0 + size, grey.width);
-        float sum = 0.0f;
-        std::uint64_t touched = 0;
-        for (int y = j * size; y < y1; ++y) {
-          for (int x = x0; x < x1; ++x) sum += grey.row(y)[x];
-          touched |= (edges.row(y)[x0 >> 6] >> (x0 & 63)) & mask;
-        }
-        cells.mean[cells.at(i, j)] = sum / static_cast<float>((x1 - x0) * (y1 - j * size));
-        cells.isFree[cells.at(i, j)] = touched == 0 ? 1 : 0;
+        cells.mean[cells.at(i, j)] = sums[i] / static_cast<float>((x1 - x0) * (y1 - y0));
+        cells.isFree[cells.at(i, j)] = ((touched[x0 >> 6] >> (x0 & 63)) & mask) == 0 ? 1 : 0;
       }
     }
   });

@@ -47,43 +47,59 @@ RegionSurface::Place RegionSurface::rowAt(int y) const {
   return {top, v - top};
 }
 
-void RegionSurface::fillRow(int y, int x0, int x1, float* out) const {
+RegionSurface::RowLines RegionSurface::linesOfRow(int y) const {
   const auto [row, share] = rowAt(y);
   const auto valueOf = [&, top = row, part = share](int c) {
     const double value = values_[top * kRegionsPerSide + c];
     return interpolate_ ? value + part * (values_[(top + 1) * kRegionsPerSide + c] - value) : value;
   };
   const double pitch = static_cast<double>(width_) / kRegionsPerSide;
+  RowLines lines{};
   for (int c = -1; c < kRegionsPerSide; ++c) {
-    const int start = c < 0 ? 0 : starts_[c];
-    const int begin = std::max(start, x0), end = std::min(starts_[c + 1], x1);
-    if (begin >= end) continue;
-    float* to = out + (begin - x0);
+    RowLine& line = lines[c + 1];
     if (!interpolate_ || c < 0 || c == kLast) {
-      std::fill_n(to, end - begin, static_cast<float>(valueOf(std::max(c, 0))));
+      line.first = static_cast<float>(valueOf(std::max(c, 0)));
       continue;
     }
     const double left = valueOf(c), slope = (valueOf(c + 1) - left) / pitch;
-    const double first = left + slope * (start + 0.5 - (c + 0.5) * pitch);
-    fillLine(to, begin - start, end - start, static_cast<float>(first), static_cast<float>(slope));
+    line.first = static_cast<float>(left + slope * (starts_[c] + 0.5 - (c + 0.5) * pitch));
+    line.slope = static_cast<float>(slope);
+  }
+  return lines;
+}
+
+int RegionSurface::stretchAt(int x) const {
+  int stretch = 0;
+  while (stretch < kRegionsPerSide && starts_[stretch] <= x) ++stretch;
+  return stretch;
+}
+
+void RegionSurface::fillRow(int y, int x0, int x1, float* out) const {
+  fillStretches(linesOfRow(y), stretchAt(x0), x0, x1, out);
+}
+
+void RegionSurface::fillStretches(const RowLines& lines, int stretch, int x0, int x1, float* out) const {
+  for (int x = x0; x < x1; ++stretch) {
+    const int start = startOf(stretch);
+    const int end = std::min(starts_[stretch], x1);
+    fillLine(out + (x - x0), x - start, end - start, lines[stretch].first, lines[stretch].slope);
+    x = end;
   }
 }
 
-std::array<double, kRegionsPerSide> RegionSurface::highestByColumn(int y0, int y1) const {
+RegionSurface::RowBounds RegionSurface::highestByStretch(int y0, int y1) const {
   std::array<double, kRegionsPerSide> highest{};
   const int first = rowAt(y0).first, last = std::min(rowAt(y1 - 1).first + (interpolate_ ? 1 : 0), kLast);
   for (int c = 0; c < kRegionsPerSide; ++c) {
     highest[c] = values_[first * kRegionsPerSide + c];
     for (int row = first + 1; row <= last; ++row) highest[c] = std::max(highest[c], values_[row * kRegionsPerSide + c]);
   }
-  return highest;
-}
-
-std::pair<int, int> RegionSurface::columnsOf(int x0, int x1) const {
-  int first = 0, last = 0;
-  while (first < kLast && starts_[first + 1] <= x0) ++first;
-  while (last < kLast && starts_[last] < x1) ++last;
-  return {first, last};
+  RowBounds bounds{};
+  for (int stretch = 0; stretch <= kRegionsPerSide; ++stretch) {
+    const int left = std::max(0, stretch - 1), right = interpolate_ ? std::min(stretch, kLast) : left;
+    bounds[stretch] = static_cast<float>(std::max(highest[left], highest[right]));
+  }
+  return bounds;
 }
 
 }  // namespace batten

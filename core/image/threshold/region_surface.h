@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <utility>
 
 #include "core/base/conventions.h"
 
@@ -20,10 +19,24 @@ class RegionSurface {
   /// The same values for pixels [x0, x1) alone, that of x0 first.
   void fillRow(int y, int x0, int x1, float* out) const;
 
-  /// Bounds: in rows [y0, y1) no pixel exceeds the largest of these over the columns that act on it (columnsOf).
-  std::array<double, kRegionsPerSide> highestByColumn(int y0, int y1) const;
-  /// First and last column of regions that act on pixels [x0, x1).
-  std::pair<int, int> columnsOf(int x0, int x1) const;
+  /// A row is made of nine straight stretches, divided by the region centres (or the regions' left borders).
+  struct RowLine {
+    float first = 0.0f, slope = 0.0f;  ///< Value of its first pixel, and what each next one adds.
+  };
+  using RowLines = std::array<RowLine, kRegionsPerSide + 1>;
+  RowLines linesOfRow(int y) const;
+  /// The stretch that pixel x lies on.
+  int stretchAt(int x) const;
+  /// Its first pixel.
+  int startOf(int stretch) const { return stretch == 0 ? 0 : starts_[stretch - 1]; }
+  /// Whether a stretch ends before pixel x.
+  bool isBefore(int stretch, int x) const { return starts_[stretch] <= x; }
+  /// As fillRow, with the lines of the row and the stretch of x0.
+  void fillStretches(const RowLines& lines, int stretch, int x0, int x1, float* out) const;
+
+  /// Bounds: in rows [y0, y1) no pixel of a stretch exceeds its bound by more than rounding.
+  using RowBounds = std::array<float, kRegionsPerSide + 1>;
+  RowBounds highestByStretch(int y0, int y1) const;
 
  private:
   struct Place {

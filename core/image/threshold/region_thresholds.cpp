@@ -18,6 +18,7 @@
 #include "core/image/threshold/otsu_thresholds.h"
 #include "core/image/threshold/page_edges.h"
 #include "core/image/threshold/paper_cells.h"
+#include "core/image/threshold/plane_ink.h"
 #include "core/image/threshold/region_surface.h"
 
 namespace batten {
@@ -151,27 +152,6 @@ Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& d
   return out;
 }
 
-/// The ink of a shrunken page.
-BitImage inkOf(const Plane& grey, const PaperBackground& paper, const RegionValues& contrasts, int shrink,
-               const std::vector<float>& kernel, const RunContext& context) {
-  BitImage ink(grey.width, grey.height);
-  const Plane smoothed = smooth(grey, kernel, context);
-  if (context.isCancelled()) return ink;
-  const RegionSurface contrast(contrasts, grey.width, grey.height, true);
-  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<float> level(grey.width);
-    for (int y = begin; y < end; ++y) {
-      contrast.fillRow(y, level.data());
-      const float* row = smoothed.row(y);
-      for (int x = 0; x < grey.width; ++x) {
-        const auto here = static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
-        if (row[x] < here + level[x]) ink.set(x, y, true);
-      }
-    }
-  });
-  return ink;
-}
-
 RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
                                      const RunContext& context) {
   RegionThresholds out;
@@ -188,7 +168,8 @@ RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, 
     out.smoothingPx = q;
     if (std::fabs(depths.mean) < kContrastPerNoise * depths.noise) continue;
     found = contrastsOf(grey, edges, depths, 1.0);
-    const InkGrain grain = measureGrain(inkOf(grey, estimate.paper, found.contrast, shrink, kernel, context), context);
+    const InkGrain grain =
+        measureGrain(inkOfPlane({grey, estimate.paper, found.contrast, shrink}, kernel, context), context);
     if (grain.perWidth <= kTorn) break;
     if (std::exchange(isFirst, false)) out.halfLevelShare = kTornShare;
     roomPx = std::min(roomPx, kSmoothingPerWidth * grain.widthPx * shrink);

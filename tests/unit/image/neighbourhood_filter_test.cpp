@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <random>
 
+#include "core/image/bits/bit_steps.h"
 #include "core/image/bits/laplacian_edges.h"
+#include "core/image/bits/run_pieces.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/image/random_image.h"
 
@@ -101,6 +103,65 @@ TEST(NeighbourhoodFilter, StopsAtTheFixedPointAndDoesNotDependOnThreads) {
   EXPECT_LE(a->report.iterations, 3);  // an opening is idempotent
   EXPECT_EQ(a->report.inkBefore, image.count());
   EXPECT_EQ(a->report.inkAfter, a->ink.count());
+}
+
+/// Pair after pair over the whole image, until it rests; larger changes are undone on images of them.
+FilteredImage filteredPlainly(const BitImage& image, const FilterParams& params) {
+  FilteredImage result{image, {}};
+  std::vector<BitImage> states{image};
+  result.report.why = Termination::IterationLimit;
+  for (int i = 0; i < params.iterations; ++i) {
+    states.push_back(
+        dilate(erode(states.back(), params.coefficient, params.border, {}), params.coefficient, params.border, {}));
+    const std::size_t last = states.size() - 1;
+    if (states[last] == states[last - 1]) {
+      result.report.why = Termination::FixedPoint;
+      break;
+    }
+    if (last < 2 || states[last] != states[last - 2]) continue;
+    result.report.alternates = true;
+    result.report.why = Termination::NoProgress;
+    if ((params.iterations - static_cast<int>(last)) % 2 == 1) states.push_back(states[last - 1]);
+    break;
+  }
+  result.report.iterations = static_cast<int>(states.size()) - 1;
+  result.ink = states.back();
+  if (params.maxChangePx > 0) {
+    const PieceRule large{.minArea = params.maxChangePx + 1};
+    const BitImage lost = keepPieces(without(image, result.ink), large, {});
+    const BitImage gained = keepPieces(without(result.ink, image), large, {});
+    result.ink = either(without(result.ink, gained), lost);
+    result.report.undone = lost.count() + gained.count();
+  }
+  result.report.inkAfter = result.ink.count();
+  result.report.inkLost = without(image, result.ink).count();
+  result.report.inkGained = without(result.ink, image).count();
+  return result;
+}
+
+TEST(NeighbourhoodFilter, TellsWhatWasDoneThoughOnlyRowsThatChangeAreKept) {
+  RunContext context;
+  context.threads = 3;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const BitImage image =
+        test::randomImage(seed % 2 == 0 ? 40 : 9, seed % 3 == 0 ? 300 : 12, 0.3 + 0.005 * seed, seed);
+    for (const int iterations : {1, 2, 14, 15}) {
+      for (const int maxChange : {0, 3, 8}) {
+        FilterParams params{.coefficient = static_cast<int>(seed % 5), .iterations = iterations};
+        params.border = seed % 4 < 2 ? FilterBorder::Paper : FilterBorder::Replicate;
+        params.maxChangePx = maxChange;
+        const FilteredImage expected = filteredPlainly(image, params);
+        const auto found = neighbourhoodFilter(image, params, context);
+        ASSERT_EQ(found->ink, expected.ink) << seed;
+        EXPECT_EQ(found->report.why, expected.report.why) << seed;
+        EXPECT_EQ(found->report.alternates, expected.report.alternates) << seed;
+        EXPECT_EQ(found->report.undone, expected.report.undone);
+        EXPECT_EQ(found->report.inkAfter, expected.report.inkAfter);
+        EXPECT_EQ(found->report.inkLost, expected.report.inkLost);
+        EXPECT_EQ(found->report.inkGained, expected.report.inkGained);
+      }
+    }
+  }
 }
 
 TEST(NeighbourhoodFilter, WarnsWhenThinStrokesVanish) {

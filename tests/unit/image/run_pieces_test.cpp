@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/run_differences.h"
 #include "tests/unit/image/random_image.h"
 
 namespace batten {
@@ -52,6 +54,23 @@ TEST(RunPieces, KeepsWhatFloodFillKeeps) {
       RunContext context;
       context.threads = 3;
       EXPECT_EQ(keepPieces(image, {.minArea = 7, .minDiagonal = 0.0, .seeds = &seeds}, context), expected);
+    }
+  }
+}
+
+TEST(RunPieces, OfADifferenceAreThoseOfItsImage) {
+  for (const int width : {1, 63, 64, 65, 200}) {
+    const BitImage a = test::randomImage(width, 530, 0.6, 7), b = test::randomImage(width, 530, 0.4, 8);
+    for (const auto connectivity : {Connectivity::Four, Connectivity::Eight}) {
+      const RunPieces expected = findPieces(without(a, b), connectivity, {});
+      const RunPieces found = findPiecesOfDifference(a, b, connectivity, {});
+      EXPECT_EQ(found.piece, expected.piece);
+      ASSERT_EQ(found.runs.size(), expected.runs.size());
+      for (std::size_t i = 0; i < found.runs.size(); ++i) {
+        EXPECT_EQ(found.runs[i].y, expected.runs[i].y);
+        EXPECT_EQ(found.runs[i].x0, expected.runs[i].x0);
+        EXPECT_EQ(found.runs[i].x1, expected.runs[i].x1);
+      }
     }
   }
 }
