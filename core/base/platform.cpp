@@ -150,7 +150,7 @@ std::error_code ReadableFile::read(std::span<std::byte> bytes, std::uint64_t fro
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return systemError();
     if (got == 0) return std::make_error_code(std::errc::io_error);
-    done += static_cast<std::size_t>(got);
+    done += got;
   }
   return {};
 }
@@ -197,7 +197,7 @@ std::error_code ReplacingFile::write(std::string_view bytes) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && errno == EDQUOT) return std::make_error_code(std::errc::no_space_on_device);
     if (count < 0) return systemError();
-    bytes.remove_prefix(static_cast<std::size_t>(count));
+    bytes.remove_prefix(count);
   }
   return {};
 }
@@ -249,7 +249,7 @@ tl::expected<std::string, std::error_code> SharedLines::read(std::uint64_t offse
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return tl::unexpected(systemError());
     if (got == 0) break;
-    done += static_cast<std::size_t>(got);
+    done += got;
   }
   text.resize(done);
   return text;
@@ -272,7 +272,7 @@ std::error_code SharedLines::add(std::string_view text) {
   std::error_code error;
   for (std::string_view left = whole; !left.empty() && !error;) {
     const ssize_t count = ::write(file_->descriptor, left.data(), left.size());
-    if (count >= 0) left.remove_prefix(static_cast<std::size_t>(count));
+    if (count >= 0) left.remove_prefix(count);
     if (count < 0 && errno != EINTR) error = systemError();
   }
   if (isOrdinary && error && ::ftruncate(file_->descriptor, static_cast<off_t>(before)) != 0) error = systemError();

@@ -29,19 +29,19 @@ std::vector<Vec2> distinct(const PenStroke& stroke) {
   return points;
 }
 
-// The part of a leg that lies on a page: from 0..1 at `from` to 0..1 at `to` (Liang and Barsky 1984).
-struct LegPart {
+// The part of a segment that lies on a page: from 0..1 at `from` to 0..1 at `to` (Liang and Barsky 1984).
+struct SegmentPart {
   double from = 0.0, to = 1.0;
 };
-std::optional<LegPart> onPage(const Vec2& a, const Vec2& b, const PageExtent& page) {
-  LegPart part;
-  const Vec2 size(page.widthPx, page.heightPx), leg = b - a;
+std::optional<SegmentPart> onPage(const Vec2& a, const Vec2& b, const PageExtent& page) {
+  SegmentPart part;
+  const Vec2 size(page.widthPx, page.heightPx), segment = b - a;
   for (const int axis : {0, 1}) {
-    if (leg[axis] == 0.0) {
+    if (segment[axis] == 0.0) {
       if (a[axis] < 0.0 || a[axis] > size[axis]) return std::nullopt;
       continue;
     }
-    const double low = -a[axis] / leg[axis], high = (size[axis] - a[axis]) / leg[axis];
+    const double low = -a[axis] / segment[axis], high = (size[axis] - a[axis]) / segment[axis];
     part.from = std::max(part.from, std::min(low, high));
     part.to = std::min(part.to, std::max(low, high));
   }
@@ -58,19 +58,19 @@ bool isOnPage(const PenStroke& stroke, const PageExtent& page) {
 // The parts of a stroke that lie on a page, each an open line.
 std::vector<std::vector<Vec2>> partsOnPage(const PenStroke& stroke, const PageExtent& page) {
   const std::vector<Vec2> drawn = distinct(stroke);
-  const int n = static_cast<int>(drawn.size()), legs = stroke.closed ? n : n - 1;
+  const int n = static_cast<int>(drawn.size()), segments = stroke.closed ? n : n - 1;
   std::vector<std::vector<Vec2>> parts;
-  bool isOpen = false;  // the last part ends where this leg begins
-  for (int i = 0; i < legs; ++i) {
+  bool isOpen = false;  // the last part ends where this segment begins
+  for (int i = 0; i < segments; ++i) {
     const Vec2 &a = drawn[i], &b = drawn[(i + 1) % n];
-    const auto leg = onPage(a, b, page);
-    if (!leg) {
+    const auto segment = onPage(a, b, page);
+    if (!segment) {
       isOpen = false;
       continue;
     }
-    if (!isOpen || leg->from > 0.0) parts.push_back({a + leg->from * (b - a)});
-    parts.back().push_back(leg->to < 1.0 ? Vec2(a + leg->to * (b - a)) : b);
-    isOpen = leg->to >= 1.0;
+    if (!isOpen || segment->from > 0.0) parts.push_back({a + segment->from * (b - a)});
+    parts.back().push_back(segment->to < 1.0 ? Vec2(a + segment->to * (b - a)) : b);
+    isOpen = segment->to >= 1.0;
   }
   // A closed stroke comes round to the part that it began with.
   if (stroke.closed && isOpen && parts.size() > 1 && parts.front().front() == drawn.front()) {
@@ -139,13 +139,13 @@ Contour penContour(const PenStroke& stroke) {
   contour.lengthPx = polylineLength(drawn, stroke.closed);
   if (stroke.closed) contour.areaPx = polygonArea(drawn);
   const double step = std::max(kStepPx, contour.lengthPx / kMostSteps);
-  const int n = static_cast<int>(drawn.size()), legs = stroke.closed ? n : n - 1;
+  const int n = static_cast<int>(drawn.size()), segments = stroke.closed ? n : n - 1;
   const auto add = [&](const Vec2& at, bool isDrawn) {
     contour.points.push_back({.at = at, .unrefined = at, .refined = isDrawn});
   };
   for (int i = 0; i < n; ++i) {
     add(drawn[i], true);
-    if (i >= legs) break;
+    if (i >= segments) break;
     const Vec2& next = drawn[(i + 1) % n];
     const int parts = static_cast<int>(std::ceil((next - drawn[i]).norm() / step));
     for (int k = 1; k < parts; ++k) {

@@ -83,8 +83,7 @@ double ArcLength::at(double u) const {
 double ArcLength::parameter(double s) const {
   if (!(s > 0.0)) return breaks_.front();
   if (s >= total_) return breaks_.back();
-  const auto i =
-      static_cast<std::size_t>(std::upper_bound(cumulative_.begin(), cumulative_.end(), s) - cumulative_.begin()) - 1;
+  const std::size_t i = std::upper_bound(cumulative_.begin(), cumulative_.end(), s) - cumulative_.begin() - 1;
   const double u0 = breaks_[i], width = breaks_[i + 1] - u0;
   const double length = cumulative_[i + 1] - cumulative_[i];
   const double f = std::clamp((s - cumulative_[i]) / length, 0.0, 1.0);

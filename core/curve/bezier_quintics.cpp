@@ -102,7 +102,9 @@ std::optional<Vec2> tangentVertex(const Vec2& p, const Vec2& direction, const Ve
   const double c = chord.norm(), sine = cross(direction, directionAtQ);
   if (!(c > 0.0) || !(std::abs(sine) > std::sin(0.25 * kRadPerDeg))) return std::nullopt;
   const double fromP = cross(chord, directionAtQ) / sine, toQ = cross(direction, chord) / sine;
-  const auto good = [&](double distance) { return distance >= 0.05 * c && distance <= 0.95 * c; };
+  constexpr double kNearest =
+      0.05;  // of the chord: tangents that meet at an end, or beyond it, make a path with a hook
+  const auto good = [&](double distance) { return distance >= kNearest * c && distance <= (1.0 - kNearest) * c; };
   if (!good(fromP) || !good(toQ)) return std::nullopt;
   return Vec2(p + fromP * direction);
 }

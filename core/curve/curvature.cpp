@@ -80,10 +80,13 @@ struct Profile {
   /// Adds what lies after `a` up to `b`: more samples where the curve turns or slows down quickly, and the extremum
   /// between.
   void connect(const Sample& a, const Sample& b, int depth) {
+    constexpr double kTurn = 0.15;  // sine of the turn between two samples: 9 degrees
+    constexpr double kSlowing = 1.5;
+    constexpr int kMostHalvings = 12;
     const double va = a.d[1].norm(), vb = b.d[1].norm();
-    const bool turns = std::abs(cross(a.d[1], b.d[1])) > 0.15 * va * vb || a.d[1].dot(b.d[1]) < 0.0;
-    const bool slows = std::max(va, vb) > 1.5 * std::min(va, vb);
-    if ((turns || slows) && depth < 12) {
+    const bool turns = std::abs(cross(a.d[1], b.d[1])) > kTurn * va * vb || a.d[1].dot(b.d[1]) < 0.0;
+    const bool slows = std::max(va, vb) > kSlowing * std::min(va, vb);
+    if ((turns || slows) && depth < kMostHalvings) {
       const Sample mid = sampleAt(0.5 * (a.u + b.u));
       connect(a, mid, depth + 1);
       connect(mid, b, depth + 1);

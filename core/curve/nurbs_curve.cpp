@@ -191,7 +191,7 @@ struct NurbsCurve::Data {
 
 namespace {
 
-std::optional<std::string> knotError(int degree, const std::vector<double>& knots, std::size_t count) {
+std::optional<std::string> knotError(int degree, const std::vector<double>& knots, std::ptrdiff_t count) {
   for (std::size_t i = 0; i < knots.size(); ++i) {
     if (!std::isfinite(knots[i])) return "A knot is not a finite number.";
     if (i > 0 && knots[i] < knots[i - 1]) return "The knots decrease.";
@@ -209,9 +209,9 @@ Result<NurbsCurve> NurbsCurve::make(int degree, std::vector<double> knots, std::
                                     std::vector<double> weights) {
   const auto bad = [](std::string why) { return fail(ErrorCode::Numerical, "Not a valid curve: " + std::move(why)); };
   if (degree < 1 || degree > kMaxDegree) return bad("The degree is not within 1 to 7.");
-  const std::size_t count = controlPoints.size();
-  if (count < static_cast<std::size_t>(degree) + 1) return bad("There are fewer control points than degree + 1.");
-  if (knots.size() != count + static_cast<std::size_t>(degree) + 1) {
+  const auto count = std::ssize(controlPoints);
+  if (count < degree + 1) return bad("There are fewer control points than degree + 1.");
+  if (std::ssize(knots) != count + degree + 1) {
     return bad("The number of knots is not the number of control points + degree + 1.");
   }
   if (auto error = knotError(degree, knots, count)) return bad(*error);
@@ -219,7 +219,7 @@ Result<NurbsCurve> NurbsCurve::make(int degree, std::vector<double> knots, std::
     if (!p.allFinite()) return bad("A control point is not finite.");
   }
   if (!weights.empty()) {
-    if (weights.size() != count) return bad("The number of weights is not the number of control points.");
+    if (std::ssize(weights) != count) return bad("The number of weights is not the number of control points.");
     for (const double w : weights) {
       if (!(w > 0.0) || !std::isfinite(w)) return bad("A weight is not a positive number.");
     }

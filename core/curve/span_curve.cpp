@@ -68,11 +68,11 @@ class PartLength {
 SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int wrap)
     : degree_(degree), count_(count), wrap_(wrap) {
   const std::size_t p = degree, size = p + 1;
-  for (std::size_t k = p; k < static_cast<std::size_t>(count); ++k) {
+  for (int k = degree; k < count; ++k) {
     const double a = knots[k], h = knots[k + 1] - a;
     if (!(h > 0.0)) continue;
     breaks_.push_back(a);
-    first_.push_back(static_cast<int>(k - p));
+    first_.push_back(k - degree);
     // Cox-de Boor on polynomials in tau = (t - a) / h; n[j][i] = coefficient of tau^i of the j-th function alive in the
     // span.
     std::vector<std::vector<double>> n(size, std::vector<double>(size, 0.0));

@@ -130,11 +130,11 @@ UniformQuintic::UniformQuintic(const UniformKnots& knots, std::vector<Vec2> coef
 
 PlaneDerivatives UniformQuintic::at(double u, int order) const {
   const double f = perUnit_;
-  std::size_t span = 0;
+  int span = 0;
   const double place = u * f;
   if (place >= 0.0 && place < knots_.spans) {  // the usual case, without a division
-    span = static_cast<std::size_t>(place);
-    u = place - static_cast<double>(span);
+    span = static_cast<int>(place);
+    u = place - span;
   } else {
     const UniformKnots::Place wrapped = knots_.placeOf(u);
     span = wrapped.span;

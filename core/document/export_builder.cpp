@@ -30,7 +30,7 @@ std::vector<std::vector<const TracedCurve*>> runs(const ContourPieces& pieces, b
   std::vector<std::vector<const TracedCurve*>> result;
   const std::size_t n = pieces.size();
   const auto gap = std::find(pieces.begin(), pieces.end(), nullptr);
-  const std::size_t start = closed && gap != pieces.end() ? static_cast<std::size_t>(gap - pieces.begin()) : 0;
+  const std::size_t start = closed && gap != pieces.end() ? gap - pieces.begin() : 0;
   bool open = false;
   for (std::size_t i = 0; i < n; ++i) {
     const TracedCurve* piece = pieces[(start + i) % n];

@@ -52,20 +52,19 @@ PointRange wholeOf(const ImportedLine& line) { return {0, line.points.size()}; }
 std::optional<PointRange> rangeOf(const ImportedLine& line, std::size_t part) {
   if (line.points.empty()) return std::nullopt;
   if (line.corners.empty()) return part == 0 ? std::optional(wholeOf(line)) : std::nullopt;
-  std::vector<std::size_t> begins;
+  std::vector<int> begins;
   if (!line.closed) begins.push_back(0);
-  for (const int corner : line.corners) {
-    if (begins.empty() || static_cast<std::size_t>(corner) > begins.back())
-      begins.push_back(static_cast<std::size_t>(corner));
-  }
+  for (const int corner : line.corners)
+    if (begins.empty() || corner > begins.back()) begins.push_back(corner);
   if (part >= begins.size()) return std::nullopt;
   const std::size_t end =
       part + 1 < begins.size() ? begins[part + 1] : line.points.size() + (line.closed ? begins.front() : 0);
-  return PointRange{begins[part], end - begins[part]};
+  const std::size_t first = begins[part];
+  return PointRange{first, end - first};
 }
 
 Vec2 pointAlong(const ImportedLine& line, const PointRange& range, double along) {
-  const auto at = range.first + static_cast<std::size_t>(along * static_cast<double>(range.count));
+  const std::size_t at = range.first + static_cast<int>(along * static_cast<double>(range.count));
   return line.points[at % line.points.size()];
 }
 

@@ -20,11 +20,9 @@ struct Picture {
   int height = 0;
   std::vector<std::uint8_t> rgb;
 
-  Picture(int w, int h, std::uint8_t grey = 255)
-      : width(w), height(h), rgb(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h), grey) {}
+  Picture(int w, int h, std::uint8_t grey = 255) : width(w), height(h), rgb(3 * std::ptrdiff_t{w} * h, grey) {}
   void set(int x, int y, Colour c) {
-    const std::size_t i =
-        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    const std::ptrdiff_t i = 3 * (std::ptrdiff_t{y} * width + x);
     rgb[i] = c[0], rgb[i + 1] = c[1], rgb[i + 2] = c[2];
   }
 };

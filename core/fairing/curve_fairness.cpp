@@ -51,14 +51,14 @@ double monotoneSimilarity(const ProfileData& data, const std::vector<double>& sp
   if (!(whole > 0.0)) return 1.0;
   if (!closed || splits.empty()) return std::sqrt(std::min(1.0, squaresOfMonotone(values) / whole));
   // Around, from one split to the next; the last sample is the first again.
-  const std::size_t count = values.size() - 1;
-  const auto sampleOf = [&](double f) { return static_cast<std::size_t>(std::lround(f * static_cast<double>(count))); };
+  const int count = static_cast<int>(values.size()) - 1;
+  const auto sampleOf = [&](double f) { return std::lround(f * count); };
   double sum = 0.0, all = 0.0;
   for (std::size_t k = 0; k < splits.size(); ++k) {
-    const std::size_t from = sampleOf(splits[k]);
-    const std::size_t to = k + 1 < splits.size() ? sampleOf(splits[k + 1]) : sampleOf(splits.front()) + count;
+    const long from = sampleOf(splits[k]);
+    const long to = k + 1 < splits.size() ? sampleOf(splits[k + 1]) : sampleOf(splits.front()) + count;
     std::vector<double> part;
-    for (std::size_t i = from; i < to; ++i) part.push_back(values[i % count]);
+    for (long i = from; i < to; ++i) part.push_back(values[i % count]);
     all += squaresOf(part);
     sum += squaresOfMonotone(std::move(part));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "core/base/interpolation.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
@@ -99,11 +100,7 @@ class EdgeLengthFairing {
   }
 
  private:
-  double ownAt(double share) const {
-    const double x = std::clamp(share, 0.0, 1.0) * (kSamples - 1);
-    const auto i = static_cast<std::size_t>(std::min(std::floor(x), kSamples - 2.0));
-    return own_[i] + (x - static_cast<double>(i)) * (own_[i + 1] - own_[i]);
-  }
+  double ownAt(double share) const { return linearBetween(own_, std::clamp(share, 0.0, 1.0) * (kSamples - 1)); }
 
   /// Rms difference from the profile over its rms, both rescaled to one length.
   double misfit(const NurbsCurve& curve) const {

@@ -40,11 +40,11 @@ class LevelFairing {
         needs_(levels.all.size()) {}
 
   Result<LevelOutcome> overAll() {
-    const std::size_t fewest = levels_.ofTolerance().splits.size();
-    std::size_t spans = 0;
+    const auto fewest = std::ssize(levels_.ofTolerance().splits);
+    std::ptrdiff_t spans = 0;
     for (std::size_t i = levels_.first; i < levels_.all.size(); ++i) {
-      const std::size_t splits = levels_.all[i].splits.size();
-      if (best_ && (std::cmp_greater(splits, kMostSplits) || extremaLeft() <= fewest)) break;
+      const auto splits = std::ssize(levels_.all[i].splits);
+      if (best_ && (splits > kMostSplits || best_->faired.report.extremaAfter <= fewest)) break;
       if (best_ && splits <= spans) continue;
       spans = splits;
       if (const auto error = tryLevel(i)) {
@@ -69,7 +69,6 @@ class LevelFairing {
 
  private:
   const TargetProfile& profileOf(std::size_t level) const { return levels_.all[level].targets.profiles[degree_ - 1]; }
-  std::size_t extremaLeft() const { return static_cast<std::size_t>(best_->faired.report.extremaAfter); }
   bool isMet(const LevelOutcome& one) const {
     const FairingReport& report = one.faired.report;
     return one.level == levels_.first && report.withinTolerance && report.extremaAfter <= report.extremaBefore;
@@ -236,11 +235,10 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         if (!asked && params.targetChoice == TargetChoice::Similarity) {
           FairedByDegree all;
           for (int tried = 1; tried <= kMostTargetDegree; ++tried) {
-            const auto at = static_cast<std::size_t>(tried) - 1;
-            if (!first.profiles[at].valid) continue;
+            if (!first.profiles[tried - 1].valid) continue;
             auto outcome = toDegree(tried, LevelSearch::All);
             if (!outcome) return fail(outcome.error());
-            all[at] = followed(std::move(*outcome), tried);
+            all[tried - 1] = followed(std::move(*outcome), tried);
           }
           if (const auto best = mostSimilar(all)) return std::move(*all[*best - 1]);
           const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });

@@ -14,7 +14,7 @@ using ConstColumn = Eigen::Map<const Eigen::ArrayXd>;
 bool ColumnCholesky::factor(const BandedMatrix& matrix, double leastPivot) {
   size_ = matrix.size();
   band_ = matrix.halfWidth();
-  lower_.resize(static_cast<std::size_t>(std::ptrdiff_t{size_} * (band_ + 1)));
+  lower_.resize(std::ptrdiff_t{size_} * (band_ + 1));
   for (int c = 0; c < size_; ++c)
     for (int k = 0; k <= below(c); ++k) column(c)[k] = matrix.entry(c, k);
   a_.resize(band_);

@@ -44,22 +44,21 @@ Linearised linearised(std::span<const ResidualBlock> blocks, const Eigen::Vector
   std::vector<double> local, r, ahead, behind;
   for (const ResidualBlock& block : blocks) {
     gather(block, x, local);
-    const auto rows = static_cast<std::size_t>(block.size);
-    r.assign(rows, 0.0);
+    r.assign(block.size, 0.0);
     block.evaluate(local, r);
     Eigen::MatrixXd jacobian(block.size, static_cast<Eigen::Index>(local.size()));
     for (std::size_t c = 0; c < local.size(); ++c) {
       const double step = kDifferenceStep * scales(block.columns[c]), here = local[c];
-      ahead.assign(rows, 0.0);
-      behind.assign(rows, 0.0);
+      ahead.assign(block.size, 0.0);
+      behind.assign(block.size, 0.0);
       local[c] = here + step;
       block.evaluate(local, ahead);
       local[c] = here - step;
       block.evaluate(local, behind);
       local[c] = here;
-      for (std::size_t i = 0; i < rows; ++i) {
+      for (int i = 0; i < block.size; ++i) {
         const double slope = (ahead[i] - behind[i]) / (2.0 * step);
-        jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = std::isfinite(slope) ? slope : 0.0;
+        jacobian(i, static_cast<Eigen::Index>(c)) = std::isfinite(slope) ? slope : 0.0;
       }
     }
     const Eigen::MatrixXd product = jacobian.transpose() * jacobian;

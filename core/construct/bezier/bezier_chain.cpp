@@ -25,7 +25,7 @@ constexpr double kChangeWeight = 3.0;
 /// Places within a piece, as shares of its length, at which the curvature is compared; the start stands for the joint.
 constexpr std::array<double, 5> kPlaces = {0.0, 0.2, 0.4, 0.6, 0.8};
 
-Vec2 turned(const Vec2& v, double angle) {
+Vec2 rotated(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
@@ -54,7 +54,7 @@ class Chain {
   Joint moved(std::size_t i, const double* x) const {
     Joint joint = joints_[i];
     joint.point += x[0] * pixelMm_ * leftNormal(joint.tangent);
-    joint.tangent = turned(joint.tangent, x[1] * angleUnit(i));
+    joint.tangent = rotated(joint.tangent, x[1] * angleUnit(i));
     joint.kappa += x[2] * kappaUnit(i);
     return joint;
   }

@@ -62,8 +62,8 @@ std::vector<Fixed> fixedControls(const std::vector<Vec2>& p, const std::vector<d
     fixed.push_back({0, p.front()});
   }
   if (after) {
-    const CurveEnd turned{(*after)[0], -(*after)[1], (*after)[2]};
-    const auto c = controlsOf(turned, length - knots[n - 7], length - knots[n - 8]);
+    const CurveEnd reversed{(*after)[0], -(*after)[1], (*after)[2]};
+    const auto c = controlsOf(reversed, length - knots[n - 7], length - knots[n - 8]);
     for (int i = 0; i < 3; ++i) fixed.push_back({count - 1 - i, c[i]});
   } else {
     fixed.push_back({count - 1, p.back()});

@@ -24,7 +24,7 @@ std::size_t stretchAt(const FairStructure& structure, bool closed, double u) {
   const auto& extrema = structure.extrema;
   const auto next = std::lower_bound(extrema.begin(), extrema.end(), u,
                                      [](const FairExtremum& e, double place) { return e.u < place; });
-  const auto i = static_cast<std::size_t>(next - extrema.begin());
+  const std::size_t i = next - extrema.begin();
   return closed && i == extrema.size() ? 0 : i;
 }
 

@@ -103,13 +103,13 @@ void fillBetween(CutoffTable& table) {
     double rss = 0.0, dof = 0.0;
     bool valid = true;
     for (int i = 0; i < 4; ++i) {
-      const auto node = static_cast<std::size_t>(first + i * kMeasuredStep);
+      const int node = first + i * kMeasuredStep;
       valid = valid && table.valid[node] && table.rss[node] > 0.0;
       if (!valid) break;
       double weight = 1.0;
       for (int j = 0; j < 4; ++j) {
         const double place = first + j * kMeasuredStep;
-        if (j != i) weight *= (k - place) / (static_cast<double>(node) - place);
+        if (j != i) weight *= (k - place) / (node - place);
       }
       rss += weight * std::log(table.rss[node]);
       dof += weight * std::log(table.dof[node]);

@@ -98,7 +98,7 @@ void addConstraint(BandedProgram& qp, const FrameStation& station, const FairStr
     const auto next = std::lower_bound(extrema.begin(), extrema.end(), station.u, notBefore);
     const FairExtremum& last = extrema.back();
     const FairExtremum& first = extrema.front();
-    stretch = next == extrema.end() && knots.closed ? 0 : static_cast<std::size_t>(next - extrema.begin());
+    stretch = next == extrema.end() && knots.closed ? 0 : next - extrema.begin();
     const auto consider = [&](const FairExtremum& e, double u) {
       const double distance = std::abs(u - e.u) - e.halfWidth;
       if (distance < away) away = distance, gentle = e.halfWidth;

@@ -128,8 +128,7 @@ class ExtremumRemoval {
   /// Place of an extremum in the structure; the number of extrema when it is not there.
   std::size_t find(int id) const {
     const auto& e = result_.structure.extrema;
-    return static_cast<std::size_t>(
-        std::find_if(e.begin(), e.end(), [id](const FairExtremum& x) { return x.id == id; }) - e.begin());
+    return std::find_if(e.begin(), e.end(), [id](const FairExtremum& x) { return x.id == id; }) - e.begin();
   }
 
   bool touches(const StructureCandidate& c, int id) const {

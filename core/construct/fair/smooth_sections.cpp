@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, it has a loop of its own
 constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorter stretches have no fairness to keep
+constexpr double kSeamShare = 1e-3;        // of a closed curve: what is nearer to its seam begins or ends there
 /// Of a piece that is taken apart at them: nobody draws a line that turns sharply so often from corner to corner.
 constexpr std::size_t kMostSharpFeatures = 1000;
 
@@ -34,7 +35,7 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
     if (!rest || b > end - least) return rest;
     return split(*rest, b).map([](SplitCurve s) { return s.left; });
   };
-  const double seam = 1e-3 * (end - start);
+  const double seam = kSeamShare * (end - start);
   if (closed && from > end - seam) from = start;
   if (closed && to < start + seam) to = end;
   ConstructedPiece part{c, fit.report};

@@ -11,10 +11,7 @@ PlaceTable::Place bernsteinPlace(int degree, double at) {
     // The derivative of order m is degree!/(degree - m)! times the m-th difference of the polynomials m degrees lower.
     std::array<double, kSpanPoints> row = bernsteinPolynomials(degree - order, at);
     for (int times = 0; times < order; ++times) {
-      for (int k = degree; k >= 0; --k) {
-        const auto i = static_cast<std::size_t>(k);
-        row[i] = (k > 0 ? row[i - 1] : 0.0) - row[i];
-      }
+      for (int k = degree; k >= 0; --k) row[k] = (k > 0 ? row[k - 1] : 0.0) - row[k];
     }
     for (double& value : row) value *= factor;
     place.rows[order] = row;

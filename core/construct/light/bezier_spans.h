@@ -37,7 +37,7 @@ template <class Value>
 void bezierOfSpan(int degree, const SpanKnots& knots, const std::array<Value, kSpanPoints>& points,
                   std::array<Value, kSpanPoints>& bezier) {
   constexpr std::size_t kMostShares = kMostLightDegree * (kMostLightDegree + 1) / 2;
-  const auto p = static_cast<std::size_t>(degree);
+  const std::size_t p = degree;
   std::array<double, kMostShares> atStart, atEnd;  // level by level
   std::size_t at = 0;
   for (std::size_t level = 1; level <= p; ++level) {

@@ -79,8 +79,8 @@ class CornerSearch {
   double directionAt(int i) const {
     const int n = line_.size();
     if (!line_.closed) return direction_[wrapped(i)];
-    const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
-    return direction_[i - turns * n] + turns * round_;
+    const int laps = static_cast<int>(std::floor(static_cast<double>(i) / n));
+    return direction_[i - laps * n] + laps * round_;
   }
   double turnAt(int i) const { return directionAt(i + places(kHalfTurn)) - directionAt(i - places(kHalfTurn)); }
   int apart(int a, int b) const {
@@ -203,7 +203,7 @@ int cutNecks(EvenLine& line, double scale, const RunContext& context) {
   std::vector<bool> cut(line.points.size(), false);
   int count = 0;
   for (const Neck& neck : necks) {
-    const auto place = [&](int k) { return static_cast<std::size_t>((neck.first + k) % n); };
+    const auto place = [&](int k) { return (neck.first + k) % n; };
     bool isFree = true;
     for (int k = 0; k <= neck.length && isFree; ++k) isFree = !cut[place(k)];
     if (!isFree) continue;

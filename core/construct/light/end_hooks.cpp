@@ -66,7 +66,7 @@ bool isHook(const Range& light, const Range& dense, double diagonal) {
 
 }  // namespace
 
-CurvatureBand calmBand(const LightReference& dense, bool atEnd, double share) {
+CurvatureRange calmRange(const LightReference& dense, bool atEnd, double share) {
   const EndRanges ranges = rangesOf(dense);
   const Range& range = atEnd ? ranges.end : ranges.start;
   const double more = share * ((kSharper - 1.0) * range.width() + kSeenChange / dense.diagonal());

@@ -16,7 +16,7 @@ struct EndHooks {
 
 /// Curvatures that an end may have without a hook, if the curvature beside it is that of the dense curve; or so much of
 /// a share of them.
-CurvatureBand calmBand(const LightReference& dense, bool atEnd, double share);
+CurvatureRange calmRange(const LightReference& dense, bool atEnd, double share);
 
 /// Both curvatures are looked at along the first and the last tenth of the length. @pre the reference is open and the
 /// curve lies along it.

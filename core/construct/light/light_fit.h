@@ -13,10 +13,10 @@ namespace batten {
 enum class LightHold { Position, Tangent, Curvature };
 
 /// Curvatures that an end may have.
-struct CurvatureBand {
+struct CurvatureRange {
   double low = 0.0, high = 0.0;
 
-  /// By how much a curvature lies above the band, or below it (negative).
+  /// By how much a curvature lies above the range, or below it (negative).
   double beyond(double kappa) const { return kappa > high ? kappa - high : kappa < low ? kappa - low : 0.0; }
 };
 
@@ -31,7 +31,8 @@ struct LightAsk {
   int firstKappaSign = 0;
   int inflections = 0;
   LightHold start = LightHold::Position, end = LightHold::Position;
-  std::optional<CurvatureBand> startBand = {}, endBand = {};  ///< Absent: any curvature. Ends without a held one only.
+  std::optional<CurvatureRange> startRange = {},
+                                endRange = {};  ///< Absent: any curvature. Ends without a held one only.
   /// The first phase, without walls and signs, comes first: needed by most, worse for some single spans.
   bool firstPhase = true;
   double reach = 1.0;         ///< Part of the tolerance to be reached at the places of the fit.

@@ -49,8 +49,8 @@ std::string reasonOf(LightObstacle obstacle) {
 /// Whether a knot inside repeats so often, or more.
 bool hasKnotsOf(const NurbsCurve& curve, int multiplicity) {
   const auto knots = curve.knots();
-  const auto more = static_cast<std::size_t>(std::max(2, multiplicity)) - 1;
-  for (std::size_t i = 0; i + more < knots.size(); ++i)
+  const int more = std::max(2, multiplicity) - 1;
+  for (int i = 0; i + more < std::ssize(knots); ++i)
     if (knots[i] == knots[i + more] && knots[i] > curve.start() && knots[i] < curve.end()) return true;
   return false;
 }
@@ -206,7 +206,7 @@ LightNote lightNote(const LightCurve& light, const NurbsCurve& dense, double pix
 Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const ConstructContour& contour,
                              const ConstructParams& params, const RunContext& context) {
   parallelFor(context, static_cast<int>(made.size()), 1, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    for (int i = begin; i < end; ++i) {
       if (context.isCancelled() || made[i].curve.isEmpty()) continue;
       const double detail = contour.pieces[i].detail.value_or(params.detail);
       lighten(made[i], contour.pieces[i].closed, detail, params, contour, context);

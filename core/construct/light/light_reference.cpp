@@ -78,7 +78,7 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
   if (!(total > 0.0) || !std::isfinite(total)) return std::nullopt;
   const double asked = std::clamp(step, total / kMostSamples, total / kFewestSamples);
   std::vector<LightSample>& samples = made.samples_;
-  samples.reserve(static_cast<std::size_t>(total / asked) + kFewestSteps * breaks.size() + 1);
+  samples.reserve(static_cast<int>(total / asked) + kFewestSteps * breaks.size() + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     if (check.isCancelled()) return std::nullopt;
     const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(lengths[i] / asked)));

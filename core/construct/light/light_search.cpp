@@ -203,8 +203,8 @@ class LightSearch {
     ask.firstPhase = firstPhase;
     double calmShare = kCalmShare;
     for (int round = 0; round < kCheckRounds && !context_.isCancelled(); ++round) {
-      if (task_.calm.atStart) ask.startBand = calmBand(reference_, false, calmShare);
-      if (task_.calm.atEnd) ask.endBand = calmBand(reference_, true, calmShare);
+      if (task_.calm.atStart) ask.startRange = calmRange(reference_, false, calmShare);
+      if (task_.calm.atEnd) ask.endRange = calmRange(reference_, true, calmShare);
       const LightFit fitted = fitLight(reference_, std::move(*start), ask, context_);
       iterations_ += fitted.iterations;
       ++tries_;

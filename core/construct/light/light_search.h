@@ -22,7 +22,7 @@ struct LightTask {
   bool keepStructure = true;           ///< False: whatever extrema and inflections the fewest control points give.
   std::optional<int> mostPoints = {};  ///< Tried; absent: one fewer than those of the dense curve.
   int fewestPoints = 0;                ///< Tried, where no fewer are known to be enough.
-  EndHooks calm = {};                  ///< Ends that are to have none (calmBand).
+  EndHooks calm = {};                  ///< Ends that are to have none (calmRange).
 };
 
 /// One light curve for all of a reference: exact shapes, then single spans and quintics of rising number of control

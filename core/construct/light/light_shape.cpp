@@ -17,6 +17,7 @@ constexpr double kMostStartLog = 2.0;     // of a start: the fit itself allows a
 constexpr double kEvenShare = 0.15;       // of the mean density of breaks, put in everywhere
 constexpr double kBreakWindow = 0.01;     // of the length, for the second derivative of the curvature
 constexpr int kStartSamplesPerSpan = 24;  // of the reference, at the most
+constexpr double kFifthRoot = 0.2;
 
 /// Density of breaks at the samples of the reference: fifth root of the second derivative of the curvature, smoothed.
 std::vector<double> breakDensity(const LightReference& reference) {
@@ -37,7 +38,7 @@ std::vector<double> breakDensity(const LightReference& reference) {
       length = reference.at(after).s - reference.at(before).s;
     }
     const double second = (reference.at(after).slope - reference.at(before).slope) / length;
-    density[i] = std::pow(std::abs(second), 0.2);
+    density[i] = std::pow(std::abs(second), kFifthRoot);
     mean += density[i] / n;
   }
   for (double& d : density) d += kEvenShare * mean + (mean > 0.0 ? 0.0 : 1.0);
@@ -188,15 +189,9 @@ SpanKnots LightShape::knotsOf(int span, const std::vector<double>& lengths) cons
     if (closed) return lengths[(i % n + n) % n];
     return i < 0 || i >= n ? 0.0 : lengths[i];
   };
-  const auto start = static_cast<std::size_t>(degree - 1);
-  for (int k = 1; k < degree; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    knots[start - i] = knots[start - i + 1] - lengthOf(span - k);
-  }
-  for (int k = 0; k < degree; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    knots[start + i + 1] = knots[start + i] + lengthOf(span + k);
-  }
+  const int start = degree - 1;
+  for (int k = 1; k < degree; ++k) knots[start - k] = knots[start - k + 1] - lengthOf(span - k);
+  for (int k = 0; k < degree; ++k) knots[start + k + 1] = knots[start + k] + lengthOf(span + k);
   return knots;
 }
 
@@ -219,10 +214,10 @@ std::optional<NurbsCurve> LightShape::toNurbs(double length) const {
   std::vector<Vec2> all = points;
   if (closed) {
     for (int i = -degree; i <= n + degree; ++i) {
-      const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
-      knots.push_back(breaks[i - turns * n] + turns * length);
+      const int laps = static_cast<int>(std::floor(static_cast<double>(i) / n));
+      knots.push_back(breaks[i - laps * n] + laps * length);
     }
-    for (int j = 0; j < degree; ++j) all.push_back(points[static_cast<std::size_t>(j) % points.size()]);
+    for (int j = 0; j < degree; ++j) all.push_back(points[j % points.size()]);
   } else {
     knots.assign(degree, 0.0);
     knots.insert(knots.end(), breaks.begin(), breaks.end());
@@ -239,14 +234,13 @@ std::optional<LightShape> startShape(const LightReference& reference, int degree
   shape.closed = reference.isClosed();
   shape.logLengths =
       breaks == BreakStart::ByShape && spans > 1 ? logLengthsByShape(reference, spans) : std::vector<double>(spans);
-  const auto count = static_cast<std::size_t>(shape.closed ? spans : spans + degree);
-  shape.points.assign(count, Vec2::Zero());
+  const int n = shape.closed ? spans : spans + degree;
+  shape.points.assign(n, Vec2::Zero());
   const Normal normal = normalOf(shape, reference);
-  const int n = static_cast<int>(count);
   if (shape.closed) {
     const auto points = solved(normal, 0, n, normal.right);
     if (!points) return std::nullopt;
-    for (std::size_t i = 0; i < count; ++i) shape.points[i] = points->row(static_cast<Eigen::Index>(i)).transpose();
+    for (int i = 0; i < n; ++i) shape.points[i] = points->row(i).transpose();
     return shape;
   }
   shape.points.front() = reference.samples().front().point;
@@ -256,8 +250,7 @@ std::optional<LightShape> startShape(const LightReference& reference, int degree
                                 heldPart(normal, true, shape.points.back());
   const auto points = solved(normal, 1, n - 2, right);
   if (!points) return std::nullopt;
-  for (std::size_t i = 1; i + 1 < count; ++i)
-    shape.points[i] = points->row(static_cast<Eigen::Index>(i) - 1).transpose();
+  for (int i = 1; i + 1 < n; ++i) shape.points[i] = points->row(i - 1).transpose();
   return shape;
 }
 

@@ -21,7 +21,7 @@ struct LightShape {
   int spans() const { return static_cast<int>(logLengths.size()); }
   /// Index of the j-th of the degree + 1 control points of a span.
   std::size_t pointOf(int span, int j) const {
-    const auto i = static_cast<std::size_t>(span + j);
+    const std::size_t i = span + j;
     return closed ? i % points.size() : i;
   }
   /// Knots of a span, the span's start at 0. Lengths as exp(logLengths), or the ones given.

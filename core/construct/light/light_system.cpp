@@ -40,8 +40,8 @@ LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, c
   for (int span = 0; span < spans; ++span) {
     const double share = lengths[span] / total;
     for (int k = 0; k < perSpan_; ++k) {
-      const auto i = static_cast<std::size_t>(span * perSpan_ + k);
-      places_[i].hint = reference.indexAt((from + share * table_.places[k].at) * reference.length());
+      Place& place = places_[span * perSpan_ + k];
+      place.hint = reference.indexAt((from + share * table_.places[k].at) * reference.length());
     }
     from += share;
   }
@@ -53,9 +53,9 @@ void LightSystem::placesOf(const LightShape& shape, int span) {
   bezierOfSpan(shape.degree, shape.knotsOf(span, lengths_), points, bezier);
   const double length = lengths_[span];
   double speeds = 0.0;
-  const auto first = static_cast<std::size_t>(span * perSpan_);
+  const int first = span * perSpan_;
   for (int k = 0; k < perSpan_; ++k) {
-    Place& place = places_[first + static_cast<std::size_t>(k)];
+    Place& place = places_[first + k];
     const PlaceTable::Place& table = table_.places[k];
     PlaceSums sums;
     sumPoints(table.columns, bezier, shape.degree + 1, sums);
@@ -68,7 +68,7 @@ void LightSystem::placesOf(const LightShape& shape, int span) {
     speeds += place.state.speed;
   }
   const double scale = speeds / perSpan_ * length / (2.0 * std::numbers::pi);
-  for (int k = 0; k < perSpan_; ++k) places_[first + static_cast<std::size_t>(k)].scale = scale;
+  for (int k = 0; k < perSpan_; ++k) places_[first + k].scale = scale;
 }
 
 void LightSystem::findFeet() {
@@ -174,7 +174,7 @@ double LightSystem::endRows(const LightShape& shape, const LightWeights& weights
     };
     if (hold != LightHold::Position) row(state.d[1].dot(leftNormal(wanted.tangent)) / state.speed * l / ask_.tolerance);
     if (hold == LightHold::Curvature) row((state.kappa - wanted.kappa) * l * l / ask_.tolerance);
-    if (const auto& band = bandAt(atEnd)) row(band->beyond(state.kappa) * l * l / ask_.tolerance);
+    if (const auto& range = rangeAt(atEnd)) row(range->beyond(state.kappa) * l * l / ask_.tolerance);
   }
   return sum;
 }
@@ -204,7 +204,7 @@ LightSystem::Cost LightSystem::evaluate(const LightShape& shape, const LightWeig
 
 void LightSystem::addPlace(const Place& place, const LightWeights& weights) {
   const double tau = ask_.tolerance, l = place.scale;
-  const PlaceTable::Place& table = table_.places[static_cast<std::size_t>((&place - places_.data()) % perSpan_)];
+  const PlaceTable::Place& table = table_.places[(&place - places_.data()) % perSpan_];
   const double e = place.foot.offset / tau, beyond = std::max(0.0, std::abs(e) - kWallAt * ask_.reach);
   const double wall = beyond > 0.0 ? weights.wall * weights.wall : 0.0, offset = weights.offset * weights.offset;
   const DerivativeGradients across{reference_.normalAt(place.foot) / tau, Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
@@ -249,7 +249,7 @@ void LightSystem::addEnds(const LightShape& shape, const LightWeights& weights, 
     if (holdAt(atEnd) == LightHold::Curvature) {
       row(state.kappa - wanted.kappa, l * l / ask_.tolerance, kappaGradient(state));
     }
-    const double beyond = bandAt(atEnd) ? bandAt(atEnd)->beyond(state.kappa) : 0.0;
+    const double beyond = rangeAt(atEnd) ? rangeAt(atEnd)->beyond(state.kappa) : 0.0;
     if (beyond != 0.0) row(beyond, l * l / ask_.tolerance, kappaGradient(state));
   }
 }
@@ -302,19 +302,18 @@ void LightSystem::differentiateByLengths(const LightShape& shape, int span) {
 }
 
 void LightSystem::scatter(const LightShape& shape, int span, LightMatrix& matrix, Eigen::VectorXd& gradient) const {
-  std::array<Eigen::Index, static_cast<std::size_t>(SpanSystem::kMost)> target{};
+  std::array<Eigen::Index, SpanSystem::kMost> target{};
   for (int j = 0; j <= shape.degree; ++j) {
     const std::size_t point = shape.pointOf(span, j);
     const bool pinned = !shape.closed && (point == 0 || point + 1 == shape.points.size());
-    const auto at = static_cast<std::size_t>(2 * j);
-    target[at] = pinned ? -1 : 2 * static_cast<Eigen::Index>(point);
-    target[at + 1] = pinned ? -1 : target[at] + 1;
+    target[2 * j] = pinned ? -1 : 2 * static_cast<Eigen::Index>(point);
+    target[2 * j + 1] = pinned ? -1 : target[2 * j] + 1;
   }
   for (int i = 0; i < local_.lengthCount; ++i) {
     target[2 * (shape.degree + 1) + i] = firstLength_ + local_.lengthIndex[i];
   }
   const int used = local_.used();
-  std::array<std::size_t, static_cast<std::size_t>(SpanSystem::kMost)> lane{};
+  std::array<int, SpanSystem::kMost> lane{};
   for (int i = 0; i < used; ++i) lane[i] = local_.lane(i);
   const auto& squares = local_.squares();
   for (int c = 0; c < used; ++c) {

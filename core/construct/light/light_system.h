@@ -66,8 +66,8 @@ class LightSystem {
   void addEnds(const LightShape&, const LightWeights&, int span);
   PlaceState endState(const LightShape&, bool atEnd) const;
   LightHold holdAt(bool atEnd) const { return atEnd ? ask_.end : ask_.start; }
-  const std::optional<CurvatureBand>& bandAt(bool atEnd) const { return atEnd ? ask_.endBand : ask_.startBand; }
-  bool isFree(bool atEnd) const { return holdAt(atEnd) == LightHold::Position && !bandAt(atEnd); }
+  const std::optional<CurvatureRange>& rangeAt(bool atEnd) const { return atEnd ? ask_.endRange : ask_.startRange; }
+  bool isFree(bool atEnd) const { return holdAt(atEnd) == LightHold::Position && !rangeAt(atEnd); }
 
   const LightReference& reference_;
   const LightAsk ask_;

@@ -35,7 +35,7 @@ BATTEN_HOT_LOOP void addPoints(const double* columns, const double* bezier, int 
 BATTEN_HOT_LOOP void sumResiduals(const WeighedRow* __restrict rows, int count, double* __restrict gradient) {
   double sums[kRowWidth] = {};
   for (int i = 0; i < count; ++i) {
-    for (int r = 0; r < kRowWidth; ++r) sums[r] += rows[i].residual * rows[i].row[static_cast<std::size_t>(r)];
+    for (int r = 0; r < kRowWidth; ++r) sums[r] += rows[i].residual * rows[i].row[r];
   }
   for (int r = 0; r < kRowWidth; ++r) gradient[r] = sums[r];
 }
@@ -49,9 +49,7 @@ BATTEN_HOT_LOOP void carryRows(const double* __restrict local, const SpanDepende
     double x[kXLanes] = {}, y[kXLanes] = {}, lengths[kLengthLanes] = {};
     lengths[ownLength] = from[2 * points];
     for (int k = 0; k < points; ++k) {
-      const double *part = by.byPoint[static_cast<std::size_t>(k)].data(),
-                   *moveX = by.xByLength[static_cast<std::size_t>(k)].data(),
-                   *moveY = by.yByLength[static_cast<std::size_t>(k)].data();
+      const double *part = by.byPoint[k].data(), *moveX = by.xByLength[k].data(), *moveY = by.yByLength[k].data();
       const double fromX = from[2 * k], fromY = from[2 * k + 1];
       for (int j = 0; j < kXLanes; ++j) x[j] += part[j] * fromX;
       for (int j = 0; j < kXLanes; ++j) y[j] += part[j] * fromY;
@@ -71,7 +69,7 @@ BATTEN_HOT_LOOP void carryPoints(const double* __restrict half, const SpanDepend
   for (int j = 0; j < points; ++j) {
     double x[kPointLanes] = {}, y[kPointLanes] = {};
     for (int k = 0; k < points; ++k) {
-      const double part = by.byPoint[static_cast<std::size_t>(k)][static_cast<std::size_t>(j)];
+      const double part = by.byPoint[k][j];
       const double *fromX = half + 2 * k * kUnknownLanes, *fromY = fromX + kUnknownLanes;
       for (int c = 0; c < kPointLanes; ++c) x[c] += part * fromX[c];
       for (int c = 0; c < kPointLanes; ++c) y[c] += part * fromY[c];
@@ -90,8 +88,7 @@ BATTEN_HOT_LOOP void carryLengths(const double* __restrict half, const SpanDepen
       for (int c = 0; c < kUnknownLanes; ++c) sums[c] = half[2 * points * kUnknownLanes + c];
     }
     for (int k = 0; k < points; ++k) {
-      const double moveX = by.xByLength[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)],
-                   moveY = by.yByLength[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+      const double moveX = by.xByLength[k][i], moveY = by.yByLength[k][i];
       const double *fromX = half + 2 * k * kUnknownLanes, *fromY = fromX + kUnknownLanes;
       for (int c = 0; c < kUnknownLanes; ++c) sums[c] += moveX * fromX[c] + moveY * fromY[c];
     }
@@ -161,11 +158,10 @@ void carrySquares(const LocalSquares& local, const SpanDependence& by, int point
 void bezierOfLanes(int degree, const KnotLanes& knots, const std::array<Vec2, kSpanPoints>& points, PointLanes& x,
                    PointLanes& y) {
   std::array<double, kMostShares * kLengthLanes> atStart, atEnd;
-  const auto last = static_cast<std::size_t>(degree);
-  sharesOfLanes(degree, knots.front().data(), knots[last - 1].data(), atStart.data());
-  sharesOfLanes(degree, knots.front().data(), knots[last].data(), atEnd.data());
+  sharesOfLanes(degree, knots.front().data(), knots[degree - 1].data(), atStart.data());
+  sharesOfLanes(degree, knots.front().data(), knots[degree].data(), atEnd.data());
   PointLanes rowX, rowY;
-  for (std::size_t j = 0; j <= last; ++j) {
+  for (int j = 0; j <= degree; ++j) {
     rowX[j].fill(points[j].x());
     rowY[j].fill(points[j].y());
   }

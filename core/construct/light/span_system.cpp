@@ -23,14 +23,14 @@ void SpanSystem::add(const PlaceTable::Place& place, const PlaceState& state, co
     }
     scale /= length;
   }
-  if (lengthCount > 0) one.row[2 * static_cast<std::size_t>(degree) + 2] = byOwn;
+  if (lengthCount > 0) one.row[2 * degree + 2] = byOwn;
 }
 
 void SpanSystem::carryGradient() {
-  const std::size_t points = static_cast<std::size_t>(degree) + 1;
-  for (std::size_t j = 0; j < points; ++j) {
+  const int points = degree + 1;
+  for (int j = 0; j < points; ++j) {
     double x = 0.0, y = 0.0;
-    for (std::size_t k = 0; k < points; ++k) {
+    for (int k = 0; k < points; ++k) {
       const double part = dependence.byPoint[k][j];
       x += part * local_.gradient[2 * k];
       y += part * local_.gradient[2 * k + 1];
@@ -40,7 +40,7 @@ void SpanSystem::carryGradient() {
   }
   for (int i = 0; i < lengthCount; ++i) {
     double sum = i == ownLength ? local_.gradient[2 * points] : 0.0;
-    for (std::size_t k = 0; k < points; ++k) {
+    for (int k = 0; k < points; ++k) {
       sum +=
           dependence.xByLength[k][i] * local_.gradient[2 * k] + dependence.yByLength[k][i] * local_.gradient[2 * k + 1];
     }

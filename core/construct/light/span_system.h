@@ -40,10 +40,10 @@ class SpanSystem {
   /// Unknowns: x and y of every control point in turn, then lengths.
   int used() const { return 2 * (degree + 1) + lengthCount; }
   /// Where an unknown stands in the rows and columns of `squares` and in `gradient`.
-  std::size_t lane(int unknown) const {
+  int lane(int unknown) const {
     const int points = degree + 1;
-    if (unknown >= 2 * points) return static_cast<std::size_t>(2 * kXLanes + unknown - 2 * points);
-    return static_cast<std::size_t>(unknown / 2 + (unknown % 2) * kXLanes);
+    if (unknown >= 2 * points) return 2 * kXLanes + unknown - 2 * points;
+    return unknown / 2 + (unknown % 2) * kXLanes;
   }
   /// Only what belongs to a row that does not come before its column.
   const std::array<UnknownRow, kUnknownLanes>& squares() const { return squares_; }

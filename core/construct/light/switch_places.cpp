@@ -8,7 +8,7 @@ namespace batten {
 const std::vector<signed char>& SwitchPlaces::choose(const std::vector<double>& costIfRising,
                                                      const std::vector<double>& costIfFalling, int first, int changes,
                                                      Changes kind, bool closed) {
-  const std::size_t n = costIfRising.size(), runs = static_cast<std::size_t>(changes) + 1;
+  const std::size_t n = costIfRising.size(), runs = changes + 1;
   signs_.assign(n, static_cast<signed char>(first));
   if (changes == 0) return signs_;
   const double infinite = std::numeric_limits<double>::infinity();

@@ -152,7 +152,7 @@ class Refiner {
     std::vector<char> halved(away_.size(), 0);
     for (std::size_t i = 0; i < halved.size(); ++i) halved[i] = away_[i] > limitPx_ && mayHalve(i);
     grade(halved);
-    const auto more = static_cast<std::size_t>(std::count(halved.begin(), halved.end(), 1));
+    const std::size_t more = std::count(halved.begin(), halved.end(), 1);
     if (more == 0 || s_.size() + more > kMostStations) return false;
     insert(halved);
     return true;

@@ -41,10 +41,8 @@ std::vector<Station> measuredAround(std::span<const Vec2> points, int count) {
   }
   const auto at = [&](double s) {
     s = std::fmod(s + length.back(), length.back());
-    const auto i =
-        std::min(static_cast<std::size_t>(std::upper_bound(length.begin(), length.end(), s) - length.begin()),
-                 points.size()) -
-        1;
+    const auto past = std::upper_bound(length.begin(), length.end(), s) - length.begin();
+    const std::ptrdiff_t i = std::min(past, std::ssize(points)) - 1;
     const double step = length[i + 1] - length[i];
     const double f = step > 0.0 ? (s - length[i]) / step : 0.0;
     return Vec2((1.0 - f) * points[i] + f * points[(i + 1) % points.size()]);

@@ -135,17 +135,17 @@ void divideAtMaxima(TypicalPath& path) {
   }
 }
 
-/// Turns and scales the whole path so that it ends where it has to: less than noise.
+/// Rotates and scales the whole path so that it ends where it has to: less than noise.
 void settleEnd(TypicalPath& path, const Vec2& end) {
   const Vec2 start = path.states.front().point;
   const std::complex<double> was = complexOf(path.states.back().point - start), wanted = complexOf(end - start);
   if (!(std::abs(was) > 0.0) || !(std::abs(wanted) > 0.0)) return;
-  const std::complex<double> turn = wanted / was;
+  const std::complex<double> change = wanted / was;
   for (PathState& s : path.states) {
-    const std::complex<double> p = complexOf(s.point - start) * turn;
+    const std::complex<double> p = complexOf(s.point - start) * change;
     s.point = start + Vec2(p.real(), p.imag());
-    s.angleRad += std::arg(turn);
-    s.kappa /= std::abs(turn);
+    s.angleRad += std::arg(change);
+    s.kappa /= std::abs(change);
   }
 }
 

@@ -30,7 +30,7 @@ PathFoot refined(const std::vector<PathGeometry>& geometry, const Vec2& p, PathF
     const double next = foot.t + std::clamp(footStep(away, d[1], d[2]), -kLongestStep, kLongestStep);
     const bool forward = next > 1.0 && foot.element + 1 < geometry.size(), back = next < 0.0 && foot.element > 0;
     if ((forward || back) && i < kLastChange) {
-      foot.element += forward ? 1 : static_cast<std::size_t>(-1);
+      forward ? ++foot.element : --foot.element;
       foot.t = forward ? 0.0 : 1.0;
       continue;
     }

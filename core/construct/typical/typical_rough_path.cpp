@@ -74,10 +74,10 @@ class RoughPath {
       turned.push_back(turned.back() + std::abs(angleBetween(joints_[i].tangent, joints_[i + 1].tangent)));
     }
     std::vector<std::size_t> nodes;
-    const auto pieces = static_cast<std::size_t>(std::ceil(std::max(1.0, turned.back() / kFirstTurn)));
+    const int pieces = static_cast<int>(std::ceil(std::max(1.0, turned.back() / kFirstTurn)));
     if (places_.empty()) {
-      for (std::size_t k = 1; k < pieces; ++k) {
-        const double wanted = turned.back() * static_cast<double>(k) / static_cast<double>(pieces);
+      for (int k = 1; k < pieces; ++k) {
+        const double wanted = turned.back() * k / pieces;
         nodes.push_back(run.first + (std::lower_bound(turned.begin(), turned.end(), wanted) - turned.begin()));
       }
     }

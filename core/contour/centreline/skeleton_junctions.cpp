@@ -15,7 +15,7 @@ namespace {
 constexpr double kSharedWidth = 1.1;      // of a single stroke
 constexpr double kTwoStrokesWidth = 1.4;  // of a single stroke: between 1 where two cross and 2 where they part
 constexpr double kTouchingShare = 1.5;    // how much longer than lines that cross do those that touch lie together
-constexpr double kCrossingLegs = 1.5;     // of what they share: shorter edges are those of a bundle
+constexpr double kCrossingEdges = 1.5;    // of what they share: shorter edges are those of a bundle
 constexpr double kLeavingWidths = 4.0;    // [stroke widths] over which the direction of an edge is taken
 constexpr double kOnwardCos = 0.7;        // 45 degrees: what turns more at a link does not go on through it
 constexpr double kOneJunction = 1.5;      // of the radii of two junctions: nearer ones are one crossing
@@ -52,7 +52,7 @@ double JunctionMerger::sharedLength(int link) const {
     for (const int end : n.ends) {
       if (end / 2 == link) continue;
       others += 0.25 * graph_.meanRadius(end / 2);
-      isFree = isFree && graph_.edge(end / 2).length >= kCrossingLegs * l.length;
+      isFree = isFree && graph_.edge(end / 2).length >= kCrossingEdges * l.length;
     }
   }
   // Of strokes that cross alone, from border to border: the middle of an even number of pixels lies half a pixel off.

@@ -16,7 +16,7 @@ namespace {
 constexpr double kFatCorner = 1.15;        // of the usual radius: the ink inside an acute corner is fatter
 constexpr double kCornerSpur = 5.0 / 3.0;  // of a spur: so much longer is the branch to the tip of an acute corner
 constexpr double kWidestTip = 2.5;         // of the usual radius: two strokes side by side, and no blot
-constexpr double kLeastLegWidths = 3.0;    // [stroke widths] shorter edges have no direction
+constexpr double kLeastEdgeWidths = 3.0;   // [stroke widths] shorter edges have no direction
 // Out of the disc and as far again; 3 px keep a single step of a skeleton below 20 degrees where strokes are thin.
 constexpr double kCornerReachRadii = 2.0, kCornerReachPx = 3.0;
 constexpr double kAcute = 0.26;  // cos 75 deg
@@ -81,8 +81,8 @@ void SpurPruner::markCorner(int edge, int side, const Vec2& centre, double reach
   }
 }
 
-// An edge that ends where two legs of an acute corner become one body of ink goes straight on to the tip instead: what
-// it has within `reach` of its end is pulled to the other leg.
+// An edge that ends where two sides of an acute corner become one body of ink goes straight on to the tip instead: what
+// it has within `reach` of its end is pulled to the other side.
 void SpurPruner::leadToTip(int edge, int side, const Vec2& tip, double reach) {
   std::vector<StrokePathPoint>& p = graph_.edge(edge).points;
   if (side == 0) std::reverse(p.begin(), p.end());
@@ -135,7 +135,7 @@ void SpurPruner::prune(double factor) {
       const double reach = n.radius + 2.0 * graph_.medianRadius();
       const bool isTip = n.radius <= kWidestTip * (graph_.medianRadius() + 0.5) &&
                          std::all_of(n.ends.begin(), n.ends.end(), [&](int end) {
-                           return graph_.edge(end / 2).length >= kLeastLegWidths * 2.0 * graph_.medianRadius();
+                           return graph_.edge(end / 2).length >= kLeastEdgeWidths * 2.0 * graph_.medianRadius();
                          });
       for (const int end : n.ends) {
         if (isTip) {

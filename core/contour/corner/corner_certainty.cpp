@@ -21,7 +21,7 @@ constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute 
 constexpr double kPointsPerPx = 4.0;     // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
 constexpr double kPointStepPx = 1.0;     // located points lie as far apart: a rounding may begin behind one
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
-constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                      // units: ends have hooks of their own
+constexpr double kLeastSide = 2.5, kLeastSideToEnd = 3.0;                    // units: ends have hooks of their own
 constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;
 constexpr double kLeastUnlocatedTurn = 50.0 * kRadPerDeg;  // of the chords, where no vertex tells how sharp it is
 constexpr double kFlankShare = 0.25;                       // of the turn: how much more the longer chords may turn
@@ -105,7 +105,7 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   const bool isTipLost = contour_.kind == ContourKind::Outline && !contour_.points[tip.index].refined;
   const double arc = arc_[isTipLost ? tip.index : e.pointIndex];
   const bool toEnd = !contour_.closed && std::min(arc, length_ - arc) <= std::min(e.freeBefore, e.freeAfter);
-  double worst = (toEnd ? kLeastLegToEnd : kLeastLeg) * unit / std::max(1e-9, std::min(e.freeBefore, e.freeAfter));
+  double worst = (toEnd ? kLeastSideToEnd : kLeastSide) * unit / std::max(1e-9, std::min(e.freeBefore, e.freeAfter));
   const auto demand = [&worst](double value, double limit) { worst = std::max(worst, value / limit); };
   const auto turnOver = [&](double units) {
     const double most = units * unit;

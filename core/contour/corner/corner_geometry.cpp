@@ -8,6 +8,7 @@
 
 #include "core/contour/corner/corner_pixels.h"
 #include "core/contour/corner/corner_sides.h"
+#include "core/contour/corner/side_points.h"
 
 namespace batten {
 namespace {
@@ -112,25 +113,13 @@ NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, 
 
 std::optional<OneSidedFit> fitOneSide(const Contour& contour, int index, int side, double inner, double outer,
                                       int maxOrder) {
-  const int n = static_cast<int>(contour.points.size());
   std::vector<double> s, weights;
   std::vector<Vec2> points;
-  double arc = 0.0;
-  const int most = contour.closed ? n / 2 : n;
-  for (int k = 0; k < most; ++k) {
-    const int i = contour.closed ? wrapIndex(index + side * k, n) : index + side * k;
-    if (i < 0 || i >= n) break;
-    const ContourPoint& p = contour.points[i];
-    if (k > 0) {
-      const int j = contour.closed ? wrapIndex(i - side, n) : i - side;
-      arc += (p.at - contour.points[j].at).norm();
-    }
-    if (arc > outer) break;
-    if (arc < inner) continue;
+  forPointsAside(contour, index, side, {inner, outer}, [&](const ContourPoint& p, double arc) {
     s.push_back(arc);
     points.push_back(p.at);
     weights.push_back(p.refined ? 1.0 : kUnrefinedWeight);
-  }
+  });
   if (s.size() < 3) return std::nullopt;
   const LocalQuadratic fit = fitLocalQuadratic(s, points, weights, maxOrder);
   const double reach = s.back() - s.front();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/statistics.h"
+#include "core/contour/corner/side_points.h"
 #include "core/polyline/circle_fit.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -50,25 +51,13 @@ using SidePoints = std::vector<SidePoint>;  // of one side, in order away from t
 
 SidePoints collect(const Contour& contour, int index, int side, double inner, double outer) {
   SidePoints points;
-  const int n = static_cast<int>(contour.points.size());
-  const int most = contour.closed ? n / 2 : n;
-  double arc = 0.0;
-  for (int k = 0; k < most; ++k) {
-    const int i = contour.closed ? wrapIndex(index + side * k, n) : index + side * k;
-    if (i < 0 || i >= n) break;
-    const ContourPoint& p = contour.points[i];
-    if (k > 0) {
-      const int j = contour.closed ? wrapIndex(i - side, n) : i - side;
-      arc += (p.at - contour.points[j].at).norm();
-    }
-    if (arc > outer) break;
-    if (arc < inner) continue;
+  forPointsAside(contour, index, side, {inner, outer}, [&](const ContourPoint& p, double) {
     points.push_back({p.at, p.refined ? 1.0 : kGuessedWeight, p.sigmaPx});
-  }
+  });
   return points;
 }
 
-// Next to a corner the points may be guessed only, laid round the turn where the legs of a stroke are one body: they
+// Next to a corner the points may be guessed only, laid round the turn where the two strokes are one body: they
 // say nothing of the side.
 void dropGuessed(SidePoints& points) {
   int first = 0, known = 0;

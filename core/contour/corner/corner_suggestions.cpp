@@ -75,8 +75,8 @@ double angleNoise(double roughPx, double scale) {
   return roughPx * std::sqrt(2.0 * kSlopeVariance * kDentPx / (scale * scale * scale));
 }
 
-// On a clean line a corner is one however short its legs are. On a rough one it may be a dent, which has gone once more
-// of the line is looked at; a corner has not.
+// On a clean line a corner is one however short its sides are. On a rough one it may be a dent, which has gone once
+// more of the line is looked at; a corner has not.
 bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, double rough, double inner, double scale) {
   constexpr double kCleanScore = 0.75, kCoarser = 3.5, kStays = 0.7;
   const double angle = std::abs(turning.angleRad);
@@ -172,7 +172,7 @@ class CornerDetector {
   }
 
   std::optional<Candidate> onClean(int i) const {
-    // The score is the angle discounted by misfit; half of it lost means that the legs are no legs.
+    // The score is the angle discounted by misfit; half of it lost means that the sides are no sides.
     constexpr double kLeastScore = 0.5;
     constexpr double kBlurredPx = 3.0, kMostBlurred = 0.25;  // left out beside a corner; of the scale
     if (isStraight(contour_, i, scale_)) return std::nullopt;
@@ -185,7 +185,7 @@ class CornerDetector {
     return Candidate{i, turning->angleRad, turning->score, s_[i], scale_, false, rough_[i]};
   }
 
-  // More of the line is looked at, without its bristles, and the legs are straight: what bends them counts as noise.
+  // More of the line is looked at, without its bristles, and the sides are straight: what bends them counts as noise.
   std::optional<Candidate> onRagged(int i) const {
     constexpr double kLeastScore = 0.25;
     const double scale = kRaggedScale * scale_;

@@ -74,7 +74,7 @@ void implyBorders(Contour& outline, const BitImage& strokes) {
     int last = i;
     while (last + 1 < n && mouth[last + 1]) ++last;
     const int first = static_cast<int>(points.size());
-    const std::span<const ContourPoint> rim(outline.points.data() + i, static_cast<std::size_t>(last - i + 1));
+    const std::span<const ContourPoint> rim(outline.points.data() + i, last - i + 1);
     for (const Vec2& at : acrossMouth(points.back().at, rim, outline.points[(last + 1) % n].at))
       points.push_back({.at = at, .unrefined = at});
     if (std::ssize(points) > first) outline.bridges.emplace_back(first, static_cast<int>(points.size()) - 1);

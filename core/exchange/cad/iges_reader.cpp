@@ -88,7 +88,7 @@ class IgesReader {
     const double index = (std::abs(directoryLine) - 1.0) / 2.0;
     if (!(index >= 0.0) || index != std::floor(index) || index >= static_cast<double>(records_.entries.size()))
       return std::nullopt;
-    return static_cast<std::size_t>(index);
+    return static_cast<int>(index);
   }
 
   Result<void> findComposites() {
@@ -98,10 +98,10 @@ class IgesReader {
       if (!fields) return fail(fields.error());
       const IgesNumbers n(*fields);
       const auto count = n.count(0, 0, kMostIgesPoints);
-      if (!count || !n.has(1 + static_cast<std::size_t>(*count)))
+      if (!count || !n.has(1 + *count))
         return igesDamaged(records_.entries[i].line, "a composite curve does not name its parts");
       for (int k = 0; k < *count; ++k) {
-        const auto child = entryAt(n.at(1 + static_cast<std::size_t>(k)));
+        const auto child = entryAt(n.at(1 + k));
         if (!child) return igesDamaged(records_.entries[i].line, "a part of a composite curve is missing");
         // A part of two composites counts once, a composite within another by itself.
         if (records_.entries[*child].type == kComposite || !isChild_.insert(*child).second) continue;
@@ -146,10 +146,10 @@ class IgesReader {
     const auto own = igesOwnNumbers(entry, n);
     const auto groups = own ? n.count(*own, 0, kMostProperties) : std::nullopt;
     if (!groups) return found;
-    const std::size_t at = *own + 1 + static_cast<std::size_t>(*groups);
+    const std::size_t at = *own + 1 + *groups;
     const auto properties = n.count(at, 0, kMostProperties);
-    for (int i = 0; properties && i < *properties && n.has(at + 2 + static_cast<std::size_t>(i)); ++i) {
-      const auto property = entryAt(n.at(at + 1 + static_cast<std::size_t>(i)));
+    for (int i = 0; properties && i < *properties && n.has(at + 2 + i); ++i) {
+      const auto property = entryAt(n.at(at + 1 + i));
       if (property && records_.entries[*property].type == kProperty) found.push_back(*property);
     }
     return found;

@@ -67,7 +67,7 @@ class ParameterSplitter {
     std::size_t count = 0;
     const std::size_t digits = at;
     while (at < text.size() && text[at] >= '0' && text[at] <= '9' && count < kLongestString)
-      count = 10 * count + static_cast<std::size_t>(text[at++] - '0');
+      count = 10 * count + (text[at++] - '0');
     if (at == digits || at >= text.size() || text[at] != 'H') return std::nullopt;
     return StringField{at + 1, count};
   }

@@ -30,9 +30,7 @@ std::optional<CadShape> arcOf(const IgesNumbers& n) {
 std::optional<CadShape> splineOf(const IgesNumbers& n) {
   const auto last = n.count(0, 1, kMostIgesPoints), degree = n.count(1, 1, 7);
   if (!last || !degree || *last < *degree) return std::nullopt;
-  const auto points = static_cast<std::size_t>(*last) + 1;
-  const std::size_t knots = points + static_cast<std::size_t>(*degree) + 1;
-  const std::size_t begin = 6;
+  const std::size_t points = *last + 1, knots = points + *degree + 1, begin = 6;
   if (!n.has(begin + knots + 4 * points)) return std::nullopt;
   std::vector<Vec2> control;
   for (std::size_t i = 0; i < points; ++i) control.push_back(n.point(begin + knots + points + 3 * i));
@@ -66,11 +64,10 @@ std::optional<CadShape> copiousOf(const IgesNumbers& n, int form) {
   const auto kind = n.count(0, 1, 3), count = n.count(1, 2, kMostIgesPoints);
   if (!kind || !count) return std::nullopt;
   const std::size_t stride = *kind == 1 ? 2 : *kind == 2 ? 3 : 6, begin = *kind == 1 ? 3 : 2;
-  if (!n.has(begin + stride * static_cast<std::size_t>(*count))) return std::nullopt;
+  if (!n.has(begin + stride * *count)) return std::nullopt;
   constexpr int kClosedArea = 63;
   CadPolyline line{{}, form == kClosedArea};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(*count); ++i)
-    line.vertices.push_back({n.point(begin + stride * i)});
+  for (int i = 0; i < *count; ++i) line.vertices.push_back({n.point(begin + stride * i)});
   if (line.closed && line.vertices.front().point == line.vertices.back().point) line.vertices.pop_back();
   if (line.vertices.size() < 2) return std::nullopt;
   return line;
@@ -80,8 +77,7 @@ std::optional<CadShape> copiousOf(const IgesNumbers& n, int form) {
 std::optional<CadShape> parametricSplineOf(const IgesNumbers& n) {
   const auto segments = n.count(3, 1, kMostIgesPoints / 16);
   if (!segments) return std::nullopt;
-  const auto count = static_cast<std::size_t>(*segments);
-  const std::size_t breaks = 4, begin = breaks + count + 1;
+  const std::size_t count = *segments, breaks = 4, begin = breaks + count + 1;
   if (!n.has(begin + 12 * count)) return std::nullopt;
   std::vector<NurbsCurve> pieces;
   double size = 0.0;
@@ -135,7 +131,7 @@ std::optional<std::size_t> igesOwnNumbers(const IgesDirectoryEntry& entry, const
       const auto kind = n.count(0, 1, 3), count = n.count(1, 2, kMostIgesPoints);
       if (!kind || !count) return std::nullopt;
       const std::size_t stride = *kind == 1 ? 2 : *kind == 2 ? 3 : 6;
-      return (*kind == 1 ? 3 : 2) + stride * static_cast<std::size_t>(*count);
+      return (*kind == 1 ? 3 : 2) + stride * *count;
     }
     case 110:
       return 6;
@@ -143,7 +139,7 @@ std::optional<std::size_t> igesOwnNumbers(const IgesDirectoryEntry& entry, const
       const auto last = n.count(0, 1, kMostIgesPoints), degree = n.count(1, 1, 7);
       if (!last || !degree) return std::nullopt;
       // Six of its head, knots, weights, places, the two ends and the normal.
-      return 6 + static_cast<std::size_t>(*last + *degree + 2 + 4 * (*last + 1) + 5);
+      return 6 + *last + *degree + 2 + 4 * (*last + 1) + 5;
     }
     default:
       return std::nullopt;

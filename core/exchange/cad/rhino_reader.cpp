@@ -46,7 +46,7 @@ class Source {
   }
   std::string words() {
     const std::uint32_t count = number();
-    const auto taken = take(2 * static_cast<std::size_t>(count));
+    const auto taken = take(std::size_t{2} * count);
     QString text;
     for (std::size_t i = 0; i + 3 < taken.size(); i += 2)
       text += QChar(static_cast<uchar>(taken[i]), static_cast<uchar>(taken[i + 1]));

@@ -96,12 +96,11 @@ Edge edgeOf(const CadPolyline& line, std::size_t i) {
 }
 
 Vec2 pointOf(const CadPolyline& line, double fraction) {
-  const std::size_t n = line.vertices.size();
-  const std::size_t edges = line.closed ? n : n - 1;
+  const int n = static_cast<int>(line.vertices.size()), edges = line.closed ? n : n - 1;
   if (edges == 0) return line.vertices.front().point;
-  const double at = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(edges);
-  const std::size_t i = std::min(static_cast<std::size_t>(at), edges - 1);
-  const double t = at - static_cast<double>(i);
+  const double at = std::clamp(fraction, 0.0, 1.0) * edges;
+  const int i = std::min(static_cast<int>(at), edges - 1);
+  const double t = at - i;
   const Edge edge = edgeOf(line, i);
   return pointAt(edge.shape, edge.backwards ? 1.0 - t : t);
 }

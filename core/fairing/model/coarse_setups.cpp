@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/curve/curvature.h"
 #include "core/solve/dense_solve.h"
 
 namespace batten {
@@ -20,6 +21,11 @@ constexpr std::array kOpenSpans = {1, 2, 3, 5, 8, 13, 21, 34, 55, 89};
 constexpr std::array kClosedSpans = {5, 6, 8, 13, 21, 34, 55, 89};
 /// Share of the sketched curve's spans that a start may have: more would win nothing over the curve itself.
 constexpr double kMostSpans = 0.75;
+/// Of the mean span: breakpoints nearer to each other are as good as one.
+constexpr double kShortestSpan = 1e-3;
+/// A sketch of fewer extrema does not tremble; one of more may, and is tried over so many spans.
+constexpr int kTrembles = 6;
+constexpr std::array kCalmSpans = {13, 5, 3};
 
 /// Breakpoints 0..1, by shares of the arc length.
 std::vector<double> breaksFor(const FairingSetup& sketch, int spans) {
@@ -133,7 +139,7 @@ std::shared_ptr<const FairingSetup> coarseSetup(const std::shared_ptr<const Fair
   auto setup = std::make_shared<FairingSetup>();
   const std::vector<double> breaks = breaksFor(*sketch, spans);
   for (std::size_t i = 1; i < breaks.size(); ++i) {
-    if (!(breaks[i] - breaks[i - 1] > 1e-3 / spans)) return nullptr;
+    if (!(breaks[i] - breaks[i - 1] > kShortestSpan / spans)) return nullptr;
   }
   setup->sketch = sketch;
   setup->startHold = sketch->startHold;
@@ -178,6 +184,21 @@ std::vector<std::shared_ptr<const FairingSetup>> coarseSetups(const std::shared_
     if (auto setup = coarseSetup(sketch, spans)) setups.push_back(std::move(setup));
   }
   return setups;
+}
+
+std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch) {
+  std::vector<std::shared_ptr<const FairingSetup>> result;
+  if (sketch->isPart) return result;
+  int extrema = countedExtrema(sketch->original, sketch->closed, sketch->check);
+  for (const int spans : kCalmSpans) {
+    if (extrema < kTrembles) break;
+    auto calm = coarseSetup(sketch, spans);
+    const int left = calm ? countedExtrema(calm->original, calm->closed, calm->check) : extrema;
+    if (2 * left >= extrema) continue;
+    result.push_back(std::move(calm));
+    extrema = left;
+  }
+  return result;
 }
 
 }  // namespace batten

@@ -17,4 +17,8 @@ std::vector<std::shared_ptr<const FairingSetup>> coarseSetups(const std::shared_
 /// The one of so many spans; null where there is none.
 std::shared_ptr<const FairingSetup> coarseSetup(const std::shared_ptr<const FairingSetup>& sketch, int spans);
 
+/// Of a sketch that trembles: starts over fewer and fewer spans, each with less than half the curvature extrema of the
+/// one before it, until a few extrema are left.
+std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch);
+
 }  // namespace batten

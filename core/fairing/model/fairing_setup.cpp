@@ -127,7 +127,7 @@ double distanceFrom(const NurbsCurve& curve, const PeriodicForm& form, CancelChe
 
 /// Which control points a knot span that is not in the range depends on.
 std::vector<bool> pointsOutside(const SpanBasis& basis, const ProfileSpan& range) {
-  std::vector<bool> outside(static_cast<std::size_t>(basis.pointCount()), false);
+  std::vector<bool> outside(basis.pointCount(), false);
   const int last = basis.spanCount() - 1;
   const double period = basis.begin(last) + basis.width(last) - basis.begin(0), rounding = 1e-9 * period;
   const auto isIn = [&](double u) { return u >= range.from - rounding && u <= range.to + rounding; };
@@ -225,8 +225,8 @@ double FairingSetup::sampleAt(const SpanPlace& place) const {
 double FairingSetup::offsetAt(const SpanPlace& foot) const {
   if (offsets.empty()) return 0.0;
   const double x = sampleAt(foot), below = std::floor(x);
-  const std::size_t count = offsets.size(), i = static_cast<std::size_t>(below) % count;
-  const std::size_t next = closed ? (i + 1) % count : std::min(i + 1, count - 1);
+  const int count = static_cast<int>(offsets.size()), i = static_cast<int>(below) % count;
+  const int next = closed ? (i + 1) % count : std::min(i + 1, count - 1);
   return offsets[i] + (x - below) * (offsets[next] - offsets[i]);
 }
 

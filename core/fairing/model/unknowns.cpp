@@ -75,7 +75,7 @@ std::vector<Block> endBlocks(const SpanBasis& basis, const SpanCurve& curve, con
 Unknowns::Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold,
                    const std::vector<bool>& held)
     : degree_(basis.degree()) {
-  coordinates_.resize(static_cast<std::size_t>(basis.pointCount()) * 2);
+  coordinates_.resize(2 * basis.pointCount());
   if (basis.isPeriodic()) {
     buildPeriodic(basis.pointCount());
   } else {

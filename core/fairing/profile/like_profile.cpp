@@ -40,13 +40,13 @@ std::vector<ProfilePoint> profileLike(std::span<const ProfilePoint> shape, const
   const double length = ArcLength(curve).total();
   const auto& curvature = laid.second.curvature;
   if (curvature.empty() || !(length > 0.0)) return points;
-  const auto count = static_cast<double>(curvature.size());
+  const int count = static_cast<int>(curvature.size());
   for (int i = 0; i < kShapePoints; ++i) {
     const double f = static_cast<double>(i) / (kShapePoints - 1);
     const double place = f * (closed ? count : count - 1.0), below = std::floor(place);
     const auto at = [&](double k) {
-      const auto index = static_cast<std::size_t>(k);
-      return curvature[closed ? index % curvature.size() : std::min(index, curvature.size() - 1)];
+      const int index = static_cast<int>(k);
+      return curvature[closed ? index % count : std::min(index, count - 1)];
     };
     const double kappa = at(below) + (place - below) * (at(below + 1.0) - at(below));
     points.push_back({f, kappa / length});

@@ -42,7 +42,7 @@ void chebyshevSlopeRow(double f, int degree, Eigen::Ref<Eigen::RowVectorXd> slop
 
 /// Chebyshev coefficients on x = 2f - 1 to ascending powers of f.
 std::vector<double> toPowers(const Eigen::VectorXd& chebyshev) {
-  const auto size = static_cast<std::size_t>(chebyshev.size());
+  const std::size_t size = chebyshev.size();
   std::vector<double> result(size, 0.0), before(size, 0.0), current(size, 0.0), next(size, 0.0);
   for (std::size_t k = 0; k < size; ++k) {
     std::fill(next.begin(), next.end(), 0.0);
@@ -71,20 +71,19 @@ struct Samples {
 
 /// Rows of the basis at the samples; empty values where they do not determine a polynomial of this degree.
 Samples collect(std::span<const double> f, std::span<const double> values, int degree) {
-  const std::size_t count = std::min(f.size(), values.size());
+  const auto count = std::min(std::ssize(f), std::ssize(values));
   Samples s;
-  if (degree < 0 || count < static_cast<std::size_t>(degree) + 1) return s;
-  for (std::size_t i = 0; i < count; ++i) {
+  if (degree < 0 || count <= degree) return s;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
     if (!std::isfinite(f[i]) || !std::isfinite(values[i])) return s;
   }
-  s.rows.resize(static_cast<Eigen::Index>(count), degree + 1);
-  s.values.resize(static_cast<Eigen::Index>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+  s.rows.resize(count, degree + 1);
+  s.values.resize(count);
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
     Eigen::RowVectorXd line(degree + 1);
     chebyshevRow(f[i], degree, line);
-    s.rows.row(row) = line;
-    s.values[row] = values[i];
+    s.rows.row(i) = line;
+    s.values[i] = values[i];
   }
   return s;
 }
@@ -183,13 +182,14 @@ std::vector<double> fitPeriodicPolynomial(std::span<const double> f, std::span<c
 
 std::vector<double> fitPinnedPolynomial(std::span<const double> f, std::span<const double> values, int degree,
                                         bool monotone, std::optional<double> start, std::optional<double> end) {
-  // Pins are heavy samples, and what the weight leaves of them is taken away by a line at the end.
+  constexpr double kPinWeight = 1e3;  // of all samples together: pins are heavy samples, and what the weight leaves of
+                                      // them is taken away by a line at the end
   std::vector<double> x(f.begin(), f.end()), y(values.begin(), values.end());
   if (start) x.push_back(0.0), y.push_back(*start);
   if (end) x.push_back(1.0), y.push_back(*end);
   Samples s = collect(x, y, degree);
   if (s.values.size() == 0) return {};
-  const double weight = 1e3 * std::sqrt(static_cast<double>(x.size()));
+  const double weight = kPinWeight * std::sqrt(static_cast<double>(x.size()));
   for (auto i = static_cast<Eigen::Index>(f.size()); i < s.values.size(); ++i) {
     s.rows.row(i) *= weight;
     s.values[i] *= weight;

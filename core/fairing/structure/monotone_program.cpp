@@ -19,8 +19,8 @@ MonotoneSearch::Program::Program(const FairingSetup& setup, const std::vector<Sp
   program_.ridge = 1e-12;
   program_.leastPivot = 0.0;
   const std::ptrdiff_t stride = setup.unknowns.stride();
-  local_.resize(static_cast<std::size_t>(stride));
-  slopes_.resize(static_cast<std::size_t>(stride * std::ssize(places)));
+  local_.resize(stride);
+  slopes_.resize(stride * std::ssize(places));
   for (std::size_t i = 0; i < places.size() && !context.isCancelled(); ++i) {
     const SpanPlace& place = places[i];
     spans_.push_back(place.span);
@@ -38,8 +38,8 @@ MonotoneSearch::Program::Row MonotoneSearch::Program::localRow(int span, const L
 
 MonotoneSearch::Program::Row MonotoneSearch::Program::slope(int place) const {
   const auto index = setup_.unknowns.indices(spans_[place]);
-  const auto stride = static_cast<std::size_t>(setup_.unknowns.stride());
-  return {index, std::span(slopes_).subspan(static_cast<std::size_t>(place) * stride, index.size())};
+  const std::ptrdiff_t stride = setup_.unknowns.stride();
+  return {index, std::span(slopes_).subspan(place * stride, index.size())};
 }
 
 MonotoneSearch::Program::Row MonotoneSearch::Program::difference(int from, int to) {

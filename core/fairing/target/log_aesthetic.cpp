@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/interpolation.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/profile_data.h"
@@ -175,11 +176,7 @@ std::vector<Stretch> stretchesOf(const CurvatureSamples& samples, const std::vec
   borders.insert(borders.end(), splits.begin(), splits.end());
   borders.push_back(closed && !splits.empty() ? splits.front() + 1.0 : 1.0);
   const double last = samples.count() - 1.0;
-  const auto kappaAt = [&](double f) {
-    const double place = (f > 1.0 ? f - 1.0 : f) * last, below = std::min(std::floor(place), last - 1.0);
-    const auto i = static_cast<std::size_t>(below);
-    return samples.kappa[i] + (place - below) * (samples.kappa[i + 1] - samples.kappa[i]);
-  };
+  const auto kappaAt = [&](double f) { return linearBetween(samples.kappa, (f > 1.0 ? f - 1.0 : f) * last); };
   std::vector<Stretch> stretches;
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     Stretch one{borders[k], borders[k + 1], {}, {}};

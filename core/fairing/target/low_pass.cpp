@@ -72,7 +72,7 @@ std::vector<double> lowPass(std::span<const double> values, double spacing, doub
   }
   const int reach =
       static_cast<int>(std::ceil(std::min(kLowPassReach * sigma, closed ? kLowPassReach * count : 1.0 * count)));
-  std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
+  std::vector<double> weight(reach + 1);
   for (int k = 0; k <= reach; ++k) weight[k] = std::exp(-0.5 * (k / sigma) * (k / sigma));
   for (int i = 0; i < count && !check.isCancelled(); i += every) {
     const int low = closed ? -reach : std::max(-reach, -i), high = closed ? reach : std::min(reach, count - 1 - i);

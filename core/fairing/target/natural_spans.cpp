@@ -100,7 +100,7 @@ std::vector<SpanLevel> naturalSpanLevels(const NurbsCurve& curve, bool closed) {
 std::size_t levelOf(std::span<const SpanLevel> levels, double toleranceMm) {
   const auto level = std::find_if(levels.begin(), levels.end(),
                                   [&](const SpanLevel& one) { return one.fromMm * kSeriesRounding <= toleranceMm; });
-  return static_cast<std::size_t>(level - levels.begin());
+  return level - levels.begin();
 }
 
 ProfileSpan spanBetween(const std::vector<double>& splits, double at, bool closed) {

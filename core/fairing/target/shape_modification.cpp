@@ -54,26 +54,6 @@ constexpr ModificationNotes kNotesOfFilter{
     "The filtered curvature was followed as far as possible without adding a curvature extremum.",
     "The filtered curvature was followed as far as the tolerance allows."};
 
-/// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
-/// are tried, until a few extrema are left.
-constexpr int kTrembles = 6;
-constexpr std::array kCalmSpans = {13, 5, 3};
-
-std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch) {
-  std::vector<std::shared_ptr<const FairingSetup>> result;
-  if (sketch->isPart) return result;
-  int extrema = countedExtrema(sketch->original, sketch->closed, sketch->check);
-  for (const int spans : kCalmSpans) {
-    if (extrema < kTrembles) break;
-    auto calm = coarseSetup(sketch, spans);
-    const int left = calm ? countedExtrema(calm->original, calm->closed, calm->check) : extrema;
-    if (2 * left >= extrema) continue;
-    result.push_back(std::move(calm));
-    extrema = left;
-  }
-  return result;
-}
-
 /// Of all curves within the tolerance the one with the fewest extrema, of these the one nearest to the target.
 class ShapeModification {
  public:

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/interpolation.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
@@ -31,11 +32,7 @@ class OwnProfile {
  public:
   OwnProfile(const CurvatureSamples& samples, bool closed) : samples_(samples), closed_(closed) {}
 
-  double at(double f) const {
-    const double x = place(f) * intervals(), below = std::min(std::floor(x), intervals() - 1.0);
-    const auto i = static_cast<std::size_t>(below);
-    return samples_.kappa[i] + (x - below) * (samples_.kappa[i + 1] - samples_.kappa[i]);
-  }
+  double at(double f) const { return linearBetween(samples_.kappa, place(f) * intervals()); }
   double slope(double f) const {
     const double h = 1.0 / intervals(), low = std::max(f - h, closed_ ? f - h : 0.0),
                  high = std::min(f + h, closed_ ? f + h : 1.0);

@@ -239,8 +239,8 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
   std::vector<NurbsCurve> unrounded(pieces.pieces.size());
   for (const Corner& corner : pieces.corners) {
     if (!corner.mark) continue;
-    const auto mark = static_cast<std::size_t>(*corner.mark);
-    if (mark >= recipe.cornerMarks.size() || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
+    const int mark = *corner.mark;
+    if (mark >= std::ssize(recipe.cornerMarks) || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
     const Neighbours at = neighboursOf(set, pieces, corner);
     if (!at.before || !at.behind) continue;
     for (const TracedCurve* curve : {at.before, at.behind}) {

@@ -184,7 +184,7 @@ class ContourBuilder {
     if (method == recipe_.construct.method && !evenIfCommon) return;
     ConstructParams params = recipe_.construct;
     params.method = method;
-    const auto index = static_cast<std::size_t>(curve.piece);
+    const std::size_t index = curve.piece;
     auto own = constructRange({index, index + 1}, params);
     if (own) {
       take(curve, std::move(own->front()));
@@ -340,7 +340,7 @@ Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const 
     if (context.isCancelled()) return cancelled();
     std::vector<TracedCurve> curves(range.last - range.first);
     for (TracedCurve& curve : outcome.curves) {
-      const auto at = static_cast<std::size_t>(curve.piece) - range.first;
+      const std::size_t at = curve.piece - range.first;
       curves[at] = std::move(curve);
     }
     return curves;

@@ -99,11 +99,12 @@ Contour contourOfPoints(const ImportedLine& line, const PageFrame& frame, double
   keepEvery(stepPx, contour);
   // Corners are counted in the points that were given.
   std::size_t corner = 0;
-  for (std::size_t i = 0, given = 0; i < contour.points.size() && corner < line.corners.size(); ++i) {
+  int given = 0;
+  for (std::size_t i = 0; i < contour.points.size() && corner < line.corners.size(); ++i) {
     if (!contour.points[i].refined) continue;
-    while (given < stroke.points.size() && stroke.points[given] != contour.points[i].at) ++given;
-    while (corner < line.corners.size() && static_cast<std::size_t>(line.corners[corner]) < given) ++corner;
-    if (corner < line.corners.size() && static_cast<std::size_t>(line.corners[corner]) == given) {
+    while (given < std::ssize(stroke.points) && stroke.points[given] != contour.points[i].at) ++given;
+    while (corner < line.corners.size() && line.corners[corner] < given) ++corner;
+    if (corner < line.corners.size() && line.corners[corner] == given) {
       const bool isEnd = !line.closed && (i == 0 || i + 1 == contour.points.size());
       if (!isEnd) contour.joints.push_back(static_cast<int>(i));
       ++corner;

@@ -15,8 +15,7 @@ Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& reci
   if (!out.pieces || !out.segments || !out.contours || piece < 0 || piece >= std::ssize(out.pieces->pieces))
     return fail(ErrorCode::NoCurve, "There is no such line.");
   try {
-    const auto first = static_cast<std::size_t>(piece);
-    ConstructedSet made = constructFromPoints(out, recipe, first, first + 1, context);
+    ConstructedSet made = constructFromPoints(out, recipe, piece, piece + 1, context);
     if (context.isCancelled()) return cancelled();
     if (!made.curves.empty()) return std::move(made.curves.front());
     if (!made.failures.empty()) return fail(made.failures.front());

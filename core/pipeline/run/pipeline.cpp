@@ -62,7 +62,7 @@ std::size_t bytesOf(const std::vector<TracedCurve>& curves) {
   std::size_t bytes = 0;
   for (const TracedCurve& c : curves) {
     const NurbsCurve& largest = c.fairingStart();
-    const auto points = static_cast<std::size_t>(largest.isEmpty() ? 0 : largest.controlPointCount());
+    const std::size_t points = largest.isEmpty() ? 0 : largest.controlPointCount();
     bytes += sizeof(c) + 4 * points * sizeof(Vec2) + vectorBytes(c.construct.extrema) + vectorBytes(c.construct.noise);
   }
   return bytes;
@@ -334,7 +334,7 @@ int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {
 std::string ownNameOfCurve(const PipelineOutput& output, const Recipe& recipe, const TracedCurve& curve) {
   if (!output.pieces || !output.contours || curve.piece < 0 || curve.piece >= std::ssize(output.pieces->pieces))
     return {};
-  return importedNameOf(*output.pieces, static_cast<std::size_t>(curve.piece), *output.contours, recipe.imports);
+  return importedNameOf(*output.pieces, curve.piece, *output.contours, recipe.imports);
 }
 
 std::string nameOfCurve(const PipelineOutput& output, const Recipe& recipe, const TracedCurve& curve) {

@@ -30,14 +30,13 @@ std::vector<std::vector<std::size_t>> assignSegmentPoints(const PieceSet& pieces
 Result<std::vector<GrowingStep>> growingStepsOf(const PieceSet& pieces, const SegmentSet& segments,
                                                 const Recipe& recipe, const PageFrame& frame, int piece,
                                                 const RunContext& context) {
-  const auto at = static_cast<std::size_t>(piece);
-  if (piece < 0 || at >= pieces.pieces.size() || segments.pieces.size() != pieces.pieces.size()) {
+  if (piece < 0 || piece >= std::ssize(pieces.pieces) || segments.pieces.size() != pieces.pieces.size()) {
     return fail(ErrorCode::Numerical, "This curve no longer exists.");
   }
   Recipe grown = recipe;
   grown.construct.method = ConstructMethod::Typical;
   grown.construct.typical = TypicalMode::Growing;
-  return growingSteps(typicalPieceOf(pieces, segments, grown, frame, at), frame.mmPerPx, grown.construct, context);
+  return growingSteps(typicalPieceOf(pieces, segments, grown, frame, piece), frame.mmPerPx, grown.construct, context);
 }
 
 }  // namespace batten

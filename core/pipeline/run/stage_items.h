@@ -14,7 +14,7 @@ inline RunContext itemContext(const RunContext& context, std::size_t items) {
   constexpr std::size_t kMany = 4;  // a thread
   RunContext inner = context;
   inner.progress = nullptr;
-  if (items >= kMany * static_cast<std::size_t>(threadCount(context))) inner.threads = 1;
+  if (items >= kMany * threadCount(context)) inner.threads = 1;
   return inner;
 }
 
@@ -24,7 +24,7 @@ void forEachItem(const RunContext& context, std::size_t items, const Work& work)
   std::atomic<std::size_t> done{0};
   parallelFor(context, static_cast<int>(items), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      work(static_cast<std::size_t>(i));
+      work(i);
       context.report(static_cast<double>(++done) / static_cast<double>(items));
     }
   });
