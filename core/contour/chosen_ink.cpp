@@ -17,12 +17,12 @@ double squaredDistance(const InkRun& run, const Vec2& px) {
 
 /// The nearest piece within reach, if there is one. Runs are in reading order, so that rows out of reach are passed
 /// over.
-std::optional<int> nearestPiece(const RunPieces& pieces, const Vec2& px) {
+std::optional<int> nearestPiece(const RunPieces& pieces, const Vec2& px, double reachPx) {
   const auto above = [](const InkRun& run, double y) { return run.y < y; };
-  auto run = std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::floor(px.y() - kInkReachPx - 1.0), above);
-  double least = kInkReachPx * kInkReachPx;
+  auto run = std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::floor(px.y() - reachPx - 1.0), above);
+  double least = reachPx * reachPx;
   std::optional<int> piece;
-  for (; run != pieces.runs.end() && run->y <= px.y() + kInkReachPx; ++run) {
+  for (; run != pieces.runs.end() && run->y <= px.y() + reachPx; ++run) {
     const double distance = squaredDistance(*run, px);
     if (distance > least || (distance == least && piece)) continue;
     least = distance;
@@ -48,7 +48,7 @@ std::optional<Error> validate(const JunctionChoice& choice) {
 
 ChosenInk::ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices) : pieces_(pieces) {
   for (int i = 0; i < std::ssize(choices); ++i) {
-    if (const auto piece = nearestPiece(pieces, choices[i].positionPx)) {
+    if (const auto piece = nearestPiece(pieces, choices[i].positionPx, choices[i].reachPx)) {
       chosen_.push_back({*piece, i});
     } else {
       withoutInk_.push_back(choices[i]);

@@ -15,17 +15,19 @@ enum class EdgeMode {
   Centreline,  ///< The middle of every stroke.
 };
 
+/// [px] How far from what it holds for a choice of the user may lie.
+inline constexpr double kInkReachPx = 24.0;
+
 /// How the user wants one piece of ink traced, whatever the setting for the page. It is tied to a position so that it
-/// survives changes of the mask: it applies to the nearest piece of ink within kInkReachPx. If several choices apply to
+/// survives changes of the mask: it applies to the nearest piece of ink within its reach. If several choices apply to
 /// one piece, the last one counts.
 struct EdgeChoice {
   Vec2 positionPx = Vec2::Zero();
   EdgeMode mode = EdgeMode::Outline;
+  double reachPx = kInkReachPx;  ///< More where the page is enlarged; no part of a recipe.
   bool operator==(const EdgeChoice& o) const { return positionPx == o.positionPx && mode == o.mode; }
 };
 std::optional<Error> validate(const EdgeChoice&);
-
-inline constexpr double kInkReachPx = 24.0;
 
 /// Two branches of a junction that are one stroke, each by a place on it. [px]
 struct BranchPair {
@@ -34,11 +36,12 @@ struct BranchPair {
 };
 
 /// How the user wants the strokes of one junction led through it. It is tied to places so that it survives changes of
-/// the mask: it applies to the nearest junction within kInkReachPx, and a place to the branch nearest to it within the
+/// the mask: it applies to the nearest junction within its reach, and a place to the branch nearest to it within the
 /// same reach. If several choices apply to one junction, the last one counts.
 struct JunctionChoice {
   Vec2 positionPx = Vec2::Zero();
   std::vector<BranchPair> pairs{};  ///< All that are led through; every other stroke ends there.
+  double reachPx = kInkReachPx;     ///< More where the page is enlarged; no part of a recipe.
   bool operator==(const JunctionChoice& o) const { return positionPx == o.positionPx && pairs == o.pairs; }
 };
 std::optional<Error> validate(const JunctionChoice&);

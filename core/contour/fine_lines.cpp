@@ -27,9 +27,13 @@ void thinOut(Contour& outline) {
 }  // namespace
 
 EdgeParams onFinePage(EdgeParams edges) {
-  for (EdgeChoice& choice : edges.choices) choice.positionPx *= kFineFactor;
+  for (EdgeChoice& choice : edges.choices) {
+    choice.positionPx *= kFineFactor;
+    choice.reachPx *= kFineFactor;
+  }
   for (JunctionChoice& choice : edges.junctions) {
     choice.positionPx *= kFineFactor;
+    choice.reachPx *= kFineFactor;
     for (BranchPair& pair : choice.pairs) {
       pair.firstPx *= kFineFactor;
       pair.secondPx *= kFineFactor;

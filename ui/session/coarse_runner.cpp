@@ -27,6 +27,7 @@ void CoarseRunner::run(const Request& request, const CancelToken& token) {
     }
     PipelineRequest wanted;
     wanted.needEdges = false;
+    wanted.isPreview = true;
     wanted.upTo = request.withCurves ? StageId::Faired : StageId::Filtered;
     wanted.stageReady = [&](StageId stage, const PipelineOutput& output) {
       if (!token.isCancelled() && (stage == StageId::Filtered || stage == StageId::Faired)) post(request, output);

@@ -11,8 +11,8 @@ namespace {
 constexpr int kFewestBranches = 3;  // of a junction: where two meet there is nothing to choose
 
 // The end whose edge comes nearest to the place; of two ends of one edge, the one that is nearer along it.
-std::optional<int> endNear(const Vec2& place, std::span<const EdgeFromEnd> ends) {
-  double least = kInkReachPx * kInkReachPx;
+std::optional<int> endNear(const Vec2& place, double reachPx, std::span<const EdgeFromEnd> ends) {
+  double least = reachPx * reachPx;
   int steps = 0;
   std::optional<int> nearest;
   for (int i = 0; i < std::ssize(ends); ++i) {
@@ -33,7 +33,7 @@ std::vector<std::optional<int>> choicesOfNodes(const SkeletonGraph& graph, std::
   const std::vector<SkeletonNode>& nodes = graph.nodes();
   std::vector<std::optional<int>> choiceOf(nodes.size());
   for (int c = 0; c < std::ssize(choices); ++c) {
-    double least = kInkReachPx * kInkReachPx;
+    double least = choices[c].reachPx * choices[c].reachPx;
     std::optional<int> nearest;
     for (int i = 0; i < std::ssize(nodes); ++i) {
       const double distance = (nodes[i].centre - choices[c].positionPx).squaredNorm();
@@ -50,7 +50,8 @@ EndPairs chosenPairs(const JunctionChoice& choice, std::span<const EdgeFromEnd> 
   EndPairs pairs;
   std::vector<bool> used(ends.size(), false);
   for (const BranchPair& pair : choice.pairs) {
-    const auto first = endNear(pair.firstPx, ends), second = endNear(pair.secondPx, ends);
+    const auto first = endNear(pair.firstPx, choice.reachPx, ends);
+    const auto second = endNear(pair.secondPx, choice.reachPx, ends);
     if (!first || !second || *first == *second || used[*first] || used[*second]) continue;
     used[*first] = used[*second] = true;
     pairs.emplace_back(std::min(*first, *second), std::max(*first, *second));

@@ -187,7 +187,8 @@ class PipelineRun {
   /// Of outlines and of lines that stand for several strokes no more is wanted than the page shows.
   Result<std::optional<FinePage>> fineOf(const BitImage& ink, const GreyImage& grey) {
     const EdgeParams& edges = recipe_.edges;
-    if (edges.mode == EdgeMode::Outline || edges.mergeWidths > 0.0 || edges.intent) return std::nullopt;
+    if (request_.isPreview || edges.mode == EdgeMode::Outline || edges.mergeWidths > 0.0 || edges.intent)
+      return std::nullopt;
     return finePage(grey, ink, {recipe_.paper, recipe_.threshold, recipe_.filter}, context_);
   }
 

@@ -98,7 +98,8 @@ struct PipelineRequest {
   StageId upTo = StageId::Faired;
   /// Called after each stage, on the calling thread, with the outputs so far (what the live window shows first).
   std::function<void(StageId, const PipelineOutput&)> stageReady;
-  bool needEdges = true;  ///< The edges layer is only made when someone looks at it.
+  bool needEdges = true;   ///< The edges layer is only made when someone looks at it.
+  bool isPreview = false;  ///< A reduced page, shown until the lines of the page itself are there: nothing is enlarged.
 };
 
 /// Runs the stages in order, taking from `cache` what has not changed. Deterministic: the same scan and recipe give the
