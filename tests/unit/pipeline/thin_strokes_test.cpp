@@ -163,5 +163,21 @@ TEST(ThinStrokes, OfSmallLettersAreFoundOneByOne) {
   }
 }
 
+/// A trace mode chosen beside the ink reaches as far as on any other page.
+TEST(ThinStrokes, FollowATraceModeChosenBesideThem) {
+  constexpr double kHeight = 12.0;
+  const LetteredPage page = lettered(kHeight, 2.0, test::cleanPage());
+  const Vec2 below = page.letters.front().front().front() + Vec2(0.0, 0.75 * kInkReachPx);
+  Recipe recipe;
+  recipe.edges.choices.push_back({below, EdgeMode::Outline});
+  StageCache cache;
+  const PipelineOutput output = runPipeline(page.scan, recipe, cache, {StageId::Contours, {}, false}, {});
+  ASSERT_TRUE(output.contours);
+  const auto follows = [](const Contour& line) {
+    return line.traceMode.has_value() && line.kind == ContourKind::Outline;
+  };
+  EXPECT_TRUE(std::ranges::any_of(output.contours->contours, follows));
+}
+
 }  // namespace
 }  // namespace batten
