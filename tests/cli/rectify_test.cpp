@@ -32,9 +32,9 @@ class Rectify : public test::Program {
   }
   /// Width over height of the first curve's box, by its control points.
   double aspectOfFirst(const std::string& name) const {
-    const auto json = nlohmann::json::parse(test::readFile(file(name)));
+    const auto curves = nlohmann::json::parse(test::readFile(file(name)));
     Vec2 low(1e9, 1e9), high(-1e9, -1e9);
-    for (const auto& piece : json.at("curves").at(0).at("pieces")) {
+    for (const auto& piece : curves.at("curves").at(0).at("pieces")) {
       for (const auto& p : piece.at("control_points_mm")) {
         low = low.cwiseMin(Vec2(p.at(0).get<double>(), p.at(1).get<double>()));
         high = high.cwiseMax(Vec2(p.at(0).get<double>(), p.at(1).get<double>()));
@@ -69,15 +69,15 @@ TEST_F(Rectify, TheSheetIsFoundAndTheCircleIsRoundAgain) {
 TEST_F(Rectify, SuggestOffersIt) {
   const auto angled = run("suggest " + photo(25.0));
   ASSERT_EQ(angled.code, 0) << angled.err;
-  const auto json = nlohmann::json::parse(angled.out);
-  ASSERT_TRUE(json.at("rectify").is_object()) << angled.out;
+  const auto advice = nlohmann::json::parse(angled.out);
+  ASSERT_TRUE(advice.at("rectify").is_object()) << angled.out;
   const auto truth = test::PhotoCamera(poseOf(25.0), 720, 960).corners();
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    EXPECT_NEAR(json["rectify"]["corners"][i][0].get<double>(), truth[i].x(), 0.3);
-    EXPECT_NEAR(json["rectify"]["corners"][i][1].get<double>(), truth[i].y(), 0.3);
+    EXPECT_NEAR(advice["rectify"]["corners"][i][0].get<double>(), truth[i].x(), 0.3);
+    EXPECT_NEAR(advice["rectify"]["corners"][i][1].get<double>(), truth[i].y(), 0.3);
   }
-  EXPECT_GT(json["rectify"]["skew"].get<double>(), 1.0);
-  EXPECT_GT(json["rectify"]["convergence"].get<double>(), 1.0);
+  EXPECT_GT(advice["rectify"]["skew"].get<double>(), 1.0);
+  EXPECT_GT(advice["rectify"]["convergence"].get<double>(), 1.0);
   const auto upright = run("suggest " + photo(0.0));
   ASSERT_EQ(upright.code, 0) << upright.err;
   EXPECT_TRUE(nlohmann::json::parse(upright.out).at("rectify").is_null());

@@ -65,7 +65,7 @@ Scan largePage(int width, int height, int strokes, std::uint32_t seed) {
       const double grey = paper + (kInk - paper) * coverage[i] / 255.0 + table[random() & 0xffff];
       scan.grey.pixels[i] = static_cast<std::uint16_t>(257 * std::clamp(static_cast<int>(std::lround(grey)), 0, 255));
     }
-  scan.info = {.format = "PNG", .width = width, .height = height, .dpi = 600.0};
+  scan.info = {.format = "PNG", .width = width, .height = height, .dpi = 600.0, .focal35Mm = {}};
   scan.dpi = 600.0;
   return scan;
 }

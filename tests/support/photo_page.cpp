@@ -12,9 +12,9 @@
 namespace batten::test {
 namespace {
 
-constexpr int kSubsamples = 16;  // of a pixel, no two in one row or column of it
-constexpr int kLatticeStep = 7;  // has no divisor in common with their number
-constexpr double kInk = 25.0;    // [grey]
+constexpr int kSubsamples = 16;     // of a pixel, no two in one row or column of it
+constexpr int kLatticeStep = 7;     // has no divisor in common with their number
+constexpr double kPhotoInk = 25.0;  // [grey]
 constexpr double kFilmDiagonal = 43.27;
 
 }  // namespace
@@ -60,7 +60,7 @@ Scan renderPhoto(const PhotoCamera& camera, const std::function<double(const Vec
         const Vec2 mm = camera.toSheet(px);
         if (mm.x() < 0.0 || mm.y() < 0.0 || mm.x() > w || mm.y() > h) continue;
         onSheet += 1.0;
-        sum += style.paper + darkness(mm) * (kInk - style.paper);
+        sum += style.paper + darkness(mm) * (kPhotoInk - style.paper);
       }
       onSheet /= kSubsamples;
       const double paper = sum / kSubsamples;

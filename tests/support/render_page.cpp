@@ -134,7 +134,7 @@ Scan renderPage(std::vector<float> coverage, int width, int height, const PageSt
   std::normal_distribution<double> normal;
   Scan scan;
   scan.grey = GreyImage(width, height);
-  scan.info = {"PNG", width, height, 1, 8, 1, 300.0};
+  scan.info = {"PNG", width, height, 1, 8, 1, 300.0, {}};
   scan.dpi = 300.0;
   scan.path = "rendered.png";
   for (int y = 0; y < height; ++y) {

@@ -22,7 +22,7 @@ using test::PhotoCamera;
 using test::PhotoPose;
 using test::PhotoStyle;
 
-constexpr int kWidth = 600, kHeight = 800;
+constexpr int kPhotoWidth = 600, kPhotoHeight = 800;
 constexpr double kGapMm = 30.0, kLineMm = 1.2;
 
 /// Lines at every 30 mm across and down, none near the border of the sheet.
@@ -90,7 +90,7 @@ const std::vector<PhotoPose> kPoses = {
 
 TEST(RectifiedScan, LinesAreStraightParallelAndAtRightAnglesAgain) {
   for (const PhotoPose& pose : kPoses) {
-    const PhotoCamera camera(pose, kWidth, kHeight);
+    const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
     RectifyParams params = withCorners({}, camera.corners());
     const auto page = rectified(photoOf(camera), params, {});
     ASSERT_TRUE(page) << page.error().message;
@@ -104,7 +104,7 @@ TEST(RectifiedScan, TheCornersAreFoundToAPartOfAPixel) {
   for (const bool isColour : {false, true}) {
     for (const PhotoPose& pose : kPoses) {
       if (isColour && pose.rollDeg == 0.0) continue;  // three of them
-      const PhotoCamera camera(pose, kWidth, kHeight);
+      const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
       PhotoStyle style;
       style.isColour = isColour;
       const auto page = rectified(photoOf(camera, style), automatic(), {});
@@ -125,8 +125,8 @@ TEST(RectifiedScan, TheAspectRatioFollowsFromThePerspective) {
   for (const double focal : {20.0, 27.0, 35.0, 50.0}) {
     for (const double width : {210.0, 297.0, 150.0}) {
       const PhotoPose pose{.widthMm = width, .tiltDeg = 28.0, .panDeg = 24.0, .rollDeg = 5.0, .focal35Mm = focal};
-      const PhotoCamera camera(pose, kWidth, kHeight);
-      const SheetAspect seen = sheetAspect(camera.corners(), {kWidth, kHeight, std::nullopt});
+      const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
+      const SheetAspect seen = sheetAspect(camera.corners(), {kPhotoWidth, kPhotoHeight, std::nullopt});
       EXPECT_NEAR(seen.aspect / (width / pose.heightMm), 1.0, 0.01) << focal;
       EXPECT_LT(seen.error, 0.02);
     }
@@ -136,19 +136,19 @@ TEST(RectifiedScan, TheAspectRatioFollowsFromThePerspective) {
 // Tilted about one side: only the focal length tells how far.
 TEST(RectifiedScan, TheFocalLengthOfTheFileCountsWhereThePerspectiveSaysLittle) {
   const PhotoPose pose{.tiltDeg = 35.0, .focal35Mm = 50.0};
-  const PhotoCamera camera(pose, kWidth, kHeight);
+  const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
   const double truth = pose.widthMm / pose.heightMm;
-  const SheetAspect stated = sheetAspect(camera.corners(), {kWidth, kHeight, 50.0});
+  const SheetAspect stated = sheetAspect(camera.corners(), {kPhotoWidth, kPhotoHeight, 50.0});
   EXPECT_NEAR(stated.aspect / truth, 1.0, 0.01);
   EXPECT_LT(stated.error, 0.015);
-  const SheetAspect usual = sheetAspect(camera.corners(), {kWidth, kHeight, std::nullopt});
+  const SheetAspect usual = sheetAspect(camera.corners(), {kPhotoWidth, kPhotoHeight, std::nullopt});
   EXPECT_GT(usual.error, 0.03) << "it is not known, and says so";
   EXPECT_LT(std::abs(std::log(usual.aspect / truth)), 4.0 * usual.error);
 }
 
 TEST(RectifiedScan, AKnownFormatSetsAspectRatioAndResolution) {
   const PhotoPose pose{.tiltDeg = 30.0, .focal35Mm = 40.0};
-  const PhotoCamera camera(pose, kWidth, kHeight);
+  const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
   RectifyParams params = withCorners({}, camera.corners());
   params.format = PaperFormat::A4;
   const auto page = rectified(photoOf(camera), params, {});
@@ -166,7 +166,7 @@ TEST(RectifiedScan, AKnownFormatSetsAspectRatioAndResolution) {
 }
 
 TEST(RectifiedScan, ASheetThatIsOnlyTurnedKeepsItsResolution) {
-  const PhotoCamera camera({.rollDeg = 7.0}, kWidth, kHeight);
+  const PhotoCamera camera({.rollDeg = 7.0}, kPhotoWidth, kPhotoHeight);
   Scan scan = photoOf(camera);
   scan.dpi = 300.0;
   const auto made = rectificationOf(scan, camera.corners(), PaperFormat::Unknown);
@@ -178,7 +178,7 @@ TEST(RectifiedScan, ASheetThatIsOnlyTurnedKeepsItsResolution) {
 
 TEST(RectifiedScan, NoPartOfThePageIsCoarserThanThePicture) {
   for (const PhotoPose& pose : kPoses) {
-    const PhotoCamera camera(pose, kWidth, kHeight);
+    const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
     const auto made = rectificationOf(photoOf(camera), camera.corners(), PaperFormat::Unknown);
     ASSERT_TRUE(made);
     const SheetMap map(*made);
@@ -193,7 +193,7 @@ TEST(RectifiedScan, NoPartOfThePageIsCoarserThanThePicture) {
 }
 
 TEST(RectifiedScan, PlacesGoForthAndBack) {
-  const PhotoCamera camera(kPoses[3], kWidth, kHeight);
+  const PhotoCamera camera(kPoses[3], kPhotoWidth, kPhotoHeight);
   const SheetMap map(camera.corners(), 210.0, 297.0);
   for (const Vec2& mm : {Vec2(0, 0), Vec2(210, 297), Vec2(33, 120), Vec2(-20, 310)}) {
     EXPECT_LT((map.toPicture(mm) - camera.toPicture(mm)).norm(), 1e-7);
@@ -206,7 +206,7 @@ TEST(RectifiedScan, PlacesGoForthAndBack) {
     }
   }
   // Far above the horizon of the plane.
-  const PhotoCamera steep({.tiltDeg = -50.0, .fill = 0.5}, kWidth, kHeight);
+  const PhotoCamera steep({.tiltDeg = -50.0, .fill = 0.5}, kPhotoWidth, kPhotoHeight);
   const SheetMap seen(steep.corners(), 210.0, 297.0);
   int beyond = 0;
   for (double y = -40000.0; y <= 40000.0; y += 500.0) beyond += seen.toPage({600.0, y}) ? 0 : 1;
@@ -271,7 +271,7 @@ TEST(RectifiedScan, BadCornersAreRefusedWithAReason) {
 }
 
 TEST(RectifiedScan, ASheetSeenAtAnAngleIsOfferedAndWhatWasCutIsTold) {
-  const PhotoCamera camera(kPoses[2], kWidth, kHeight);
+  const PhotoCamera camera(kPoses[2], kPhotoWidth, kPhotoHeight);
   const Scan picture = photoOf(camera);
   const auto before = preparePage(picture, {}, {});
   ASSERT_TRUE(before && before->view);
@@ -295,7 +295,7 @@ TEST(RectifiedScan, ASheetSeenAtAnAngleIsOfferedAndWhatWasCutIsTold) {
 
 TEST(RectifiedScan, ASheetSeenFromTheFrontIsNotOffered) {
   for (const double roll : {0.0, 5.0}) {
-    const PhotoCamera camera({.rollDeg = roll}, kWidth, kHeight);
+    const PhotoCamera camera({.rollDeg = roll}, kPhotoWidth, kPhotoHeight);
     const auto page = preparePage(photoOf(camera), {}, {});
     ASSERT_TRUE(page && page->sheet);
     EXPECT_FALSE(page->view) << roll;
@@ -303,7 +303,7 @@ TEST(RectifiedScan, ASheetSeenFromTheFrontIsNotOffered) {
 }
 
 TEST(RectifiedScan, InkThatCrossesTheEdgeAndThingsUponItDoNotMoveTheCorners) {
-  const PhotoCamera camera({.tiltDeg = 18.0, .panDeg = 10.0}, kWidth, kHeight);
+  const PhotoCamera camera({.tiltDeg = 18.0, .panDeg = 10.0}, kPhotoWidth, kPhotoHeight);
   const auto darkness = [](const Vec2& mm) {
     const bool isBar = mm.y() > 40.0 && mm.y() < 80.0 && mm.x() > 150.0;  // runs off at the right
     const bool isClip = mm.y() < 12.0 && mm.x() > 90.0 && mm.x() < 120.0;

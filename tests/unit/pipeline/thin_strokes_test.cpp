@@ -165,8 +165,7 @@ TEST(ThinStrokes, OfSmallLettersAreFoundOneByOne) {
 
 /// A trace mode chosen beside the ink reaches as far as on any other page.
 TEST(ThinStrokes, FollowATraceModeChosenBesideThem) {
-  constexpr double kHeight = 12.0;
-  const LetteredPage page = lettered(kHeight, 2.0, test::cleanPage());
+  const LetteredPage page = lettered(12.0, 2.0, test::cleanPage());
   const Vec2 below = page.letters.front().front().front() + Vec2(0.0, 0.75 * kInkReachPx);
   Recipe recipe;
   recipe.edges.choices.push_back({below, EdgeMode::Outline});
