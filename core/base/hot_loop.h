@@ -2,8 +2,8 @@
 #pragma once
 
 /// BATTEN_HOT_LOOP: the loop is also compiled for wider vectors and the right one chosen when the program starts. Only
-/// loops whose every element is computed by itself carry it, so that both give the same bits. Sanitizers run before the
-/// choice could be made, hence not there.
+/// loops whose every element is computed by itself, or which compare and count whole numbers, carry it, so that both
+/// give the same bits. Sanitizers run before the choice could be made, hence not there.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define BATTEN_HOT_LOOP __attribute__((target_clones("avx2", "default")))
