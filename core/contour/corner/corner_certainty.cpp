@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/angle.h"
@@ -70,18 +71,6 @@ double CornerJudge::chordTurn(double arc, double near, double before, double aft
   return -std::atan2(cross(in, out), in.dot(out));
 }
 
-CornerJudge::Nearest CornerJudge::nearestTo(const Vec2& place, int from, double reachPx) const {
-  const int n = static_cast<int>(contour_.points.size()), reach = static_cast<int>(kPointsPerPx * reachPx);
-  Nearest nearest;
-  for (int k = -reach; k <= reach; ++k) {
-    const int i = contour_.closed ? wrapIndex(from + k, n) : from + k;
-    if (i < 0 || i >= n) continue;
-    const double distance = (contour_.points[i].at - place).norm();
-    if (distance < nearest.distance) nearest = {i, distance};
-  }
-  return nearest;
-}
-
 // Of the largest rounding that fits between the located points on either side of a tip; infinite where there are none.
 double CornerJudge::unseenRadius(const CornerEvidence& e, int tip) const {
   const int n = static_cast<int>(contour_.points.size());
@@ -99,8 +88,9 @@ double CornerJudge::unseenRadius(const CornerEvidence& e, int tip) const {
 double CornerJudge::certainty(const CornerEvidence& e) const {
   const double unit = unitAt(e), angle = std::abs(e.angleRad);
   if (!(angle > 0.0)) return 0.0;
-  Nearest tip{e.pointIndex, 0.0};
-  if (e.isLocated) tip = nearestTo(e.positionPx, e.pointIndex, kFarthestVertex * unit);
+  NearestPoint tip{e.pointIndex, 0.0};
+  if (e.isLocated)
+    tip = nearestAlong(contour_, e.pointIndex, e.positionPx, static_cast<int>(kPointsPerPx * kFarthestVertex * unit));
   // Where the tip of a shape was filtered away the place that turns most may lie beside it.
   const bool isTipLost = contour_.kind == ContourKind::Outline && !contour_.points[tip.index].refined;
   const double arc = arc_[isTipLost ? tip.index : e.pointIndex];

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "core/base/vec2.h"
@@ -36,13 +35,6 @@ class CornerJudge {
 
  private:
   double unitAt(const CornerEvidence&) const;
-  /// A point of the contour, and how far it lies from a place [px].
-  struct Nearest {
-    int index = 0;
-    double distance = std::numeric_limits<double>::infinity();
-  };
-  /// Within `reachPx` along the line.
-  Nearest nearestTo(const Vec2& place, int from, double reachPx) const;
   double unseenRadius(const CornerEvidence&, int tip) const;
   Vec2 atArc(double) const;
   double chordTurn(double arc, double near, double before, double after) const;

@@ -92,10 +92,7 @@ CornerFix askPixels(const GreyImage& grey, double blurPx, const CornerSides& sid
   return fix;
 }
 
-struct NearestPoint {
-  int index = 0;
-  double distance = 0.0;
-};
+}  // namespace
 
 NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, int reach) {
   const int n = static_cast<int>(contour.points.size());
@@ -108,8 +105,6 @@ NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, 
   }
   return best;
 }
-
-}  // namespace
 
 std::optional<OneSidedFit> fitOneSide(const Contour& contour, int index, int side, double inner, double outer,
                                       int maxOrder) {

@@ -24,6 +24,14 @@ struct OneSidedFit {
 std::optional<OneSidedFit> fitOneSide(const Contour& contour, int index, int side, double inner, double outer,
                                       int maxOrder = 2);
 
+/// The point of a contour that is nearest to a place.
+struct NearestPoint {
+  int index = 0;
+  double distance = 0.0;  ///< [px]
+};
+/// Looks from the point `at` over `reach` points on either side; of equally near ones `at` itself, then the first.
+NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, int reach);
+
 /// Change of direction at a point, from two one-sided fits.
 struct Turning {
   double angleRad = 0.0;  ///< -pi..pi, positive to the left in the model frame (image: y down).
@@ -40,7 +48,7 @@ inline constexpr double kFarthestTipPx = 60.0;
 struct CornerFix {
   Vec2 position = Vec2::Zero();
   double angleRad = 0.0;
-  double zonePx = 4.0;  ///< [px] nearer points are unreliable: rounded by blur, or shifted by the other leg.
+  double zonePx = 4.0;  ///< [px] nearer points are unreliable: rounded by blur, or shifted by the other side.
   bool exact = false;   ///< False: the sides do not meet well; position is the contour point.
 };
 CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
@@ -51,7 +59,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
 std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int> indices, const RunContext&,
                                      const GreyImage* grey = nullptr);
 
-/// [px] Points nearer than this to a corner are rounded by blur (outlines) or by the other leg's ink (strokes).
+/// [px] Points nearer than this to a corner are rounded by blur (outlines) or by the other side's ink (strokes).
 double roundedZonePx(const Contour& contour, int index);
 
 }  // namespace batten
