@@ -140,8 +140,6 @@ void smoothAcross(const float* const* rows, float* out, int count, const std::ve
   }
 }
 
-void scaleGrey(const std::uint16_t* in, float* out, int count) { scaleRow(in, out, count); }
-
 namespace {
 
 /// A row smoothed along itself; its ends are repeated outside.

@@ -29,8 +29,6 @@ std::vector<float> gaussianKernel(double variance);
 void smoothAlong(const float* in, float* out, int count, const std::vector<float>& kernel);
 /// Smooths across rows: `rows` are 2 radius + 1 pointers, the middle one is the output row.
 void smoothAcross(const float* const* rows, float* out, int count, const std::vector<float>& kernel);
-/// Grey of 16 bit as grey levels 0..255.
-void scaleGrey(const std::uint16_t* in, float* out, int count);
 
 /// Separable smoothing; the border is repeated outside.
 Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context);
