@@ -87,6 +87,9 @@ TEST_F(RectifyWindow, IsOfferedDoneKeepsTheMarksAndIsUndone) {
   EXPECT_GT(std::abs(aspect() - 1.0), 0.02);
   const int step = session().undoStack()->index();
   const auto picture = session().scan();
+  window_->resize(1366, 720);
+  EXPECT_TRUE(waitUntil([&] { return rectify_->visibleRegion().boundingRect() == rectify_->rect(); }, 3000))
+      << "seen in a low window without scrolling";
   rectify_->click();
   EXPECT_EQ(session().undoStack()->index(), step + 1);
   ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
