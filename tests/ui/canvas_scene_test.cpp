@@ -32,6 +32,18 @@ TEST(ViewTransform, FitsTheWholeImage) {
   }
 }
 
+// Over targets and plots, on a small screen: an edge as wide as elsewhere would take a sixth of the height.
+TEST(ViewTransform, ALowViewIsFilled) {
+  for (const double ratio : {1.0, 2.0}) {
+    ViewTransform view;
+    view.setImageSize({1500, 1000});
+    view.setViewSize(QSize(static_cast<int>(900 * ratio), static_cast<int>(300 * ratio)), ratio);
+    view.fit();
+    EXPECT_NEAR(view.toWidget({0, 0}).y(), 12.0, 1.0);
+    EXPECT_NEAR(view.toWidget({1500, 1000}).y(), 288.0, 1.0);
+  }
+}
+
 TEST(ViewTransform, WidgetAndImageAreInverse) {
   ViewTransform view = someView(1.5);
   view.zoomAt(3.7, {200, 150});
@@ -84,7 +96,7 @@ TEST(TilePyramid, EveryLevelShowsTheSameRamp) {
   ASSERT_GE(pyramid->levels.size(), 3u);
   for (const double zoom : {4.0, 1.0, 0.6, 0.3, 0.11, 0.05}) {
     const QRect device(0, 0, static_cast<int>(3001 * zoom), 8);
-    std::vector<std::uint8_t> grey(static_cast<std::size_t>(device.width()) * 8);
+    std::vector<std::uint8_t> grey(device.width() * 8);
     sampleGrey(*pyramid, zoom, device, grey.data());
     for (int i = 2; i + 2 < device.width(); i += 7) {
       const double expected = 255.0 * ((i + 0.5) / zoom - 0.5) / 3000.0;

@@ -77,10 +77,16 @@ std::optional<Rectification> rectificationIn(const std::optional<PageRecord>& re
   }
   params.use = RectifyUse::Corners;
   made.cornersPx = params.cornersPx;
-  constexpr int kMostPx = 100'000;
-  const bool isSized = std::min(made.widthPx, made.heightPx) > 0 && std::max(made.widthPx, made.heightPx) < kMostPx;
-  if (validate(params) || !isSized) return std::nullopt;
+  if (validate(params)) return std::nullopt;
   return made;
+}
+
+/// Whether a page of this size can have been made of a picture: the record is a file that anyone may have changed.
+bool isPageOf(const GreyImage& picture, const Rectification& page) {
+  constexpr double kMostPagePixels = 3.0;  // for one of the picture; rectifying makes fewer
+  const auto pixels = [](double width, double height) { return width * height; };
+  return page.widthPx > 0 && page.heightPx > 0 &&
+         pixels(page.widthPx, page.heightPx) <= kMostPagePixels * pixels(picture.width, picture.height);
 }
 
 /// The page made small by averaging; the empty image if its scan cannot be read.
@@ -89,7 +95,7 @@ QImage smallPicture(const BatchPage& page, const std::optional<Rectification>& r
   context.threads = 1;
   auto scan = readScan(page.scan, {.page = {page.page, PageChoice{}.pdfDpi}}, context);
   if (!scan) return {};
-  if (rectification)
+  if (rectification && isPageOf(scan->grey, *rectification))
     scan->grey =
         resampled(scan->grey, SheetMap(*rectification), rectification->widthPx, rectification->heightPx, context);
   const GreyImage& grey = scan->grey;
@@ -176,7 +182,7 @@ Result<Card> cardOf(const BatchPage& page, const std::string* error, const fs::p
       return fail(ErrorCode::CannotWrite, "Cannot write the thumbnails of the overview: this Qt has no JPEG writer.");
     }
     const QByteArray& made = bytes.data();
-    if (auto saved = saveAtomically(card.picture, {made.data(), static_cast<std::size_t>(made.size())}); !saved) {
+    if (auto saved = saveAtomically(card.picture, std::string_view(made.data(), made.size())); !saved) {
       return fail(saved.error());
     }
   }
@@ -284,9 +290,8 @@ Result<void> writeContactSheet(const std::vector<BatchPage>& pages, const std::m
   {
     const QuietStderr quiet;
     parallelFor(RunContext{}, static_cast<int>(pages.size()), 1, [&](int begin, int) {
-      const auto i = static_cast<std::size_t>(begin);
-      const auto error = errors.find(i);
-      cards[i] = cardOf(pages[i], error == errors.end() ? nullptr : &error->second, pictures);
+      const auto error = errors.find(begin);
+      cards[begin] = cardOf(pages[begin], error == errors.end() ? nullptr : &error->second, pictures);
     });
   }
   std::map<std::string, int> kinds;
@@ -309,8 +314,7 @@ Result<void> writeContactSheet(const std::vector<BatchPage>& pages, const std::m
     for (std::size_t i = k * kPagesAFile; i < end; ++i)
       html += figureOf(pages[i], *cards[i], captions[i], files[k].parent_path());
     html += "</main>" + links + "</body></html>\n";
-    if (auto saved = saveAtomically(files[k], {html.data(), static_cast<std::size_t>(html.size())}); !saved)
-      return saved;
+    if (auto saved = saveAtomically(files[k], std::string_view(html.data(), html.size())); !saved) return saved;
   }
   return {};
 }

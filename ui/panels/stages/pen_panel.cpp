@@ -44,6 +44,8 @@ PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
   layout->addWidget(list_);
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), list_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &PenPanel::removeSelected);
+  remove_->setToolTip(tr("Removes the line that is selected in the list."));
+  removeAll_->setToolTip(tr("Removes all lines drawn by hand."));
   connect(remove_, &QPushButton::clicked, this, &PenPanel::removeSelected);
   connect(removeAll_, &QPushButton::clicked, this, [this] { removeAllStrokes(session_); });
   connect(draw_, &QPushButton::clicked, this, [this](bool on) { view_.setTool(on ? Tool::Pen : Tool::Select); });
@@ -51,7 +53,7 @@ PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
   connect(list_, &QListWidget::currentRowChanged, this, [this](int row) {
     remove_->setEnabled(row >= 0);
     if (filling_ || row < 0) return;
-    if (const auto curve = curveOfStroke(session_, static_cast<std::size_t>(row))) session_.selectCurve(*curve);
+    if (const auto curve = curveOfStroke(session_, row)) session_.selectCurve(*curve);
   });
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::runFinished})
@@ -83,7 +85,7 @@ void PenPanel::refresh() {
 
 void PenPanel::removeSelected() {
   const int row = list_->currentRow();
-  if (row >= 0) removeStroke(session_, static_cast<std::size_t>(row));
+  if (row >= 0) removeStroke(session_, row);
 }
 
 }  // namespace batten
