@@ -35,7 +35,7 @@ double toChords(const std::vector<CurvePlace>& places, std::size_t i, const Vec2
 
 /// Straight lines across a square, from one random place to the next.
 std::vector<CurvePlace> scribbledPlaces(int lines, std::mt19937& random) {
-  constexpr int kPerLine = 10;
+  constexpr int kPerLine = 40;
   std::uniform_real_distribution<double> where(0.0, 50.0);
   std::vector<CurvePlace> places;
   Vec2 from(where(random), where(random));
@@ -72,7 +72,7 @@ TEST(SampleTree, AnswersAsASearchThroughAll) {
   std::uniform_real_distribution<double> where(-10.0, 60.0);
   std::vector<std::vector<CurvePlace>> lines;
   for (const int count : {1, 2, 8, 9, 100, 1500}) lines.push_back(windingPlaces(count, random));
-  lines.push_back(scribbledPlaces(200, random));
+  lines.push_back(scribbledPlaces(50, random));
   for (const std::vector<CurvePlace>& line : lines) {
     const SampleTree tree(line);
     const auto& places = tree.places();
@@ -100,7 +100,7 @@ TEST(SampleTree, AnswersAsASearchThroughAll) {
 TEST(SampleTree, LooksAtFewBoxesWhereALineCrossesItselfEverywhere) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> where(5.0, 45.0);
-  const SampleTree tree(scribbledPlaces(4000, random));
+  const SampleTree tree(scribbledPlaces(1000, random));
   int asked = 0;
   constexpr int kQueries = 100;
   for (int query = 0; query < kQueries; ++query) {
