@@ -12,10 +12,9 @@
 namespace batten {
 namespace {
 
-/// Heights of the window below which the strip shrinks, and the plots fold.
-constexpr int kLowWindow = 760, kLowestWindow = 660;
-/// The drawing keeps this much of the height between the bars.
-constexpr int kLeastDrawing = 230;
+constexpr int kLowestWindow = 660;  ///< [px] Height of the window below which the plots fold.
+constexpr int kUsualLower = 380;    ///< [px] Of targets and plots, where half of the window is left beside them.
+constexpr int kLeastDrawing = 230;  ///< [px] That the drawing keeps when targets and plots are drawn higher.
 
 /// Curves are judged there; elsewhere targets and plots would be noise.
 bool isJudging(PanelStage stage) { return stage == PanelStage::Curves || stage == PanelStage::Fairing; }
@@ -41,14 +40,16 @@ void MainWindow::fitLower() {
   Parts& p = *parts_;
   const bool isWanted = isLowerWanted();
   p.foldAction->setChecked(isWanted);
-  p.strip->setLow(height() < kLowWindow);
-  p.plots->setVisible(height() >= kLowestWindow);
+  const bool hasPlots = height() >= kLowestWindow;
+  p.plots->setVisible(hasPlots);
   p.lower->setVisible(isWanted);
+  // Half of the window is the drawing's; the tiles take what the plot leaves of the rest.
+  const int room = p.splitter->height() - height() / 2;
+  p.strip->fitInto(room - (hasPlots ? p.plots->goodHeight() : 0), hasPlots);
   if (!isWanted) return;
-  const int least = p.strip->height() + (p.plots->isHidden() ? 0 : p.plots->minimumSizeHint().height());
-  const bool isLow = height() < kLowWindow;
+  const int least = p.strip->height() + (hasPlots ? p.plots->minimumSizeHint().height() : 0);
   const int most = std::max(least, p.splitter->height() - kLeastDrawing);
-  const int lower = isLow ? least : std::clamp(p.lowerPx, least, most);
+  const int lower = hasPlots ? std::clamp(p.lowerPx.value_or(std::min(kUsualLower, room)), least, most) : least;
   p.splitter->setSizes({std::max(1, p.splitter->height() - lower), lower});
 }
 

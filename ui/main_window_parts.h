@@ -4,6 +4,7 @@
 #include <QHash>
 #include <QPainter>
 #include <QPointer>
+#include <optional>
 #include <vector>
 
 #include "ui/command_palette.h"
@@ -59,7 +60,7 @@ struct MainWindow::Parts {
     bool before, during;
   };
   bool isFitting = false;       ///< fitLower() is on its way.
-  int lowerPx = 380;            ///< Height of targets and plots in a roomy window, as the user drew it.
+  std::optional<int> lowerPx;   ///< Height of targets and plots, once the user has drawn it.
   bool showsLower = true;       ///< Whether they are shown in the stages that they belong to.
   bool showsLowerHere = false;  ///< Brought up by hand in another stage, until it is left.
   SettingFinder* settings = nullptr;

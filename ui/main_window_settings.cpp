@@ -161,7 +161,7 @@ void MainWindow::loadSettings() {
     if (!visible && QGuiApplication::primaryScreen())
       move(QGuiApplication::primaryScreen()->availableGeometry().topLeft());
   }
-  parts_->lowerPx = settings.value(kLowerKey, parts_->lowerPx).toInt();
+  if (settings.contains(kLowerKey)) parts_->lowerPx = settings.value(kLowerKey).toInt();
   parts_->showsLower = settings.value(QStringLiteral("window/plots"), true).toBool();
   settings.beginGroup(QStringLiteral("view"));
   for (const Layer layer : kLayers)
@@ -179,7 +179,7 @@ void MainWindow::loadSettings() {
 void MainWindow::saveSettings() {
   QSettings settings;
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  settings.setValue(kLowerKey, parts_->lowerPx);
+  if (parts_->lowerPx) settings.setValue(kLowerKey, *parts_->lowerPx);
   settings.setValue(QStringLiteral("window/plots"), parts_->showsLower);
   settings.beginGroup(QStringLiteral("view"));
   for (const Layer layer : kLayers) {

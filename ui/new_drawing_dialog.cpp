@@ -27,11 +27,11 @@ constexpr double kMostPx = 20000.0;
 
 NewDrawingDialog::NewDrawingDialog(QWidget* parent)
     : QDialog(parent),
-      format_(new SegmentedControl({tr("A4 wide"), tr("A4 high"), tr("A3 wide")}, this)),
+      format_(new SegmentedControl({tr("A4 landscape"), tr("A4 portrait"), tr("A3 landscape")}, this)),
       width_(new NumberField(this)),
       height_(new NumberField(this)),
       dpi_(new NumberField(this)),
-      begin_(plainButton(tr("Begin"), QStringLiteral("newDrawing.begin"), this)) {
+      begin_(plainButton(tr("Create"), QStringLiteral("newDrawing.begin"), this)) {
   setObjectName(QStringLiteral("newDrawing"));
   setWindowTitle(tr("New drawing"));
   auto* grid = new QGridLayout(this);
@@ -39,7 +39,7 @@ NewDrawingDialog::NewDrawingDialog(QWidget* parent)
   grid->setVerticalSpacing(10);
   grid->setHorizontalSpacing(16);
   auto* about = note(tr("An empty page to draw on with the pen. It can be saved as a recipe and opened again."), this);
-  about->setFixedWidth(280);
+  about->setFixedWidth(320);
   grid->addWidget(about, 0, 0, 1, 2);
   format_->setNames(QStringLiteral("newDrawing.format"),
                     {QStringLiteral("a4-wide"), QStringLiteral("a4-high"), QStringLiteral("a3-wide")});

@@ -110,6 +110,9 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
   if (scan.rectification) {
     page.sheet = sheetWithinRim(scan.grey.width, scan.grey.height);
     page.grey = onlyTheSheet(greyOf(scan, page), *page.sheet, context);
+    page.notes.push_back("A rim of " + roundedText(page.sheet->outlinePx.front().x(), 0) +
+                         " px along the border of the rectified page, where the edge of its sheet lies, was cut off; "
+                         "paper.sheet=off keeps it.");
     return;
   }
   auto sheet = findPaperSheet(scan.grey, scan.colour, context);

@@ -9,35 +9,30 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/image/facing_pages.h"
 #include "core/image/push_pull.h"
+#include "core/image/shaded_paper.h"
 #include "core/image/sheet_cells.h"
 #include "core/image/sheet_edges.h"
 
 namespace batten {
 namespace {
 
-constexpr float kMostStep = 7.0f;       // [grey] from cell to cell of one sheet, in brightness and in colour
-constexpr double kMostRoughness = 9.0;  // [grey] between neighbours within a cell: carpet, wood, cloth
+constexpr double kMostRoughness = 9.0;                   // [grey] between neighbours within a cell: carpet, wood, cloth
 constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
 constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
-constexpr double kLeastPatch = 0.004;    // of the picture: smaller patches at the border are ink that runs off it
-constexpr double kLeastAlongSide = 0.2;  // of a side of the picture that a patch beside the sheet takes
-constexpr double kSheetContrast = 12.0;  // [grey] of the patch against the sheet beside it
-constexpr double kDarkestOnSheet = 0.6;  // of its brightness: behind a fold or in a shadow paper is no darker
-constexpr double kSameGrain = 1.25;      // times the sheet's roughness
-constexpr double kLeastGrain = 1.5, kEqualGrain = 0.05;  // [grey] and its share: grain so much alike is of one paper
-constexpr double kLeastDrawn = 0.003, kLeastDrawnOfSheet = 0.25;  // of a patch, and of what the sheet has drawn on it
-constexpr double kLeastInkDepth = 2.0;                            // [grey]
-constexpr double kInkSigmas = 4.0;                                // of the noise
-constexpr int kLeastLineCells = 8;                                // noise makes no line of so many cells
-constexpr int kEdgeCells = 7;                                     // the sheet's edge and its shadow are of neither side
-constexpr int kBesideEdgeCells = 61;                              // 30 to either side
-constexpr double kSheetRimShare = 0.006;                          // of the diagonal: the sheet's edge and its shadow
-constexpr double kNeckShare = 0.01;  // of the diagonal: narrower parts of the sheet are torn edges and ring holes
+constexpr double kLeastPatch = 0.004;      // of the picture: smaller patches at the border are ink that runs off it
+constexpr double kLeastAlongSide = 0.2;    // of a side of the picture that a patch beside the sheet takes
+constexpr double kSheetContrast = 12.0;    // [grey] of the patch against the sheet beside it
+constexpr double kMostKnown = 0.5;         // of a side of the picture
+constexpr int kBesideEdgeCells = 61;       // 30 to either side
+constexpr double kSheetRimShare = 0.006;   // of the diagonal: the sheet's edge and its shadow
+constexpr double kNeckShare = 0.01;        // of the diagonal: narrower parts of the sheet are torn edges and ring holes
+constexpr double kPocketNeckShare = 0.02;  // of the diagonal: what hangs on the table by narrower parts is paper
 
 bool isOneSheet(const cv::Vec3f& a, const cv::Vec3f& b) {
-  return std::fabs(a[0] - b[0]) <= kMostStep && std::fabs(a[1] - b[1]) <= kMostStep &&
-         std::fabs(a[2] - b[2]) <= kMostStep;
+  return std::fabs(a[0] - b[0]) <= kMostSheetStep && std::fabs(a[1] - b[1]) <= kMostSheetStep &&
+         std::fabs(a[2] - b[2]) <= kMostSheetStep;
 }
 
 /// Cells joined as long as brightness and colour change slowly; rough ones stay alone. Labels from 0.
@@ -91,65 +86,26 @@ bool isBeside(const BorderPatch& patch, const cv::Size& size) {
   return std::max(across, down) >= kLeastAlongSide;
 }
 
-/// Thin lines that are darker than what is around them, by cells.
-cv::Mat1b drawnCells(const SheetCells& cells) {
-  cv::Mat1f around;
-  cv::medianBlur(cells.dark, around, 5);
-  const cv::Mat1f depth = around - cells.dark;
-  std::vector<float> noise;
-  for (const float d : depth) noise.push_back(std::fabs(d));
-  const double least = std::max(kLeastInkDepth, kInkSigmas * kSigmaPerMad * static_cast<double>(upperMedian(noise)));
-  const cv::Mat1b dark = depth > least;
-  cv::Mat1i labels;
-  cv::Mat stats, centres;
-  cv::connectedComponentsWithStats(dark, labels, stats, centres, 8, CV_32S);
-  cv::Mat1b drawn(dark.size(), 0);
-  for (int j = 0; j < dark.rows; ++j) {
-    for (int i = 0; i < dark.cols; ++i)
-      drawn(j, i) = labels(j, i) > 0 && stats.at<int>(labels(j, i), cv::CC_STAT_AREA) >= kLeastLineCells ? 255 : 0;
+/// The largest even area of the picture, and the facing page where it is a page of an open book.
+cv::Mat1b sheetCells(const SheetCells& cells) {
+  const cv::Mat1i labels = joinCells(cells);
+  std::vector<int> areas;
+  for (const int label : labels) {
+    if (label >= std::ssize(areas)) areas.resize(static_cast<std::size_t>(label) + 1, 0);
+    ++areas[label];
   }
-  return drawn;
+  const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+  cv::Mat1b sheet = filledSheet(labels == largest);
+  for (int label = 0; label < std::ssize(areas); ++label) {
+    if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
+    const cv::Mat1b page = filledSheet(labels == label);
+    // Within the sheet it is a shape that was drawn.
+    if (cv::countNonZero(page & sheet) > 0 || !isFacingPage(page, sheet, cells, ShadedPaper(sheet, cells))) continue;
+    sheet |= page;
+    break;
+  }
+  return sheet;
 }
-
-double shareOf(const cv::Mat1b& drawn, const cv::Mat1b& within) {
-  const int all = cv::countNonZero(within);
-  return all > 0 ? static_cast<double>(cv::countNonZero(drawn & within)) / all : 0.0;
-}
-
-/// What tells the sheet itself in shade, behind a fold or in a shadow, from a table: it has the sheet's colour and
-/// grain, is not much darker, and either its grain is exactly the same or the drawing goes on upon it.
-class ShadedPaper {
- public:
-  ShadedPaper(const cv::Mat1b& sheet, const SheetCells& cells)
-      : cells_(cells),
-        drawn_(drawnCells(cells)),
-        mean_(cv::mean(cells.colour, sheet)),
-        rough_(cv::mean(cells.rough, sheet)[0]),
-        drawnOnSheet_(shareOf(drawn_, sheet)) {
-    cv::dilate(sheet, near_, cv::getStructuringElement(cv::MORPH_RECT, {kEdgeCells, kEdgeCells}));
-  }
-  bool isOne(const cv::Mat1b& patch) const {
-    const cv::Scalar mean = cv::mean(cells_.colour, patch);
-    if (mean[0] > mean_[0] || mean[0] < kDarkestOnSheet * mean_[0]) return false;
-    for (const int k : {1, 2})
-      if (std::fabs(mean[k] - mean_[k]) > kMostStep) return false;
-    const double grain = cv::mean(cells_.rough, patch)[0] / std::max(rough_, kLeastGrain);
-    if (rough_ >= kLeastGrain && std::fabs(grain - 1.0) <= kEqualGrain) return true;
-    if (grain > kSameGrain) return false;
-    // The edge itself is of neither.
-    return isDrawnOn(patch & (near_ == 0));
-  }
-  /// Whether the drawing goes on upon a patch.
-  bool isDrawnOn(const cv::Mat1b& patch) const {
-    return shareOf(drawn_, patch) >= std::max(kLeastDrawn, kLeastDrawnOfSheet * drawnOnSheet_);
-  }
-
- private:
-  const SheetCells& cells_;
-  cv::Mat1b drawn_, near_;
-  cv::Scalar mean_;
-  double rough_ = 0.0, drawnOnSheet_ = 0.0;
-};
 
 /// Cells beside the sheet: patches outside it that reach a corner of the picture and run along its border. The rest
 /// outside it is ink that runs off the page, and stays.
@@ -192,11 +148,57 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
   return beside;
 }
 
+cv::Mat discOf(const cv::Size& size, double shareOfDiagonal) {
+  const int radius = std::max(1, static_cast<int>(std::lround(shareOfDiagonal * std::hypot(size.width, size.height))));
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+}
+
+/// The parts of a mask that touch another one.
+cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
+  cv::Mat1b near;
+  cv::dilate(other, near, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  cv::Mat1i labels;
+  std::vector<bool> touches(cv::connectedComponents(mask, labels, 8, CV_32S), false);
+  for (int j = 0; j < mask.rows; ++j) {
+    for (int i = 0; i < mask.cols; ++i) {
+      if (near(j, i) != 0) touches[labels(j, i)] = true;
+    }
+  }
+  cv::Mat1b out(mask.size(), static_cast<unsigned char>(0));
+  for (int j = 0; j < mask.rows; ++j) {
+    for (int i = 0; i < mask.cols; ++i) out(j, i) = labels(j, i) > 0 && touches[labels(j, i)] ? 255 : 0;
+  }
+  return out;
+}
+
+/// What lies beside the sheet without what hangs on it by a narrow neck only: a shape whose outline was drawn up to the
+/// edge of the sheet encloses paper.
+cv::Mat1b withoutPockets(const cv::Mat1b& beside) {
+  const cv::Mat disc = discOf(beside.size(), kPocketNeckShare);
+  cv::Mat1b core, table, broad, border(beside.size(), 255);
+  border(cv::Rect(1, 1, beside.cols - 2, beside.rows - 2)) = 0;
+  cv::erode(beside, core, disc, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::dilate(partsTouching(core, border), table, disc);
+  cv::dilate(core, broad, disc);
+  const cv::Mat1b narrow = beside & (broad == 0);
+  return table | partsTouching(narrow, table | border);
+}
+
+/// Share of what a mask holds at the border of the picture that another holds, too.
+double shareAtBorder(const cv::Mat1b& mask, const cv::Mat1b& other) {
+  cv::Mat1b border(mask.size(), 255);
+  border(cv::Rect(1, 1, mask.cols - 2, mask.rows - 2)) = 0;
+  return cv::countNonZero(mask & other & border) / std::max(1.0, 1.0 * cv::countNonZero(mask & border));
+}
+
 /// Cells beyond straight edges of the sheet upon which nothing is drawn, unless they are its paper in shade.
 void addBeyondEdges(cv::Mat1b& beside, const SheetCells& cells) {
-  const cv::Mat rim = cv::getStructuringElement(cv::MORPH_RECT, {kEdgeCells, kEdgeCells});
+  const cv::Mat rim = cv::getStructuringElement(cv::MORPH_RECT, {kSheetEdgeCells, kSheetEdgeCells});
   const cv::Mat besideEdge = cv::getStructuringElement(cv::MORPH_RECT, {kBesideEdgeCells, kBesideEdgeCells});
+  const cv::Mat1b table = beside.clone();
   for (const cv::Mat1b& beyond : beyondSheetEdges(cells)) {
+    // Where the table is known already the sheet ends at it.
+    if (shareAtBorder(beyond, table) > kMostKnown) continue;
     cv::Mat1b withRim, around, clear;
     cv::dilate(beyond, withRim, rim);
     cv::dilate(beyond, around, besideEdge);
@@ -260,25 +262,12 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
   if (std::min(grey.width, grey.height) < kFewestCells * kLeastCellPx) return std::nullopt;
   const SheetCells cells = sheetCellsOf(grey, colour, context);
   if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
-  const cv::Mat1i labels = joinCells(cells);
-  std::vector<int> areas;
-  for (const int label : labels) {
-    if (label >= std::ssize(areas)) areas.resize(static_cast<std::size_t>(label) + 1, 0);
-    ++areas[label];
-  }
-  const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
-  const cv::Mat1b joined = labels == largest;
-  cv::Mat1b beside = besideTheSheet(filledSheet(joined), cells);
+  cv::Mat1b beside = withoutPockets(besideTheSheet(sheetCells(cells), cells));
   addBeyondEdges(beside, cells);
   if (cv::countNonZero(beside) == 0) return std::nullopt;
-  const double diagonal = std::hypot(cells.columns, cells.rows);
   cv::Mat1b sheet = beside == 0;
-  const auto disc = [&](double share) {
-    const int radius = std::max(1, static_cast<int>(std::lround(share * diagonal)));
-    return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
-  };
   // Beyond the picture the sheet goes on: only what lies beside it is cut.
-  cv::morphologyEx(sheet, sheet, cv::MORPH_OPEN, disc(kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::morphologyEx(sheet, sheet, cv::MORPH_OPEN, discOf(sheet.size(), kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
   const double area = sheet.total(), share = cv::countNonZero(sheet) / area;
   if (share < kLeastSheet || share > kMostSheet) return std::nullopt;
   std::vector<cv::Point> places, hull;
@@ -289,7 +278,7 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
   found.cellPx = cells.sizePx;
   found.cornersPx = cornersOf(sheet, cells.sizePx);
   cv::Mat1b inside;
-  cv::erode(sheet, inside, disc(kSheetRimShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::erode(sheet, inside, discOf(sheet.size(), kSheetRimShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
   found.outlinePx = outlineOf(inside, cells.sizePx);
   found.inside = BitImage(cells.columns, cells.rows);
   for (int j = 0; j < cells.rows; ++j) {
@@ -317,7 +306,8 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx) {
   return sheet;
 }
 
-GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const RunContext& context) {
+GreyImage onlyTheSheet(const GreyImage& picture, const PaperSheet& sheet, const RunContext& context) {
+  const GreyImage page = pagesOnOneLevel(picture, sheet.inside, sheet.cellPx, context);
   const int columns = sheet.inside.width, rows = sheet.inside.height;
   std::vector<float> level(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0f),
       weight(level.size(), 0.0f);

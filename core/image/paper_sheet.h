@@ -25,14 +25,16 @@ struct PaperSheet {
 /// Finds the sheet: the largest even, bright area, if what lies beside it is of another brightness, colour or texture,
 /// reaches the border of the picture at a corner of it, and leaves the sheet about convex. Absent where the paper fills
 /// the picture, and where that is doubtful: a drawing with a dark ground is no table, nor is paper behind a fold or in
-/// a shadow, which is darker but has the sheet's colour and grain. White paper on a white table is found by its
+/// a shadow, which is darker but has the sheet's colour and grain. Of an open book both pages are the sheet if there is
+/// a drawing on each. White paper on a white table is found by its
 /// straight edges (sheet_edges.h), unless the drawing goes on beyond them.
 std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
 
 /// The page of a scan whose sheet fills it, without a narrow rim: the sheet's edge and the shadow along it.
 PaperSheet sheetWithinRim(int widthPx, int heightPx);
 
-/// The page with all that lies beside the sheet painted over: the paper goes on, with its grain.
+/// The page with all that lies beside the sheet painted over: the paper goes on, with its grain. Two pages of an open
+/// book are brought to one level of brightness.
 GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet&, const RunContext&);
 
 }  // namespace batten

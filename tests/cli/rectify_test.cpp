@@ -108,5 +108,23 @@ TEST_F(Rectify, TheOverviewOfABatchShowsTheRectifiedPage) {
   EXPECT_NEAR(std::stod(html.substr(at + 13)), 148.0 / 210.0, 0.02) << "not that of the photograph";
 }
 
+// A record is a file that anyone may have changed: its page must be one that the picture can make.
+TEST_F(Rectify, TheOverviewDoesNotTrustTheSizeInARecord) {
+  photo(25.0);
+  const std::string call = "batch " + file("photo.png") + " --to " + file("curves") +
+                           " --formats json --set paper.rectify=auto --sheet " + file("sheet.html");
+  ASSERT_EQ(run(call).code, 0);
+  const std::string name = "curves/photo.json.batch.json";
+  auto record = nlohmann::ordered_json::parse(test::readFile(file(name)));
+  record.at("figures").at("rectified").at("width") = 8000;
+  record["figures"]["rectified"].at("height") = 4000;
+  write(name, record.dump());
+  ASSERT_EQ(run(call).code, 0);
+  const std::string html = test::readFile(file("sheet.html"));
+  const auto at = html.find("aspect-ratio:");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NEAR(std::stod(html.substr(at + 13)), 720.0 / 960.0, 0.02) << "the picture as it is";
+}
+
 }  // namespace
 }  // namespace batten

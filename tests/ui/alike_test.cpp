@@ -44,6 +44,9 @@ class Alike : public test::WindowFixture {
   void openFairing(const QImage& page) {
     ASSERT_NO_FATAL_FAILURE(openPage(page));
     window_->setStage(PanelStage::Fairing);
+    // In a lower window the plot alone shows the profiles.
+    window_->resize(1280, 960);
+    ASSERT_TRUE(waitUntil([this] { return find<TargetTile>("target.1")->height() >= TargetTile::kLowHeight; }, 5000));
     session().selectCurve(0);
     ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
     ASSERT_TRUE(session().targets()->targets.profiles[0].valid);

@@ -32,6 +32,18 @@ TEST(ViewTransform, FitsTheWholeImage) {
   }
 }
 
+// Over targets and plots, on a small screen: an edge as wide as elsewhere would take a sixth of the height.
+TEST(ViewTransform, ALowViewIsFilled) {
+  for (const double ratio : {1.0, 2.0}) {
+    ViewTransform view;
+    view.setImageSize({1500, 1000});
+    view.setViewSize(QSize(static_cast<int>(900 * ratio), static_cast<int>(300 * ratio)), ratio);
+    view.fit();
+    EXPECT_NEAR(view.toWidget({0, 0}).y(), 12.0, 1.0);
+    EXPECT_NEAR(view.toWidget({1500, 1000}).y(), 288.0, 1.0);
+  }
+}
+
 TEST(ViewTransform, WidgetAndImageAreInverse) {
   ViewTransform view = someView(1.5);
   view.zoomAt(3.7, {200, 150});

@@ -8,6 +8,7 @@
 #include <QPainterPath>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QSplitter>
 #include <QTest>
 #include <algorithm>
 #include <set>
@@ -27,7 +28,10 @@ namespace {
 
 using test::waitUntil;
 
-class Layout : public test::WindowFixture {};
+class Layout : public test::WindowFixture {
+ protected:
+  int canvasHeight() { return find<CurveCanvas>("canvas")->height(); }
+};
 
 TEST_F(Layout, InALowWindowTheDrawingComesFirst) {
   openPage(test::ellipsePage());
@@ -47,6 +51,51 @@ TEST_F(Layout, InALowWindowTheDrawingComesFirst) {
   EXPECT_TRUE(find<QWidget>("targetStrip")->isVisible());
   window_->resize(1280, 860);
   EXPECT_TRUE(waitUntil([&] { return plots->isVisible() && plots->height() == roomy; }, 5000)) << plots->height();
+}
+
+// From a small laptop with the title and task bars taken off to a large screen, in the sizes nobody has chosen.
+TEST_F(Layout, TheDrawingHasHalfOfTheWindowAndThePlotCanBeRead) {
+  openPage(test::ellipsePage());
+  auto* plot = find<QWidget>("plot");
+  auto* canvas = find<CurveCanvas>("canvas");
+  for (const QSize size : {QSize(1366, 696), QSize(1366, 720), QSize(1366, 768), QSize(1440, 800), QSize(1500, 920)}) {
+    window_->resize(size);
+    ASSERT_TRUE(waitUntil([&] { return window_->size() == size; }, 5000));
+    for (const PanelStage stage : {PanelStage::Curves, PanelStage::Fairing}) {
+      window_->setStage(stage);
+      EXPECT_TRUE(waitUntil([&] { return canvas->height() >= 0.48 * size.height() && plot->height() >= 200; }, 3000))
+          << size.height() << ": " << canvas->height() << " and " << plot->height();
+      for (const TargetTile* tile : window_->findChildren<TargetTile*>()) {
+        EXPECT_FALSE(tile->visibleRegion().isEmpty()) << size.height();
+        EXPECT_EQ(tile->visibleRegion().boundingRect(), tile->rect()) << size.height() << ", cut off";
+      }
+    }
+  }
+}
+
+TEST_F(Layout, AHeightDrawnByHandStaysInALowWindow) {
+  openPage(test::ellipsePage());
+  window_->resize(1366, 720);
+  window_->setStage(PanelStage::Fairing);
+  auto* canvas = find<CurveCanvas>("canvas");
+  ASSERT_TRUE(waitUntil([&] { return window_->height() == 720 && find<QWidget>("plots")->isVisible(); }, 5000));
+  QTest::qWait(50);
+  auto* handle = find<QSplitter>("centreSplitter")->handle(1);
+  const QPoint at = handle->rect().center();
+  QTest::mousePress(handle, Qt::LeftButton, {}, at);
+  QTest::mouseMove(handle, at - QPoint(0, 40));
+  QTest::mouseRelease(handle, Qt::LeftButton, {}, at - QPoint(0, 40));
+  const int drawn = canvas->height();
+  window_->setStage(PanelStage::Corners);
+  window_->setStage(PanelStage::Fairing);
+  EXPECT_TRUE(waitUntil([&] { return std::abs(canvas->height() - drawn) <= 1; }, 2000)) << canvas->height();
+  EXPECT_LT(drawn, 345) << "it was drawn up from half of the window";
+  window_->close();
+  openWindow();
+  window_->resize(1366, 720);
+  openPage(test::ellipsePage());
+  window_->setStage(PanelStage::Fairing);
+  EXPECT_TRUE(waitUntil([&] { return std::abs(canvasHeight() - drawn) <= 1; }, 2000)) << canvasHeight();
 }
 
 TEST_F(Layout, OnlyWhatTheToleranceAllowsIsRecommended) {

@@ -25,13 +25,17 @@ test::PhotoCamera cameraOf(double tiltDeg) {
       kPhotoHeight);
 }
 
-QImage photo(double tiltDeg) {
-  const Scan scan = renderPhoto(
-      cameraOf(tiltDeg), [](const Vec2& mm) { return std::abs((mm - Vec2(74, 100)).norm() - 45.0) < 0.8 ? 1.0 : 0.0; });
+QImage imageOf(const Scan& scan) {
   QImage image(kPhotoWidth, kPhotoHeight, QImage::Format_Grayscale8);
   for (int y = 0; y < kPhotoHeight; ++y)
     for (int x = 0; x < kPhotoWidth; ++x) image.scanLine(y)[x] = static_cast<uchar>(scan.grey.row(y)[x] / 257);
   return image;
+}
+
+QImage photo(double tiltDeg) {
+  return imageOf(renderPhoto(cameraOf(tiltDeg), [](const Vec2& mm) {
+    return std::abs((mm - Vec2(74, 100)).norm() - 45.0) < 0.8 ? 1.0 : 0.0;
+  }));
 }
 
 class RectifyWindow : public test::WindowFixture {
@@ -83,6 +87,9 @@ TEST_F(RectifyWindow, IsOfferedDoneKeepsTheMarksAndIsUndone) {
   EXPECT_GT(std::abs(aspect() - 1.0), 0.02);
   const int step = session().undoStack()->index();
   const auto picture = session().scan();
+  window_->resize(1366, 720);
+  EXPECT_TRUE(waitUntil([&] { return rectify_->visibleRegion().boundingRect() == rectify_->rect(); }, 3000))
+      << "seen in a low window without scrolling";
   rectify_->click();
   EXPECT_EQ(session().undoStack()->index(), step + 1);
   ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
@@ -194,6 +201,94 @@ TEST_F(RectifyWindow, ARecipeWithCornersOpensRectifiedAndFailsWithAReasonOnAnoth
   session().undoStack()->undo();
   ASSERT_TRUE(waitUntil([&] { return !session().output().error && !session().isBusy(); }));
   EXPECT_NEAR(aspect(), before, 1e-12);
+}
+
+// Back on the picture, what was found on it is still there.
+TEST_F(RectifyWindow, UndoneThePictureIsPreparedAlready) {
+  open(25.0);
+  const auto page = session().output().page;
+  ASSERT_TRUE(page);
+  rectify_->click();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  const auto rectifiedPage = session().output().page;
+  session().undoStack()->undo();
+  ASSERT_TRUE(waitUntil([&] { return !isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().output().page, page);
+  session().undoStack()->redo();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().output().page, rectifiedPage);
+}
+
+// The places of a recipe are those of the page that it makes, also where that page is still to be found.
+TEST_F(RectifyWindow, CurvesKeepTheirNumbersWhereTheRecipeLooksForTheSheet) {
+  open(25.0);
+  rectify_->click();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  Recipe kept = session().recipeToSave();
+  ASSERT_FALSE(kept.curveNumbers.curves.empty());
+  kept.preparation.rectify = {RectifyUse::Automatic, {}, kept.preparation.rectify.format};
+  for (NumberedCurve& curve : kept.curveNumbers.curves) curve.number += 40;
+  kept.curveNumbers.lastGiven += 40;
+  session().restore(path_, kept);
+  ASSERT_TRUE(waitUntil([&] { return session().wasRestored() && isRectified() && !session().isBusy(); }));
+  const CurveNumbers after = session().recipeToSave().curveNumbers;
+  EXPECT_EQ(after.lastGiven, kept.curveNumbers.lastGiven) << "no curve is new";
+  ASSERT_EQ(after.curves.size(), kept.curveNumbers.curves.size());
+  for (std::size_t i = 0; i < after.curves.size(); ++i)
+    EXPECT_EQ(after.curves[i].number, kept.curveNumbers.curves[i].number);
+}
+
+// Nothing is cut off along a frame that was drawn and chosen as the rectangle, other than along the edges of a sheet.
+TEST_F(RectifyWindow, NothingIsCutOffAlongADrawnFrameThatIsChosenAsTheRectangle) {
+  const Vec2 low(30, 50), high(118, 160);
+  const auto frame = [&](const Vec2& mm) {
+    const Vec2 off = (mm - 0.5 * (low + high)).cwiseAbs() - 0.5 * (high - low);
+    const bool isRing = std::abs((mm - Vec2(74, 100)).norm() - 30.0) < 0.8;
+    return isRing || std::abs(off.maxCoeff()) < 1.2 ? 1.0 : 0.0;
+  };
+  const test::PhotoCamera camera = cameraOf(25.0);
+  ASSERT_NO_FATAL_FAILURE(openPage(imageOf(renderPhoto(camera, frame))));
+  window_->setStage(PanelStage::Scan);
+  window_->action(ActionId::ToolSheet)->trigger();
+  window_->view().setSheetCorners(SheetCorners{camera.toPicture(low), camera.toPicture({high.x(), low.y()}),
+                                               camera.toPicture(high), camera.toPicture({low.x(), high.y()})});
+  find<QAbstractButton>("scan.rectify")->click();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  ASSERT_FALSE(session().output().error) << session().output().error->message;
+  EXPECT_EQ(session().recipe().preparation.sheet, SheetUse::Off);
+  ASSERT_TRUE(session().output().page);
+  EXPECT_FALSE(session().output().page->sheet);
+  const GreyImage& grey = tracedGrey(*session().scan(), session().output());
+  EXPECT_LT(grey.level(grey.width / 2, 0), 160.0) << "half the line of the frame";
+  session().undoStack()->undo();
+  ASSERT_TRUE(waitUntil([&] { return !isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().recipe().preparation.sheet, SheetUse::CutOff);
+  find<QAbstractButton>("scan.rectify")->click();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().recipe().preparation.sheet, SheetUse::CutOff) << "the sheet itself";
+}
+
+TEST_F(RectifyWindow, EnterAsksForCornersWhereNoneWereFoundOrMoved) {
+  open(0.0);
+  window_->action(ActionId::ToolSheet)->trigger();
+  const Recipe before = session().recipe();
+  auto* canvas = find<CurveCanvas>("canvas");
+  QTest::keyClick(canvas, Qt::Key_Return);
+  EXPECT_EQ(session().recipe(), before);
+  EXPECT_EQ(window_->view().tool(), Tool::Sheet);
+  EXPECT_TRUE(note_->isVisible() && note_->text().contains(QStringLiteral("Drag the corners")))
+      << note_->text().toStdString();
+  // The corners of a rectified page are its own: Enter leaves them.
+  drag({0.1 * kPhotoWidth, 0.1 * kPhotoHeight}, {140, 110});
+  QTest::keyClick(canvas, Qt::Key_Return);
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  const Recipe rectified = session().recipe();
+  const int step = session().undoStack()->index();
+  window_->action(ActionId::ToolSheet)->trigger();
+  QTest::keyClick(canvas, Qt::Key_Return);
+  EXPECT_EQ(session().recipe(), rectified);
+  EXPECT_EQ(session().undoStack()->index(), step);
+  EXPECT_EQ(window_->view().tool(), Tool::Select);
 }
 
 }  // namespace

@@ -124,15 +124,19 @@ TEST_F(Steady, SavedProfilesGrowWhereNothingIsBelowThem) {
   EXPECT_GT(panel->layout()->indexOf(shelf), panel->layout()->indexOf(fairingList()));
 }
 
-TEST_F(Steady, TheAxesOfThePlotKeep200PixelsOnASmallScreen) {
+// In lower windows half of the height is the drawing's, and the plot keeps 200 px with its numbers (Layout).
+TEST_F(Steady, TheAxesOfThePlotKeep200PixelsInAWindowOf800) {
   constexpr int kMarginsPx = 40;  // of the axes, for their names and numbers
   ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
-  window_->resize(1366, 720);
-  for (const PanelStage stage : {PanelStage::Curves, PanelStage::Fairing}) {
-    window_->setStage(stage);
-    auto* plot = find<QWidget>("plot");
-    EXPECT_TRUE(waitUntil([&] { return plot->height() >= 200 + kMarginsPx; }, 3000)) << plot->height();
-    EXPECT_GT(find<CurveCanvas>("canvas")->height(), 200);
+  for (const int height : {800, 850, 900}) {
+    window_->resize(1366, height);
+    ASSERT_TRUE(waitUntil([&] { return window_->height() == height; }, 5000));
+    for (const PanelStage stage : {PanelStage::Curves, PanelStage::Fairing}) {
+      window_->setStage(stage);
+      auto* plot = find<QWidget>("plot");
+      EXPECT_TRUE(waitUntil([&] { return plot->height() >= 200 + kMarginsPx; }, 3000)) << plot->height();
+      EXPECT_GE(find<CurveCanvas>("canvas")->height(), height / 2 - 1);
+    }
   }
 }
 
@@ -234,6 +238,24 @@ TEST_F(Steady, AnErrorCoversTheOfferOfUnsavedWorkOnlyUntilItIsDismissed) {
   EXPECT_TRUE(strip->message().isEmpty()) << "discarded";
 }
 
+TEST_F(Steady, TheDarkThemeIsDarkBeforeADrawingIsOpen) {
+  auto* canvas = find<CurveCanvas>("canvas");
+  window_->setThemeChoice(ThemeChoice::Dark);
+  QTest::qWait(50);
+  const QImage dark = canvas->grab().toImage();
+  window_->setThemeChoice(ThemeChoice::Light);
+  EXPECT_LT(qGray(dark.pixel(3, canvas->height() / 2)), 80);
+  int least = 255, most = 0;
+  for (int x = canvas->width() / 2 - 180; x < canvas->width() / 2 + 180; ++x) {
+    for (int y = canvas->height() / 2 - 20; y < canvas->height() / 2 + 20; ++y) {
+      least = std::min(least, qGray(dark.pixel(x, y)));
+      most = std::max(most, qGray(dark.pixel(x, y)));
+    }
+  }
+  EXPECT_LT(least, 80) << "the box of the invitation";
+  EXPECT_GT(most, 180) << "its words";
+}
+
 TEST_F(Steady, TheDarkThemeHasADarkDeskAndTheSamePage) {
   ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage({400, 400})));
   window_->setStage(PanelStage::Scan);
@@ -249,10 +271,26 @@ TEST_F(Steady, TheDarkThemeHasADarkDeskAndTheSamePage) {
   window_->setThemeChoice(ThemeChoice::Light);
 }
 
+TEST_F(Steady, WhatIsGreyedSaysWhy) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  Recipe recipe = session().recipe();
+  recipe.fairing.mode = FairingMode::Target;
+  session().change(QStringLiteral("Fairing"), recipe);
+  ASSERT_TRUE(settle());
+  for (const PanelStage stage : kPanelStages) {
+    window_->setStage(stage);
+    QCoreApplication::processEvents();
+    for (const auto* button : find<QWidget>("inspector")->findChildren<QAbstractButton*>()) {
+      if (!button->isVisible() || button->isEnabled()) continue;
+      EXPECT_FALSE(button->toolTip().isEmpty()) << label(stage).toStdString() << ": " << button->text().toStdString();
+    }
+  }
+}
+
 TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {
   ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
   window_->activateWindow();
-  for (const PanelStage stage : {PanelStage::Edges, PanelStage::Curves, PanelStage::Fairing, PanelStage::Export}) {
+  for (const PanelStage stage : kPanelStages) {
     window_->setStage(stage);
     QCoreApplication::processEvents();
     auto* canvas = find<CurveCanvas>("canvas");
@@ -282,6 +320,14 @@ TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {
     EXPECT_EQ(walked.front(), Panel) << label(stage).toStdString();
     EXPECT_EQ(walked.back(), Top) << label(stage).toStdString();
     EXPECT_TRUE(std::is_sorted(walked.begin(), walked.end())) << label(stage).toStdString() << ": " << names;
+    // And back the same way.
+    canvas->setFocus();
+    QTest::keyClick(canvas, Qt::Key_Backtab);
+    const QWidget* last = window_->focusWidget();
+    ASSERT_NE(last, nullptr);
+    EXPECT_TRUE(find<QWidget>("topBar")->isAncestorOf(last)) << label(stage).toStdString();
+    QTest::keyClick(window_->focusWidget(), Qt::Key_Tab);
+    EXPECT_EQ(window_->focusWidget(), canvas) << label(stage).toStdString();
   }
 }
 

@@ -17,10 +17,10 @@ namespace batten {
 
 RasterContent rasterContent(const CanvasScene& scene) {
   RasterContent content;
+  content.isDark = scene.palette.color(QPalette::Window).lightness() < 128;
   const auto scan = scene.session.scan();
   if (!scan) return content;
   content.pyramid = scene.pyramid;
-  content.isDark = scene.palette.color(QPalette::Window).lightness() < 128;
   content.pageWidth = scan->grey.width;
   content.pageHeight = scan->grey.height;
   const bool isLog = scene.view.isVisible(Layer::LogImage) && !scene.view.isScanOnly();

@@ -23,7 +23,8 @@ namespace batten {
 namespace {
 constexpr double kMarkReachPx = 9.0;                                     // how near the mouse has to be to a mark
 constexpr int kLeftPx = 54, kTopPx = 18, kRightPx = 16, kBottomPx = 22;  // margins of the axes
-constexpr int kLeastAxesPx = 200;  // lower, and neither curve nor targets can be read
+constexpr int kLeastPlotPx = 200;  // lower, and neither curve nor targets can be read
+constexpr int kGoodAxesPx = 200;   // where there is room
 }  // namespace
 
 struct CurvePlots::State {
@@ -86,7 +87,7 @@ void CurvePlots::build() {
   d.plot = new QCustomPlot(this);
   d.plot->setObjectName(QStringLiteral("plot"));
   d.plot->setAccessibleName(tr("Plot over arc length of the selected curve"));
-  d.plot->setMinimumHeight(kTopPx + kLeastAxesPx + kBottomPx);
+  d.plot->setMinimumHeight(kLeastPlotPx);
   d.plot->setAntialiasedElements(QCP::aeAll);
   d.plot->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   d.plot->axisRect()->setRangeDrag(Qt::Horizontal);
@@ -132,6 +133,10 @@ void CurvePlots::build() {
 }
 
 PlotTab CurvePlots::tab() const { return state_->tab; }
+
+int CurvePlots::goodHeight() const {
+  return minimumSizeHint().height() - kLeastPlotPx + kTopPx + kGoodAxesPx + kBottomPx;
+}
 
 void CurvePlots::setTab(PlotTab tab) {
   state_->tab = tab;

@@ -23,6 +23,8 @@ class CurvePlots : public QWidget {
   /// Turns the plot of the selected curve round; another selection starts as its curve lies.
   void setTurned(bool turned);
   bool isTurned() const;
+  /// [px] With which axes and targets are read at ease; minimumSizeHint() is the least.
+  int goodHeight() const;
   /// True while lengths count from right to left.
   bool runsLeft() const;
   /// Where a mark of the curvature plot is in the plot widget, for tests; outside when there is none.

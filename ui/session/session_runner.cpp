@@ -105,7 +105,7 @@ void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
   adopt(std::move(**result), scanPath, isRestored);
 }
 
-void EditorSession::Runner::dropResults() {
+void EditorSession::Runner::dropResults(std::vector<std::shared_ptr<const void>> stages) {
   targets.stop();
   coarse.cancel();
   struct Old {
@@ -114,10 +114,9 @@ void EditorSession::Runner::dropResults() {
     std::shared_ptr<const PinnedResult> pinned;
     std::vector<std::shared_ptr<const void>> stages;
   };
-  // The stages are handed over: the cache belongs to the next drawing from here on.
   discarded.discard(
       std::make_shared<const Old>(Old{session.picture_, std::move(session.scan_), std::exchange(session.output_, {}),
-                                      std::move(session.pinned_), cache.release()}));
+                                      std::move(session.pinned_), std::move(stages)}));
   session.pinned_.reset();
   session.selectedCurve_.reset();
   session.pointedSpan_.reset();
@@ -142,7 +141,7 @@ void EditorSession::Runner::announceNothingSelected() {
 void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bool isRestored) {
   pipeline.cancelAll();
   isStopped = false;
-  dropResults();
+  dropResults(cache.release());  // the cache belongs to the next drawing from here on
   session.picture_ = session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
   cache.setLimit(cacheBytes(*session.scan_));
   path = scanPath;
@@ -166,7 +165,8 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
 void EditorSession::Runner::applyPage(const std::shared_ptr<const Scan>& picture, std::shared_ptr<const Scan> page,
                                       std::uint64_t generation) {
   if (picture != session.picture_ || page == session.scan_ || generation != recipeGeneration) return;
-  // What was found on the page before does not lie on this one.
+  // What was found on the page before does not lie on this one. The cache stays: the run that brings this page is
+  // filling it, and going back finds the page before in it.
   dropResults();
   session.scan_ = std::move(page);
   cache.setLimit(cacheBytes(*session.scan_));
@@ -181,6 +181,7 @@ void EditorSession::Runner::takeNumbers(CurveNumbers brought, const Recipe& reci
   numbers = std::move(brought);
   numbersPage.reset();
   const RectifyParams& params = recipe.preparation.rectify;
+  areNumbersOfWantedPage = params.use == RectifyUse::Automatic;
   if (params.use != RectifyUse::Corners || !session.picture_) return;
   if (auto made = rectificationOf(*session.picture_, params.cornersPx, params.format)) numbersPage = std::move(*made);
 }
@@ -194,7 +195,8 @@ void EditorSession::Runner::run() {
   const bool spare = started >= 0 && clock.elapsed() - started < kGraceMs;
   overtaken.push_back(newestToken);
   auto job = [this, runId, generation = recipeGeneration, shown = session.scan_, picture = session.picture_,
-              saved = session.recipeToSave(), page = numbersPage, edges = edgesWanted](const CancelToken& token) {
+              saved = session.recipeToSave(), page = numbersPage, isOfWanted = areNumbersOfWantedPage,
+              edges = edgesWanted](const CancelToken& token) {
     const qint64 begin = clock.elapsed();
     startedMs = begin;
     RunContext context;
@@ -202,7 +204,7 @@ void EditorSession::Runner::run() {
     Recipe recipe = saved;
     auto wanted = guarded<std::shared_ptr<const Scan>>([&] { return pageOf(shown, picture, recipe, context); });
     const std::shared_ptr<const Scan> scan = wanted ? *wanted : shown;
-    recipe.curveNumbers = rectifiedNumbers(std::move(recipe.curveNumbers), page, scan->rectification);
+    if (!isOfWanted) recipe.curveNumbers = rectifiedNumbers(std::move(recipe.curveNumbers), page, scan->rectification);
     if (wanted && scan != shown)
       inbox.post([this, picture, scan, generation] { applyPage(picture, scan, generation); });
     std::atomic<int> stagesDone{0}, lastPercent{-1};
@@ -311,6 +313,7 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
     if (output.numbers) {
       numbers = output.numbers->known;
       numbersPage = scan->rectification;
+      areNumbersOfWantedPage = false;
     }
     // An empty page is not a failure, it is a beginning.
     const bool isBeginning =

@@ -37,7 +37,8 @@ struct EditorSession::Runner {
   StageCache cache;
   QString path, openProblem;
   CurveNumbers numbers;                      ///< Apart from the recipe, as no undo takes them back.
-  std::optional<Rectification> numbersPage;  ///< Of which page of the picture their places are.
+  std::optional<Rectification> numbersPage;  ///< Of which page of the picture their places are,
+  bool areNumbersOfWantedPage = false;       ///< or of the one that the recipe makes, which is yet to be found.
   /// Numbers that came with this recipe.
   void takeNumbers(CurveNumbers, const Recipe&);
   bool openedWithRecipe = false, wasRestored = false;
@@ -73,7 +74,8 @@ struct EditorSession::Runner {
   void adopt(OpenedScan opened, const QString& scanPath, bool isRestored);
   void applyScan(std::uint64_t id, const QString& scanPath, bool isRestored,
                  const std::shared_ptr<Result<OpenedScan>>& result);
-  void dropResults();
+  /// Of the page that is shown; the stages in the cache stay.
+  void dropResults(std::vector<std::shared_ptr<const void>> stages = {});
   void announceNothingSelected();
   void applyPage(const std::shared_ptr<const Scan>& picture, std::shared_ptr<const Scan> page,
                  std::uint64_t generation);

@@ -77,10 +77,16 @@ std::optional<Rectification> rectificationIn(const std::optional<PageRecord>& re
   }
   params.use = RectifyUse::Corners;
   made.cornersPx = params.cornersPx;
-  constexpr int kMostPx = 100'000;
-  const bool isSized = std::min(made.widthPx, made.heightPx) > 0 && std::max(made.widthPx, made.heightPx) < kMostPx;
-  if (validate(params) || !isSized) return std::nullopt;
+  if (validate(params)) return std::nullopt;
   return made;
+}
+
+/// Whether a page of this size can have been made of a picture: the record is a file that anyone may have changed.
+bool isPageOf(const GreyImage& picture, const Rectification& page) {
+  constexpr double kMostPagePixels = 3.0;  // for one of the picture; rectifying makes fewer
+  const auto pixels = [](double width, double height) { return width * height; };
+  return page.widthPx > 0 && page.heightPx > 0 &&
+         pixels(page.widthPx, page.heightPx) <= kMostPagePixels * pixels(picture.width, picture.height);
 }
 
 /// The page made small by averaging; the empty image if its scan cannot be read.
@@ -89,7 +95,7 @@ QImage smallPicture(const BatchPage& page, const std::optional<Rectification>& r
   context.threads = 1;
   auto scan = readScan(page.scan, {.page = {page.page, PageChoice{}.pdfDpi}}, context);
   if (!scan) return {};
-  if (rectification)
+  if (rectification && isPageOf(scan->grey, *rectification))
     scan->grey =
         resampled(scan->grey, SheetMap(*rectification), rectification->widthPx, rectification->heightPx, context);
   const GreyImage& grey = scan->grey;

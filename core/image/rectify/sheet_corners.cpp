@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ namespace {
 constexpr double kEdgeEndShare = 0.06;  // of the edge at either end: the next edge and bent corners
 constexpr double kEdgeStationPx = 5.0;  // along the edge
 constexpr int kFewestStations = 24, kMostStations = 300;
+constexpr double kSampleDistancePx = 1.5;  // along the edge, of the profiles that make that of a station
+constexpr int kMostSamples = 12;           // of them: noise is small by then
+// [steps across the edge] In the mean on either side of a change: the fewest that noise allows, the most that a blurred
+// edge takes.
+constexpr std::ptrdiff_t kFewestInMean = 3, kMostInMean = 12;
 constexpr double kAcrossEdgePx = 0.5;     // across it
 constexpr double kLeastOnEdge = 0.45;     // of the stations lie on the line
 constexpr double kWeakShareOfStep = 0.4;  // of the median step: nothing is seen there
@@ -72,10 +78,16 @@ struct EdgeProfile {
   std::vector<double> levels;  // from outside to inside, kAcrossEdgePx apart
 };
 
+double lengthLookedAt(const EdgeLine& line) { return (line.to - line.from).norm() * (1.0 - 2.0 * kEdgeEndShare); }
+
+int stationsAlong(const EdgeLine& line) {
+  return std::clamp(static_cast<int>(lengthLookedAt(line) / kEdgeStationPx), kFewestStations, kMostStations);
+}
+
 std::vector<EdgeProfile> profilesAlong(const EdgeLine& line, double reachPx, int channel, const Tints& tints) {
-  const double length = (line.to - line.from).norm() * (1.0 - 2.0 * kEdgeEndShare);
-  const int stations = std::clamp(static_cast<int>(length / kEdgeStationPx), kFewestStations, kMostStations);
-  const int samples = std::clamp(static_cast<int>(length / stations / 1.5), 1, 12);
+  const int stations = stationsAlong(line);
+  const int samples =
+      std::clamp(static_cast<int>(lengthLookedAt(line) / stations / kSampleDistancePx), 1, kMostSamples);
   const int half = static_cast<int>(std::ceil(reachPx / kAcrossEdgePx));
   std::vector<EdgeProfile> profiles;
   for (int i = 0; i < stations; ++i) {
@@ -118,10 +130,13 @@ struct EdgeChange {
 };
 EdgeChange greatestChange(const EdgeProfile& profile, double sign, std::ptrdiff_t width) {
   const auto& levels = profile.levels;
+  const auto stepAt = [&](std::ptrdiff_t i) {
+    return sign * (meanLevel(levels, i + 1, i + 1 + width) - meanLevel(levels, i - width, i));
+  };
   std::ptrdiff_t best = width;
-  double greatest = -1e300;
-  for (std::ptrdiff_t i = width; i + width < std::ssize(levels); ++i) {
-    const double step = sign * (meanLevel(levels, i + 1, i + 1 + width) - meanLevel(levels, i - width, i));
+  double greatest = stepAt(best);
+  for (std::ptrdiff_t i = best + 1; i + width < std::ssize(levels); ++i) {
+    const double step = stepAt(i);
     if (step > greatest) greatest = step, best = i;
   }
   const std::ptrdiff_t outer = std::max<std::ptrdiff_t>(1, width / 2);
@@ -129,13 +144,14 @@ EdgeChange greatestChange(const EdgeProfile& profile, double sign, std::ptrdiff_
   const double inside = meanLevel(levels, best + width + 1 - outer, best + width + 1);
   const double middle = 0.5 * (outside + inside);
   EdgeChange change{static_cast<double>(best), greatest};
-  double nearest = 1e300;
+  std::optional<double> nearest;
   for (std::ptrdiff_t i = best - width; i < best + width; ++i) {
     const double a = sign * (levels[i] - middle), b = sign * (levels[i + 1] - middle);
     if (!(a <= 0.0 && b > 0.0)) continue;
     const double place = static_cast<double>(i) + a / (a - b);
-    if (std::abs(place - static_cast<double>(best)) >= nearest) continue;
-    nearest = std::abs(place - static_cast<double>(best));
+    const double distance = std::abs(place - static_cast<double>(best));
+    if (nearest && distance >= *nearest) continue;
+    nearest = distance;
     change.place = place;
   }
   return change;
@@ -150,7 +166,7 @@ std::vector<Sighting> sightings(const EdgeLine& line, double reachPx, const Tint
   }
   const double step = medianStepAcross(clearest);
   if (std::abs(step) < kLeastStepOfEdge) return {};
-  const auto width = std::clamp<std::ptrdiff_t>(std::lround(reachPx / 3.0 / kAcrossEdgePx), 3, 12);
+  const auto width = std::clamp<std::ptrdiff_t>(std::lround(reachPx / 3.0 / kAcrossEdgePx), kFewestInMean, kMostInMean);
   std::vector<Sighting> found;
   const double half = std::ceil(reachPx / kAcrossEdgePx);
   for (const EdgeProfile& profile : clearest) {
@@ -169,10 +185,11 @@ struct FittedEdge {
 };
 
 /// The line from which the middle one of the distances is least.
+/// @pre at least two sightings.
 FittedEdge leastMedianLine(const std::vector<Sighting>& all) {
   const std::size_t step = std::max<std::size_t>(1, all.size() / kLinesTried);
   FittedEdge best;
-  double least = 1e300;
+  std::optional<double> least;
   std::vector<double> distances;
   for (std::size_t i = 0; i < all.size(); i += step) {
     for (std::size_t j = i + step; j < all.size(); j += step) {
@@ -182,7 +199,7 @@ FittedEdge leastMedianLine(const std::vector<Sighting>& all) {
       distances.clear();
       for (std::size_t k = 0; k < all.size(); k += step) distances.push_back(std::abs(line.offset(all[k])));
       const double median = upperMedian(distances);
-      if (median < least) least = median, best = line, best.sigma = kSigmaPerMad * median;
+      if (!least || median < *least) least = median, best = line, best.sigma = kSigmaPerMad * median;
     }
   }
   return best;
@@ -224,6 +241,24 @@ Vec2 crossingOf(const EdgeLine& a, const EdgeLine& b) {
   return a.from + cross(b.from - a.from, other) / cross(along, other) * along;
 }
 
+struct SeenEdge {
+  EdgeLine line;
+  double bendPx = 0.0;
+};
+/// The edge within `reachPx` of a line, looked at a second time from near by. Absent: it is not to be seen.
+std::optional<SeenEdge> edgeNear(const EdgeLine& rough, double reachPx, const Tints& tints) {
+  SeenEdge edge{rough, 0.0};
+  for (const bool isFine : {false, true}) {
+    const double reach = isFine ? std::min(reachPx, kFineReachPx + edge.bendPx) : reachPx;
+    const std::vector<Sighting> seen = sightings(edge.line, reach, tints);
+    if (std::ssize(seen) < kFewestStations / 2) return std::nullopt;
+    const FittedEdge fitted = fittedEdge(seen);
+    if (static_cast<double>(fitted.seen) < kLeastOnEdge * stationsAlong(edge.line)) return std::nullopt;
+    edge = {movedOnto(edge.line, fitted), std::abs(fitted.bend)};
+  }
+  return edge;
+}
+
 Result<FoundCorners> notSeen(std::size_t side) {
   constexpr std::array kNames = {"upper", "right", "lower", "left"};
   return fail(ErrorCode::UnreadableScan,
@@ -240,28 +275,26 @@ Result<FoundCorners> sheetCorners(const GreyImage& grey, const ColourImage& colo
   std::array<EdgeLine, 4> edges;
   FoundCorners found;
   for (std::size_t side = 0; side < edges.size(); ++side) {
-    EdgeLine line{roughPx[side], roughPx[(side + 1) % 4]};
-    double bendPx = 0.0;
-    for (const double reach : {reachPx, 0.0}) {
-      if (context.isCancelled()) return cancelled();
-      const double used = reach > 0.0 ? reach : std::min(reachPx, kFineReachPx + bendPx);
-      const std::vector<Sighting> seen = sightings(line, used, tints);
-      if (std::ssize(seen) < kFewestStations / 2) return notSeen(side);
-      const FittedEdge edge = fittedEdge(seen);
-      const double length = (line.to - line.from).norm() * (1.0 - 2.0 * kEdgeEndShare);
-      const int stations = std::clamp(static_cast<int>(length / kEdgeStationPx), kFewestStations, kMostStations);
-      if (static_cast<double>(edge.seen) < kLeastOnEdge * stations) return notSeen(side);
-      line = movedOnto(line, edge);
-      bendPx = std::abs(edge.bend);
-    }
-    found.bendPx = std::max(found.bendPx, bendPx);
-    edges[side] = line;
+    if (context.isCancelled()) return cancelled();
+    const auto edge = edgeNear({roughPx[side], roughPx[(side + 1) % 4]}, reachPx, tints);
+    if (!edge) return notSeen(side);
+    found.bendPx = std::max(found.bendPx, edge->bendPx);
+    edges[side] = edge->line;
   }
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Vec2 corner = crossingOf(edges[(i + 3) % 4], edges[i]);
     found.cornersPx[i] = (corner * kPerPixel).array().round() / kPerPixel;
   }
   return found;
+}
+
+std::array<bool, 4> paperEdges(const GreyImage& grey, const ColourImage& colour, const SheetCorners& cornersPx,
+                               double reachPx, const RunContext& context) {
+  const Tints tints(grey, colour);
+  std::array<bool, 4> isSeen{};
+  for (std::size_t side = 0; side < isSeen.size() && !context.isCancelled(); ++side)
+    isSeen[side] = edgeNear({cornersPx[side], cornersPx[(side + 1) % 4]}, reachPx, tints).has_value();
+  return isSeen;
 }
 
 }  // namespace batten

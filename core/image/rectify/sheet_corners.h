@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+
 #include "core/base/run_context.h"
 #include "core/image/colour_image.h"
 #include "core/image/grey_image.h"
@@ -20,5 +22,10 @@ struct FoundCorners {
 /// @return UnreadableScan if an edge is not to be seen, with a message that names it.
 Result<FoundCorners> sheetCorners(const GreyImage&, const ColourImage&, const SheetCorners& roughPx, double reachPx,
                                   const RunContext&);
+
+/// Along which sides of a rectangle on the picture an edge of paper is seen within `reachPx`: upper, right, lower,
+/// left. A drawn line is none: the paper goes on beyond it.
+std::array<bool, 4> paperEdges(const GreyImage&, const ColourImage&, const SheetCorners&, double reachPx,
+                               const RunContext&);
 
 }  // namespace batten

@@ -62,6 +62,93 @@ void expectCutAtTheSheet(const Scan& scan, const char* name) {
   EXPECT_EQ(changedInside, 0) << name;
 }
 
+/// An open book on a dark table, seen from above: two pages that dim towards the gutter between them.
+PhotoPixel openBook(double x, double y, bool isDrawnOnRight) {
+  const double fromGutter = std::fabs(x - 400.0), halfWidth = x < 400.0 ? 350.0 : 330.0;
+  if (y < 50.0 || y > 590.0 || fromGutter > halfWidth) return {70.0, 2.0};
+  if (fromGutter < 4.0) return {60.0, 1.5};
+  const double paper = (x < 400.0 ? 225.0 : 215.0) - 90.0 * std::exp(-fromGutter / 4.0);
+  const bool isRing = std::fabs(std::hypot(fromGutter - 150.0, y - 320.0) - 80.0) < 2.5;
+  return {isRing && (x < 400.0 || isDrawnOnRight) ? 50.0 : paper, 1.5};
+}
+
+int darkPixels(const GreyImage& page, int x0, int x1) {
+  int dark = 0;
+  for (int y = 0; y < page.height; ++y) {
+    for (int x = x0; x < x1; ++x) dark += page.level(x, y) < 150.0 ? 1 : 0;
+  }
+  return dark;
+}
+
+// A blank facing page may be cut off or not: nothing on it is lost.
+TEST(PaperSheet, BothPagesOfAnOpenBookAreTheSheet) {
+  const Scan scan = photo([](double x, double y) { return openBook(x, y, true); });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  const GreyImage page = onlyTheSheet(scan.grey, *sheet, {});
+  const double ring = 2.0 * 3.14159 * 80.0 * 5.0;
+  EXPECT_NEAR(darkPixels(page, 60, 385), ring, 0.05 * ring) << "left page";
+  EXPECT_NEAR(darkPixels(page, 415, 720), ring, 0.05 * ring) << "right page";
+  EXPECT_EQ(darkPixels(page, 0, 55) + darkPixels(page, 725, kPhotoWidth), 0) << "table";
+  EXPECT_EQ(darkPixels(page, 385, 415), 0) << "gutter";
+}
+
+// Paper bends away towards the gutter: its shading is no ink, a grey shape drawn far from it is.
+TEST(PaperSheet, ShadingTowardsTheGutterIsTakenOut) {
+  const Scan scan = photo([](double x, double y) {
+    PhotoPixel p = openBook(x, y, true);
+    const double fromGutter = std::fabs(x - 400.0);
+    if (p.grey > 150.0) p.grey *= 1.0 - (x < 400.0 ? 0.25 : 0.1) * std::exp(-fromGutter / 25.0);
+    if (x > 150.0 && x < 190.0 && y > 460.0 && y < 500.0) p.grey = 170.0;
+    return p;
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  const GreyImage page = onlyTheSheet(scan.grey, *sheet, {});
+  const auto meanAt = [&](int x, int y) {
+    double sum = 0.0;
+    for (int j = y - 4; j < y + 4; ++j) {
+      for (int i = x - 4; i < x + 4; ++i) sum += page.level(i, j);
+    }
+    return sum / 64.0;
+  };
+  for (const int y : {100, 320, 540}) {
+    const double paper = meanAt(200, y);
+    for (const int x : {370, 380, 422, 432, 600}) EXPECT_NEAR(meanAt(x, y), paper, 0.03 * paper) << x << ", " << y;
+  }
+  EXPECT_NEAR(meanAt(170, 480) / meanAt(250, 480), 170.0 / 225.0, 0.03);
+}
+
+// The outline of a box, drawn up to a few px from the edge of the sheet.
+TEST(PaperSheet, AShapeDrawnUpToTheEdgeOfTheSheetEnclosesPaper) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (x < 40.0 || x > 780.0 || y < 40.0 || y > 600.0) return {90.0, 2.0};
+    const double toBox = std::max(std::fabs(x - 690.0) - 70.0, std::fabs(y - 320.0) - 120.0);
+    if (std::fabs(toBox) < 5.0) return {60.0, 1.5};
+    const bool isBeside = x > 755.0 && std::fabs(y - 320.0) < 12.0;  // an accident: dark up to the table
+    const bool isRing = std::fabs(std::hypot(x - 690.0, y - 320.0) - 30.0) < 2.5;
+    return {isBeside || isRing ? 60.0 : 235.0, 1.5};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  EXPECT_TRUE(sheet->inside.at(690 / sheet->cellPx, 320 / sheet->cellPx));
+  EXPECT_TRUE(sheet->inside.at(690 / sheet->cellPx, 290 / sheet->cellPx));
+  EXPECT_FALSE(sheet->inside.at(800 / sheet->cellPx, 320 / sheet->cellPx));
+}
+
+TEST(PaperSheet, ABlankCardBesideTheSheetIsCutOff) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (y > 60.0 && y < 580.0 && x > 60.0 && x < 500.0)
+      return {std::fabs(std::hypot(x - 280.0, y - 320.0) - 130.0) < 2.5 ? 40.0 : 235.0, 1.5};
+    if (y > 60.0 && y < 580.0 && x > 512.0 && x < 790.0) return {205.0, 1.5};
+    return {110.0, 2.0};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  EXPECT_FALSE(sheet->inside.at(650 / sheet->cellPx, 320 / sheet->cellPx));
+  EXPECT_TRUE(sheet->inside.at(280 / sheet->cellPx, 320 / sheet->cellPx));
+}
+
 // So narrow that it has not one cell across.
 TEST(PaperSheet, AStripHasNoSheetAndNoError) {
   Scan scan;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -291,6 +292,31 @@ TEST(RectifiedScan, ASheetSeenAtAnAngleIsOfferedAndWhatWasCutIsTold) {
   PreparationParams whole;
   whole.sheet = SheetUse::Off;
   EXPECT_FALSE(preparePage(*page, whole, {})->sheet);
+}
+
+TEST(RectifiedScan, EdgesOfPaperAreToldFromDrawnLines) {
+  const PhotoCamera camera({.tiltDeg = 15.0, .panDeg = 8.0}, kPhotoWidth, kPhotoHeight);
+  const Vec2 low(40, 60), high(170, 240), middle = 0.5 * (low + high), half = 0.5 * (high - low);
+  const auto frame = [&](const Vec2& mm) {
+    const Vec2 off = (mm - middle).cwiseAbs() - half;
+    return std::abs(off.maxCoeff()) < 0.9 ? 1.0 : 0.0;
+  };
+  const Scan picture = renderPhoto(camera, frame);
+  const auto edges = [&](double left) {
+    const SheetCorners corners{camera.toPicture({left, low.y()}), camera.toPicture({high.x(), low.y()}),
+                               camera.toPicture(high), camera.toPicture({left, high.y()})};
+    return paperEdges(picture.grey, picture.colour, corners, 6.0, {});
+  };
+  EXPECT_EQ(edges(low.x()), (std::array{false, false, false, false})) << "the frame";
+  EXPECT_EQ(edges(1.0), (std::array{false, false, false, true})) << "its left side moved to that of the sheet";
+  const auto sheet = paperEdges(picture.grey, picture.colour, camera.corners(), 6.0, {});
+  EXPECT_EQ(sheet, (std::array{true, true, true, true}));
+  // What is cut off a rectified page is told.
+  const auto page = rectified(picture, automatic(), {});
+  ASSERT_TRUE(page && page->rectification);
+  const auto prepared = preparePage(*page, {}, {});
+  ASSERT_TRUE(prepared);
+  EXPECT_NE(prepared->notes.back().find("A rim of"), std::string::npos) << prepared->notes.back();
 }
 
 TEST(RectifiedScan, ASheetSeenFromTheFrontIsNotOffered) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/image/rectified_scan.h"
 #include "core/image/rectify/sheet_map.h"
 #include "core/pipeline/recipe/parameter_table.h"
@@ -47,18 +49,28 @@ Rectification made(double tiltDeg, PaperFormat format = PaperFormat::Unknown) {
   return *rectificationOf(scan, camera.corners(), format);
 }
 
-// The file names every place: what is moved far away must change every number in it.
+// The file names every place, each as the first two numbers of a list: both must have been moved, and nothing else.
 TEST(RecipePlaces, NoPlaceIsForgotten) {
   const Recipe before = withAllPlaces();
   Recipe after = before;
-  int moved = 0;
-  movePlaces(after, [&moved](const Vec2& place) {
-    ++moved;
-    return Vec2(place.x() + 5000.0, place.y() + 7000.0);
-  });
-  EXPECT_EQ(moved, 23);
-  movePlaces(after, [](const Vec2& place) { return Vec2(place.x() - 5000.0, place.y() - 7000.0); });
-  EXPECT_EQ(after, before);
+  movePlaces(after, [](const Vec2& place) { return Vec2(place.x() + 5000.0, place.y() + 7000.0); });
+  const auto file = nlohmann::json::parse(recipeToJson(before)), moved = nlohmann::json::parse(recipeToJson(after));
+  const auto numbers = file.flatten(), movedNumbers = moved.flatten();
+  ASSERT_EQ(numbers.size(), movedNumbers.size());
+  int places = 0;
+  for (const auto& [name, value] : numbers.items()) {
+    const nlohmann::json::json_pointer pointer(name);
+    const auto& list = file.at(pointer.parent_pointer());
+    const bool isPlace = list.is_array() && list.size() >= 2 && list[0].is_number();
+    if (!isPlace || (pointer.back() != "0" && pointer.back() != "1")) {
+      EXPECT_EQ(movedNumbers.at(name), value) << name;
+      continue;
+    }
+    const double step = pointer.back() == "0" ? 5000.0 : 7000.0;
+    EXPECT_EQ(movedNumbers.at(name).get<double>(), value.get<double>() + step) << name;
+    places += pointer.back() == "0" ? 1 : 0;
+  }
+  EXPECT_EQ(places, 23) << "of withAllPlaces()";
 }
 
 TEST(RecipePlaces, AreOnTheSameInkOfARectifiedPageAndComeBack) {

@@ -5,6 +5,12 @@
 #include <cmath>
 
 namespace batten {
+namespace {
+
+/// Of the lesser side of the view, around a fitted image at most: over targets and plots, height is dear.
+constexpr double kFitMarginShare = 0.04;
+
+}  // namespace
 
 void ViewTransform::setViewSize(QSize device, double ratio) {
   view_ = device.expandedTo({1, 1});
@@ -13,7 +19,8 @@ void ViewTransform::setViewSize(QSize device, double ratio) {
 
 double ViewTransform::fittedZoom() const {
   if (image_.isEmpty()) return 1.0;
-  const double margin = 2.0 * kFitMarginPx * ratio_;
+  const double margin =
+      2.0 * std::min(kFitMarginPx * ratio_, kFitMarginShare * std::min(view_.width(), view_.height()));
   const double w = std::max(view_.width() - margin, 0.25 * view_.width());
   const double h = std::max(view_.height() - margin, 0.25 * view_.height());
   return std::min({w / image_.width(), h / image_.height(), kMaxZoom});

@@ -16,7 +16,7 @@ namespace batten {
 class ViewTransform {
  public:
   static constexpr double kMaxZoom = 64.0;
-  static constexpr int kFitMarginPx = 24;  ///< [widget px] left free around a fitted image.
+  static constexpr int kFitMarginPx = 24;  ///< [widget px] left free around a fitted image, less in a low view.
 
   void setImageSize(QSize size) { image_ = size; }
   void setViewSize(QSize device, double ratio);

@@ -36,21 +36,21 @@ void CleanUpPanel::refresh() {
     const double percent = report.inkBefore > 0 ? 100.0 * double(pixels) / double(report.inkBefore) : 0.0;
     return QStringLiteral("%1 %").arg(percent, 0, 'f', 1);
   };
-  QString rounds = QString::number(report.iterations);
-  if (report.why == Termination::FixedPoint) rounds = tr("%1, then no change").arg(report.iterations);
-  if (report.why == Termination::IterationLimit) rounds = tr("%1, still changing").arg(report.iterations);
-  if (report.why == Termination::NotRun) rounds = tr("none");
+  QString iterations = QString::number(report.iterations);
+  if (report.why == Termination::FixedPoint) iterations = tr("%1, then no change").arg(report.iterations);
+  if (report.why == Termination::IterationLimit) iterations = tr("%1, still changing").arg(report.iterations);
+  if (report.why == Termination::NotRun) iterations = tr("none");
   figures_->setRows(
       {{tr("Ink before, px"), {{grouped(report.inkBefore)}}, tr("Pixels that count as ink after the threshold.")},
        {tr("Ink after, px"), {{grouped(report.inkAfter)}}, tr("Pixels that count as ink after the clean-up.")},
        {tr("Removed"), {{share(report.inkLost), report.thinStrokesLost}}, tr("Ink that became paper.")},
        {tr("Filled"), {{share(report.inkGained)}}, tr("Paper that became ink.")},
-       {tr("Undone"),
+       {tr("Taken back"),
         {{share(report.undone)}},
         tr("Changes larger than the largest change: thin strokes, tips, gaps.")},
-       {tr("Rounds"),
-        {{rounds}},
-        tr("A round is one erosion and one dilation; the filter stops when nothing changes.")}});
+       {tr("Iterations"),
+        {{iterations}},
+        tr("An iteration is one erosion and one dilation; the filter stops when nothing changes.")}});
   warning_->setVisible(report.thinStrokesLost);
   warning_->setText(
       tr("Much of the ink was removed, including thin strokes. Set a largest change, a larger "

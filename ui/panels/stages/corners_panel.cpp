@@ -121,6 +121,8 @@ void CornersPanel::buildMarks() {
   column()->addWidget(marks_);
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), marks_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &CornersPanel::removeSelected);
+  remove_->setToolTip(tr("Removes the mark that is selected in the list or on the drawing."));
+  removeAll_->setToolTip(tr("Removes all marks; certain corners stay."));
   connect(remove_, &QPushButton::clicked, this, &CornersPanel::removeSelected);
   connect(removeAll_, &QPushButton::clicked, this, &CornersPanel::removeAll);
   connect(rounding_, &CornerRounding::changed, this, &CornersPanel::editSelected);
@@ -207,6 +209,8 @@ void CornersPanel::buildSuggestions() {
   connect(angleTrack_, &QSlider::valueChanged, this, setAngle);
   connect(scale_, &NumberField::committed, this, setScale);
   connect(scaleTrack_, &QSlider::valueChanged, this, setScale);
+  take_->setToolTip(tr("Marks the suggested corner that is selected in the list."));
+  takeAll_->setToolTip(tr("Marks all suggested corners."));
   connect(take_, &QPushButton::clicked, this, [this] {
     const int at = suggested_->currentRow();
     if (at >= 0 && at < std::ssize(suggestions_)) mark({suggestions_[at].positionPx});
@@ -281,15 +285,16 @@ void CornersPanel::refreshMarks() {
 
 void CornersPanel::showFound() {
   const auto& pieces = session_.output().pieces;
-  const auto& refused = session_.recipe().refusedCornersPx;
+  const Recipe& recipe = session_.recipe();
+  const auto& refused = recipe.refusedCornersPx;
   const int found = pieces ? unmarkedCornerCount(*pieces) : 0;
   QStringList lines;
-  if (session_.recipe().corners.automatic && pieces)
-    lines += found == 0 ? tr("No certain corner was found.")
+  if (recipe.corners.automatic && pieces)
+    lines += found == 0 ? recipe.cornerMarks.empty() ? tr("No certain corner was found.")
+                                                     : tr("No certain corner beside the marked ones.")
                         : counted(found, tr("1 certain corner was found (diamond). Click it to exclude it."),
                                   tr("%1 certain corners were found (diamonds). Click one to exclude it."));
   // A mark wins over an excluded corner within its reach.
-  const Recipe& recipe = session_.recipe();
   const auto excluded = std::count_if(refused.begin(), refused.end(), [&](const Vec2& place) {
     return std::none_of(recipe.cornerMarks.begin(), recipe.cornerMarks.end(), [&](const CornerMark& mark) {
       return (mark.positionPx - place).norm() <= recipe.corners.snapDistancePx;

@@ -189,17 +189,10 @@ void FairingPanel::buildLinks() {
   for (QPushButton* link : {split_, whole_, unsplit_, draw_, forget_, like_, logAesthetic_})
     column()->addWidget(link, 0, Qt::AlignLeft);
   split_->setText(tr("Natural spans"));
-  split_->setToolTip(
-      tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
-         "less than a tenth of the tolerance do not count. Radius profiles and edge lengths have one polynomial."));
   unsplit_->setText(tr("One polynomial for the whole curve"));
-  unsplit_->setToolTip(tr("Joins all spans, as in the papers."));
   whole_->setText(tr("Targets for the whole curve"));
   whole_->setToolTip(tr("The targets apply to the span you clicked. Click here to return to the whole curve."));
   draw_->setToolTip(tr("Converts the target to points that can be dragged in the plot of curvature or radius."));
-  logAesthetic_->setToolTip(
-      tr("In each span, radius to the power alpha is linear in arc length: clothoids, spirals, "
-         "involutes. Alpha is under More."));
   connect(logAesthetic_, &QPushButton::clicked, this, [this] {
     session_.pointAtSpan({});
     chooseTarget(session_, FairingTarget::LogAesthetic);
@@ -278,6 +271,26 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   unsplit_->setEnabled(canSplit && spans > 0);
   split_->setVisible(isTarget);
   split_->setEnabled(canSplit && !hasNaturalSpans(session_));
+  explainLinks(isDrawn, canSplit);
+}
+
+// What is greyed says why.
+void FairingPanel::explainLinks(bool isDrawn, bool canSplit) {
+  const QString why = isDrawn     ? tr("The drawn target has no spans; go back to the six targets first.")
+                      : !canSplit ? tr("Radius profiles and edge lengths have one polynomial for the whole curve.")
+                                  : QString();
+  split_->setToolTip(split_->isEnabled() ? tr("A polynomial from each extremum of the curvature to the next. Extrema "
+                                              "whose removal would move the curve by less than a tenth of the "
+                                              "tolerance do not count.")
+                     : why.isEmpty()     ? tr("The curve has its natural spans already.")
+                                         : why);
+  unsplit_->setToolTip(unsplit_->isEnabled() ? tr("Joins all spans, as in the papers.")
+                       : why.isEmpty()       ? tr("The curve has one polynomial already.")
+                                             : why);
+  logAesthetic_->setToolTip(logAesthetic_->isEnabled()
+                                ? tr("In each span, radius to the power alpha is linear in arc length: clothoids, "
+                                     "spirals, involutes. Alpha is under More.")
+                                : tr("The log-aesthetic target is in use. Alpha is under More."));
 }
 
 FairingParams FairingPanel::shown(const Recipe& recipe) const {
@@ -357,6 +370,9 @@ void FairingPanel::refresh() {
     link->setVisible(several);
     link->setEnabled(own);
   }
+  const QString none = tr("The selected curve has no fairing settings of its own.");
+  useForAll_->setToolTip(own ? tr("Applies the settings of the selected curve to the whole drawing.") : none);
+  followAll_->setToolTip(own ? tr("The selected curve gives up its own settings for those of the drawing.") : none);
   refreshFigures();
 }
 

@@ -48,6 +48,7 @@ class FairingPanel : public QWidget {
   void buildFigures();
   void followSession();
   void refreshLinks(const FairingParams& params);
+  void explainLinks(bool isDrawn, bool canSplit);
   void setHold(int end, EndHold hold);
   /// To what the selected curve needs to reach its target.
   void raiseTolerance();

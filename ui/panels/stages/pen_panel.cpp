@@ -44,6 +44,8 @@ PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
   layout->addWidget(list_);
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), list_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &PenPanel::removeSelected);
+  remove_->setToolTip(tr("Removes the line that is selected in the list."));
+  removeAll_->setToolTip(tr("Removes all lines drawn by hand."));
   connect(remove_, &QPushButton::clicked, this, &PenPanel::removeSelected);
   connect(removeAll_, &QPushButton::clicked, this, [this] { removeAllStrokes(session_); });
   connect(draw_, &QPushButton::clicked, this, [this](bool on) { view_.setTool(on ? Tool::Pen : Tool::Select); });

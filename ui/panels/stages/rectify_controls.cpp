@@ -90,7 +90,14 @@ void RectifyControls::toggleTool(bool on) {
 
 void RectifyControls::rectify() {
   if (!session_.hasScan()) return;
-  const auto done = rectifyBy(session_, view_.sheetCorners().value_or(shownSheetCorners(session_)));
+  const auto moved = view_.sheetCorners();
+  const auto corners = moved ? moved : knownSheetCorners(session_);
+  const bool isDoneAlready = !moved && session_.scan()->rectification.has_value();
+  if (!corners) {
+    say(fail(ErrorCode::BadParameter, "Drag the corners onto those of the sheet; none were found on the picture."));
+    return;
+  }
+  const auto done = isDoneAlready ? Result<void>() : rectifyBy(session_, *corners);
   say(done);
   if (done && view_.tool() == Tool::Sheet) view_.setTool(Tool::Select);
 }
@@ -109,6 +116,8 @@ QString RectifyControls::state() const {
   if (const auto& made = session_.scan()->rectification) {
     QString text = tr("Rectified from the corners of the sheet; %1 % of the picture was cut off.")
                        .arg(100.0 * made->outsideShare, 0, 'f', 0);
+    if (page && page->sheet)
+      text += tr(" So was a rim of %1 px along its border.").arg(page->sheet->outlinePx.front().x(), 0, 'f', 0);
     if (made->aspectError > kDoubtfulAspect)
       text += tr(" The aspect ratio is uncertain by %1 %: choose the paper if you know it.")
                   .arg(100.0 * made->aspectError, 0, 'f', 1);

@@ -76,11 +76,13 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   auto* column = panelColumn(this, tr("Scan"));
   column->addWidget(facts_);
   buildPages();
+  // Before the scale, which a sheet that was photographed at an angle gets from it.
+  column->addWidget(new RectifyControls(session_, view, this));
   buildScale(view);
   column->addWidget(caption(tr("Tones"), this));
   column->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   column->addWidget(swatch_);
-  buildPaper(view);
+  buildPaper();
   column->addStretch();
   connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
@@ -155,11 +157,10 @@ void ScanPanel::buildScale(ViewSettings& view) {
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
 }
 
-void ScanPanel::buildPaper(ViewSettings& view) {
+void ScanPanel::buildPaper() {
   column()->addWidget(caption(tr("Paper"), this));
   column()->addWidget(new ParameterEditor(
       session_, {"paper.colour", "paper.rulings", "paper.sheet", "paper.flatten", "paper.folds"}, this));
-  column()->addWidget(new RectifyControls(session_, view, this));
   paperNote_->setObjectName(QStringLiteral("scan.paperNote"));
   column()->addWidget(paperNote_);
   new QGridLayout(inkBox_);

@@ -51,7 +51,7 @@ class ScanPanel : public QWidget {
   QVBoxLayout* column() const;
   void buildPages();
   void buildScale(ViewSettings& view);
-  void buildPaper(ViewSettings& view);
+  void buildPaper();
   void setDpi(std::optional<double> dpi);
   void refreshPage(const Scan* scan);
   void refreshPaper();

@@ -105,6 +105,8 @@ void ThresholdPanel::buildRegion() {
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  // The arrows walk the regions; Tab goes on to what follows, and is not caught in the 64 of them.
+  table_->setTabKeyNavigation(false);
   table_->installEventFilter(this);
   layout->addWidget(table_);
   showRegions_->setObjectName(QStringLiteral("threshold.showRegions"));
@@ -116,6 +118,8 @@ void ThresholdPanel::buildRegion() {
   connect(level_, &NumberField::committed, this,
           [this](double shown) { setRegion(view_.selectedRegion(), scale_.grey(shown)); });
   connect(regionAuto_, &QPushButton::clicked, this, [this] { setRegion(view_.selectedRegion(), std::nullopt); });
+  regionAuto_->setToolTip(tr("Makes the threshold of the selected region automatic, where it was set by hand."));
+  allAuto_->setToolTip(tr("Makes all thresholds that were set by hand automatic."));
   connect(allAuto_, &QPushButton::clicked, this, &ThresholdPanel::setAllAutomatic);
   connect(table_, &QTableWidget::itemChanged, this, &ThresholdPanel::readCell);
   connect(table_, &QTableWidget::currentCellChanged, this, [this](int row, int column) {

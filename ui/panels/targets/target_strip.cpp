@@ -13,12 +13,15 @@
 #include "ui/theme/theme.h"
 
 namespace batten {
+namespace {
+constexpr int kAbove = 8, kBelow = 7, kAroundTiles = kAbove + kBelow;  // [px] of the strip
+}  // namespace
 
 TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(parent), session_(session) {
   setObjectName(QStringLiteral("targetStrip"));
   setAccessibleName(tr("Six targets for the selected curve"));
   auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(8, 8, 8, 7);
+  layout->setContentsMargins(8, kAbove, 8, kBelow);
   layout->setSpacing(6);
   for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
     auto* tile = new TargetTile(degree, this);
@@ -34,8 +37,7 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
       emit hint({});
     });
   }
-  layout->addStretch();
-  setLow(false);
+  setTileHeight(TargetTile::kHeight);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::targetsChanged, &EditorSession::runFinished})
     connect(&session_, signal, this, &TargetStrip::refresh);
@@ -43,10 +45,18 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
   refresh();
 }
 
-void TargetStrip::setLow(bool low) {
-  const int tile = low ? TargetTile::kLowHeight : TargetTile::kHeight;
-  for (TargetTile* one : tiles_) one->setFixedHeight(tile);
-  setFixedHeight(tile + 15);
+void TargetStrip::fitInto(int height, bool hasPlots) {
+  const int tile = height - kAroundTiles;
+  setTileHeight(tile >= TargetTile::kHeight                   ? TargetTile::kHeight
+                : tile >= TargetTile::kLowHeight || !hasPlots ? TargetTile::kLowHeight
+                                                              : TargetTile::kFlatHeight);
+}
+
+void TargetStrip::setTileHeight(int height) {
+  if (this->height() == height + kAroundTiles) return;
+  for (TargetTile* one : tiles_) one->setFixedHeight(height);
+  setFixedHeight(height + kAroundTiles);
+  refresh();
 }
 
 void TargetStrip::setRunsLeft(bool runsLeft) {

@@ -14,8 +14,8 @@ class TargetStrip : public QWidget {
   Q_OBJECT
  public:
   explicit TargetStrip(EditorSession& session, QWidget* parent = nullptr);
-  /// Lower tiles, for low windows.
-  void setLow(bool low);
+  /// The highest tiles that fit into a height. They keep their profiles where no plot shows them.
+  void fitInto(int height, bool hasPlots);
   /// The tiles run as the plot below them does.
   void setRunsLeft(bool runsLeft);
 
@@ -27,6 +27,7 @@ class TargetStrip : public QWidget {
   void resizeEvent(QResizeEvent*) override;
 
  private:
+  void setTileHeight(int height);
   void refresh();
   void alignFigures();
   EditorSession& session_;

@@ -52,7 +52,6 @@ TargetTile::TargetTile(int degree, QWidget* parent) : QAbstractButton(parent), d
   setAttribute(Qt::WA_Hover);
   setCursor(Qt::PointingHandCursor);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  setMaximumWidth(220);
   setFixedHeight(kHeight);
 }
 
@@ -111,7 +110,7 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
       tip += tr("\nOne polynomial for each of %1 spans.").arg(outcomes_->splits.size() + 1);
     if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares curvatures, because the line has inflections.");
   }
-  if (outcomes_ && problem().isEmpty())
+  if (outcomes_ && problem().isEmpty() && !isFlat())
     tip += tr("\nGrey: curvature of the sketched curve; dark: of the target, over the arc length, as the plot runs.");
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
@@ -142,15 +141,20 @@ void TargetTile::paintEvent(QPaintEvent*) {
   const QRectF title(inner.left(), inner.top(), inner.width(), kTitleHeight);
   paintTitle(painter, title);
   const QRectF below(inner.left(), title.bottom() + 4, inner.width(), inner.bottom() - title.bottom() - 4);
+  const QRectF figures(inner.left(), inner.bottom() - 15, inner.width(), 15);
   const QString instead = outcomes_ ? problem() : waiting_;
   if (!instead.isEmpty()) {
     painter.setFont(uiFont(11));
     painter.setPen(theme.mute);
-    painter.drawText(below, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, instead);
+    if (isFlat())
+      painter.drawText(figures, Qt::AlignLeft | Qt::AlignVCenter,
+                       painter.fontMetrics().elidedText(instead, Qt::ElideRight, static_cast<int>(figures.width())));
+    else
+      painter.drawText(below, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, instead);
   }
   if (!outcomes_ || !instead.isEmpty()) return;
-  paintProfiles(painter, profileBox());
-  paintFigures(painter, QRectF(inner.left(), inner.bottom() - 15, inner.width(), 15));
+  if (!isFlat()) paintProfiles(painter, profileBox());
+  paintFigures(painter, figures);
 }
 
 bool TargetTile::hasRoomForAdvice() const {
@@ -326,7 +330,9 @@ TargetTile::FigureTexts TargetTile::figureTexts() const {
   return texts;
 }
 
-QRectF TargetTile::innerBox() const { return QRectF(rect()).adjusted(10, 7, -10, -6); }
+QRectF TargetTile::innerBox() const {
+  return isFlat() ? QRectF(rect()).adjusted(10, 4, -10, -4) : QRectF(rect()).adjusted(10, 7, -10, -6);
+}
 
 TargetTile::Figures TargetTile::roomFor() const {
   if (!outcomes_ || !problem().isEmpty()) return Figures::All;

@@ -42,9 +42,10 @@ class TargetTile : public QAbstractButton {
     return isSimilarityAbove_ || figures_ == Figures::All || figures_ == Figures::WithoutWords;
   }
   Figures figures() const { return figures_; }
-  static constexpr int kHeight = 97, kLowHeight = 77;
+  /// Flat ones show no profile: the plot below shows all six.
+  static constexpr int kHeight = 97, kLowHeight = 77, kFlatHeight = 41;
   QSize sizeHint() const override { return {156, kHeight}; }
-  QSize minimumSizeHint() const override { return {96, kLowHeight}; }
+  QSize minimumSizeHint() const override { return {96, kFlatHeight}; }
 
  signals:
   void entered(int degree);
@@ -62,6 +63,7 @@ class TargetTile : public QAbstractButton {
   QString problem() const;
   /// Met within the tolerance, without a curvature extremum more.
   bool fits() const;
+  bool isFlat() const { return height() < kLowHeight; }
   void paintTitle(class QPainter&, const QRectF&) const;
   void paintTitleWithSimilarity(class QPainter&, const QRectF& box, bool isAdvised) const;
   void paintProfiles(class QPainter&, const QRectF&) const;

@@ -2,10 +2,13 @@
 #include "ui/session/edits/rectify_edits.h"
 
 #include <QObject>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "core/image/rectified_scan.h"
+#include "core/image/rectify/sheet_corners.h"
 #include "core/image/rectify/sheet_map.h"
 #include "core/pipeline/recipe/recipe_places.h"
 #include "ui/session/editor_session.h"
@@ -23,23 +26,49 @@ std::optional<Rectification> pageOfRecipe(const EditorSession& session) {
   return session.scan()->rectification;
 }
 
+// Which page the places lie on is known only when the sheet has been looked for.
+bool isPageAwaited(const EditorSession& session) {
+  const RectifyParams& params = session.recipe().preparation.rectify;
+  return params.use == RectifyUse::Automatic && !isRectifiedAs(*session.scan(), params);
+}
+
+// Whether a side of the rectangle is an edge of paper, to which the corners were led by hand.
+bool hasPaperEdge(const Scan& picture, const Rectification& made) {
+  constexpr double kReachShare = 0.006;  // of the diagonal: the rim that is cut off a sheet
+  const double reachPx = kReachShare * std::hypot(made.widthPx, made.heightPx) / made.scale;
+  const auto isEdge = paperEdges(picture.grey, picture.colour, made.cornersPx, reachPx, {});
+  return std::ranges::find(isEdge, true) != isEdge.end();
+}
+
 Result<void> change(EditorSession& session, const QString& what, const RectifyParams& params) {
+  if (isPageAwaited(session))
+    return fail(ErrorCode::BadParameter, "The sheet is still being looked for; try again when the page is shown.");
   const auto made = rectificationOf(*session.picture(), params.cornersPx, params.format);
   if (!made) return fail(made.error());
-  session.change(what, rectifiedRecipe(session.recipe(), pageOfRecipe(session), *made, params));
+  Recipe after = rectifiedRecipe(session.recipe(), pageOfRecipe(session), *made, params);
+  // Of another rectangle than a sheet, as a frame that was drawn, nothing is cut off.
+  if (!hasPaperEdge(*session.picture(), *made)) after.preparation.sheet = SheetUse::Off;
+  session.change(what, std::move(after));
   return {};
 }
 
 }  // namespace
 
+std::optional<SheetCorners> knownSheetCorners(const EditorSession& session) {
+  const double width = session.scan()->grey.width, height = session.scan()->grey.height;
+  if (session.scan()->rectification)
+    return SheetCorners{Vec2(0, 0), Vec2(width, 0), Vec2(width, height), Vec2(0, height)};
+  const auto& page = session.output().page;
+  if (page && page->view) return page->view->rectification.cornersPx;
+  return std::nullopt;
+}
+
 SheetCorners shownSheetCorners(const EditorSession& session) {
   constexpr double kMargin = 0.1;  // of the picture
-  const auto& page = session.output().page;
-  const double width = session.scan()->grey.width, height = session.scan()->grey.height;
-  if (!session.scan()->rectification && page && page->view) return page->view->rectification.cornersPx;
-  const double margin = session.scan()->rectification ? 0.0 : kMargin;
-  const double x0 = margin * width, x1 = width - x0, y0 = margin * height, y1 = height - y0;
-  return {Vec2(x0, y0), Vec2(x1, y0), Vec2(x1, y1), Vec2(x0, y1)};
+  if (const auto known = knownSheetCorners(session)) return *known;
+  const Vec2 size(session.scan()->grey.width, session.scan()->grey.height);
+  const Vec2 low = kMargin * size, high = size - low;
+  return {low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())};
 }
 
 Result<void> rectifyBy(EditorSession& session, const SheetCorners& cornersPx) {
@@ -58,6 +87,7 @@ Result<void> setSheetFormat(EditorSession& session, PaperFormat format) {
 }
 
 void stopRectifying(EditorSession& session) {
+  if (isPageAwaited(session)) return;
   RectifyParams params;
   params.format = session.recipe().preparation.rectify.format;
   session.change(QObject::tr("Whole picture"),
