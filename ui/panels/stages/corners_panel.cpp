@@ -250,7 +250,7 @@ void CornersPanel::refreshMarks() {
                                        [&](const Corner& c) { return c.mark == static_cast<int>(i); });
       if (corner != pieces->corners.end()) angle = degrees(corner->turningAngleRad);
       for (const MarkPair& pair : pieces->sameCorner)
-        if (static_cast<std::size_t>(pair.mark) == i) same = pair.other;
+        if (pair.mark == static_cast<int>(i)) same = pair.other;
       lost =
           std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
     }
