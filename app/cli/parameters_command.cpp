@@ -57,7 +57,7 @@ nlohmann::ordered_json toJson(const Parameter& p) {
 
 /// Number of characters shown: bytes that continue a UTF-8 character take no place.
 std::size_t shownWidth(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
 }
 
 void printText() {

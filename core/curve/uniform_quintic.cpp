@@ -180,8 +180,7 @@ double UniformQuintic::footPoint(const Vec2& p, double start, double beyond) con
   return t;
 }
 
-Result<NurbsCurve> UniformQuintic::toNurbs(double parameterScale, double pointScale, const Vec2& startShift,
-                                           const Vec2& endShift) const {
+Result<NurbsCurve> UniformQuintic::toNurbs(const Vec2& startShift, const Vec2& endShift) const {
   const int m = knots_.spans, count = knots_.coefficients();
   std::vector<int> places(6, 0);  // clamped knots in units of the spacing
   for (int j = 1; j < m; ++j) places.push_back(j);
@@ -197,11 +196,10 @@ Result<NurbsCurve> UniformQuintic::toNurbs(double parameterScale, double pointSc
         5, knot, [&](int k) { return coefficients_[(j + k) % count]; }, 5, arguments.data());
     double greville = 0.0;
     for (int r = 1; r <= 5; ++r) greville += places[i + r] / (5.0 * m);
-    points.push_back(pointScale * (point + (1.0 - greville) * startShift + greville * endShift));
+    points.push_back(point + (1.0 - greville) * startShift + greville * endShift);
   }
   std::vector<double> clampedKnots;
-  for (const int place : places)
-    clampedKnots.push_back(place == m ? knots_.length * parameterScale : place * knots_.spacing() * parameterScale);
+  for (const int place : places) clampedKnots.push_back(place == m ? knots_.length : place * knots_.spacing());
   return NurbsCurve::make(5, std::move(clampedKnots), std::move(points));
 }
 

@@ -58,9 +58,9 @@ class UniformQuintic {
   /// Parameter of the foot point of `p` near `start` (Newton). Open: kept within `beyond` of the domain. Closed: not
   /// reduced.
   double footPoint(const Vec2& p, double start, double beyond) const;
-  /// The same curve with clamped ends; the parameter is multiplied by `parameterScale`, the points by `pointScale`.
-  Result<NurbsCurve> toNurbs(double parameterScale, double pointScale, const Vec2& startShift,
-                             const Vec2& endShift) const;
+  /// The same curve with clamped ends, which are moved; what lies between moves by both in turn, by the share of the
+  /// way.
+  Result<NurbsCurve> toNurbs(const Vec2& startShift = Vec2::Zero(), const Vec2& endShift = Vec2::Zero()) const;
 
  private:
   UniformKnots knots_;

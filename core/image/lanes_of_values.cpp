@@ -18,7 +18,7 @@ BATTEN_HOT_LOOP void orderLanes(std::int16_t* __restrict low, std::int16_t* __re
 }  // namespace
 
 std::int16_t* LanesOfValues::add() {
-  values_.resize(values_.size() + static_cast<std::size_t>(lanes_));
+  values_.resize(values_.size() + lanes_);
   return &*(values_.end() - lanes_);
 }
 

@@ -309,8 +309,7 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx) {
 GreyImage onlyTheSheet(const GreyImage& picture, const PaperSheet& sheet, const RunContext& context) {
   const GreyImage page = pagesOnOneLevel(picture, sheet.inside, sheet.cellPx, context);
   const int columns = sheet.inside.width, rows = sheet.inside.height;
-  std::vector<float> level(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0f),
-      weight(level.size(), 0.0f);
+  std::vector<float> level(std::ptrdiff_t{columns} * rows, 0.0f), weight(level.size(), 0.0f);
   std::vector<float> pixels, steps;
   for (int j = 0; j < rows && !context.isCancelled(); ++j) {
     for (int i = 0; i < columns; ++i) {
@@ -321,8 +320,7 @@ GreyImage onlyTheSheet(const GreyImage& picture, const PaperSheet& sheet, const 
           pixels.push_back(static_cast<float>(page.row(y)[x]));
       }
       steps.push_back(pixels[1] - pixels[0]);
-      const std::size_t at =
-          static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i);
+      const std::ptrdiff_t at = std::ptrdiff_t{j} * columns + i;
       level[at] = upperMedian(pixels);
       weight[at] = 1.0f;
     }

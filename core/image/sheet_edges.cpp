@@ -56,9 +56,8 @@ struct SideSteps {
   int least = kNoneOf + kFewestCells, most = 0;  // depths
   std::vector<cv::Vec3f> steps;                  // of the papers on both sides
   std::vector<cv::Vec3f> brinks;                 // at the very edge
-  std::size_t index(int place, int depth) const {
-    return static_cast<std::size_t>(place) * static_cast<std::size_t>(most - least + 1) +
-           static_cast<std::size_t>(depth - least);
+  std::ptrdiff_t index(int place, int depth) const {
+    return std::ptrdiff_t{place} * (most - least + 1) + depth - least;
   }
 };
 
@@ -176,7 +175,7 @@ std::optional<StraightEdge> straightEdge(const SideSteps& steps, int along, int 
       const StraightEdge line{first, last, 0};
       cv::Vec3f sum(0.0f, 0.0f, 0.0f);
       for (int p = 0; p < n; ++p) {
-        const std::size_t at = steps.index(p, depthAt(line, p, n));
+        const std::ptrdiff_t at = steps.index(p, depthAt(line, p, n));
         for (int k = 0; k < channels; ++k)
           sum[k] += std::clamp(steps.steps[at][k], -kMostStepSeen, kMostStepSeen) +
                     std::clamp(steps.brinks[at][k], -kMostStepSeen, kMostStepSeen);

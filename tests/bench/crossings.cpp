@@ -169,7 +169,7 @@ Recipe withDoubtOpen(const PipelineOutput& out) {
 }
 
 CrossingScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed, bool isDoubtOpen) {
-  std::vector<float> cover(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
+  std::vector<float> cover(std::ptrdiff_t{kWidth} * kHeight, 0.0f);
   std::vector<Line> truth;
   double widest = 0.0;
   for (const Drawn& d : drawn) {

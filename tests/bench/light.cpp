@@ -58,7 +58,7 @@ std::optional<NurbsCurve> denseCurve(const TruthPiece& piece, bool closed) {
   const UniformKnots knots{length, std::max(6, static_cast<int>(std::lround(length / 6.0))), closed};
   const auto fitted = fitUniformQuintic(knots, t, piece.points, weights, 1e-9);
   if (!fitted) return std::nullopt;
-  auto curve = fitted->toNurbs(1.0, 1.0, Vec2::Zero(), Vec2::Zero());
+  auto curve = fitted->toNurbs();
   return curve ? std::optional(*curve) : std::nullopt;
 }
 
@@ -241,9 +241,7 @@ int cubicsBetweenCorners(const NurbsCurve& dense, bool closed, double toleranceP
   int sum = 0;
   std::size_t from = 0;
   for (std::size_t i = closed ? 1 : 0; i <= corners.size(); ++i) {
-    const auto to = i == corners.size()
-                        ? points.size() - 1
-                        : static_cast<std::size_t>(corners[i].sample - (closed ? corners.front().sample : 0));
+    const auto to = i == corners.size() ? points.size() - 1 : corners[i].sample - (closed ? corners.front().sample : 0);
     const std::vector<Vec2> part(points.begin() + static_cast<std::ptrdiff_t>(from),
                                  points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
     if (part.size() > 1) sum += cubicChainPoints({part, {}}, false, tolerancePx);
@@ -343,7 +341,7 @@ int main(int argc, char** argv) {
     std::printf("\npotrace: %s\n", potrace.missing.c_str());
   }
   bool wantsDrawings = false, wantsSimplified = false;
-  for (const char* argument : std::span(argv, static_cast<std::size_t>(argc)).subspan(1)) {
+  for (const char* argument : std::span(argv, argc).subspan(1)) {
     if (std::string(argument) == "--drawings")
       wantsDrawings = true;
     else if (std::string(argument) == "--simplified")

@@ -105,8 +105,7 @@ Outcome measure(const OpenTruth& truth, const Recipe& recipe, double noise, unsi
   const auto samples = sampleByArcLength(curve, 1001);
   double misfit = 0.0, size = 0.0;
   for (std::size_t i = 50; i <= 950; ++i) {
-    const auto at =
-        static_cast<std::size_t>(static_cast<double>(i) / 1000.0 * static_cast<double>(truth.kappa.size() - 1));
+    const auto at = static_cast<int>(static_cast<double>(i) / 1000.0 * static_cast<double>(truth.kappa.size() - 1));
     misfit += std::pow(samples[i].kappa - truth.kappa[at], 2);
     size += std::pow(truth.kappa[at], 2);
   }

@@ -102,7 +102,7 @@ void measureTones(bool details) {
   std::printf("\nEdges of tones without a line, in outline mode, contrast 60 to 150, noise 2 to 8, blur 1 to 6 px.\n");
   std::printf("%-24s %8s %10s %10s %12s %12s\n", "tone", "passes", "least cov.", "false px", "worst edge",
               "worst curve");
-  const std::vector<float> blank(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
+  const std::vector<float> blank(std::ptrdiff_t{kWidth} * kHeight, 0.0f);
   for (const Tone& tone : kTones) {
     int good = 0, all = 0;
     double least = 1.0, most = 0.0, worst = 0.0;
@@ -112,7 +112,7 @@ void measureTones(bool details) {
       for (const double contrast : {60.0, 100.0, 150.0}) {
         for (const double noise : {2.0, 8.0}) {
           const auto paper = [&](double x, double y) {
-            const std::size_t pixel = static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+            const int pixel = static_cast<int>(y) * kWidth + static_cast<int>(x);
             return 235.0 - contrast * static_cast<double>(cover[pixel]);
           };
           const Scan scan = renderStress(blank, kWidth, kHeight, paper, {1.0, noise, 0.0}, 11);

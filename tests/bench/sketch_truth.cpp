@@ -116,7 +116,7 @@ std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
 std::vector<SketchTruth::Share> SketchTruth::sharesOf(const std::vector<CurvePoint>& line,
                                                       const std::vector<double>& length) const {
   const std::size_t groups = length.size();
-  const auto groupOf = [&](int stroke) { return static_cast<std::size_t>(strokes_[stroke].group); };
+  const auto groupOf = [&](int stroke) { return strokes_[stroke].group; };
   std::vector<Share> share(groups);
   std::set<std::pair<int, std::size_t>> covered;
   for (const CurvePoint& point : line) {
@@ -145,7 +145,7 @@ std::vector<SketchTruth::Share> SketchTruth::sharesOf(const std::vector<CurvePoi
 }
 
 SketchTruth::Grouping SketchTruth::group(const std::vector<std::vector<CurvePoint>>& lines) const {
-  const auto groups = static_cast<std::size_t>(groups_);
+  const std::size_t groups = groups_;
   std::vector<double> length(groups, 0.0);
   for (const Stroke& s : strokes_)
     for (std::size_t i = 0; i + 1 < s.points.size(); ++i) length[s.group] += (s.points[i + 1] - s.points[i]).norm();

@@ -41,8 +41,7 @@ class BatchFiles : public test::Batch {
       }
       if (bytes.size() % 2 != 0) bytes.push_back(0);
       const auto directory = static_cast<std::uint32_t>(bytes.size());
-      for (int i = 0; i < 4; ++i)
-        bytes[link + static_cast<std::size_t>(i)] = static_cast<char>(directory >> (8 * i) & 0xffu);
+      for (int i = 0; i < 4; ++i) bytes[link + i] = static_cast<char>(directory >> (8 * i) & 0xffu);
       const std::vector<std::pair<std::uint32_t, std::uint32_t>> tags = {{256, static_cast<std::uint32_t>(page.width)},
                                                                          {257, static_cast<std::uint32_t>(page.height)},
                                                                          {258, 8},
@@ -344,8 +343,7 @@ TEST_F(BatchFiles, OnATerminalTheLinesStandByThemselves) {
   ASSERT_GT(child, 0);
   std::string shown;
   char block[4096];
-  for (ssize_t got = 0; (got = read(terminal, block, sizeof block)) > 0;)
-    shown.append(block, static_cast<std::size_t>(got));
+  for (ssize_t got = 0; (got = read(terminal, block, sizeof block)) > 0;) shown.append(block, got);
   close(terminal);
   int status = 0;
   waitpid(child, &status, 0);

@@ -23,8 +23,7 @@ class HostileInput : public test::Program {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << words;
   }
   std::size_t filesInFolder() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
+    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
   }
 };
 

@@ -111,7 +111,7 @@ std::string twoPageTiff(const GreyImage& first, const GreyImage& second) {
   for (const GreyImage* page : {&first, &second}) {
     const auto entry = [&](std::size_t tag, std::size_t value) { return n(tag, 2) + n(4, 2) + n(1, 4) + n(value, 4); };
     const std::size_t data = bytes.size() + 2 + 8 * 12 + 4, size = page->pixels.size();
-    const std::size_t width = static_cast<std::size_t>(page->width), height = static_cast<std::size_t>(page->height);
+    const std::size_t width = page->width, height = page->height;
     bytes += n(8, 2) + entry(256, width) + entry(257, height) + entry(258, 8) + entry(259, 1) + entry(262, 1) +
              entry(273, data) + entry(278, height) + entry(279, size) +
              n(page == &first ? data + size + size % 2 : 0, 4);

@@ -45,7 +45,7 @@ InkLayer line(const Vec2& a, const Vec2& b, double widthPx, const std::array<dou
 }
 
 InkLayer rules() {
-  InkLayer layer{std::vector<float>(static_cast<std::size_t>(kSheetWidth) * kSheetHeight, 0.0f), {0.72, 0.8, 0.9}};
+  InkLayer layer{std::vector<float>(std::ptrdiff_t{kSheetWidth} * kSheetHeight, 0.0f), {0.72, 0.8, 0.9}};
   for (int y = 0; y < kSheetHeight; ++y) {
     if (y % 24 != 11) continue;
     for (int x = 0; x < kSheetWidth; ++x) layer.coverage[std::ptrdiff_t{y} * kSheetWidth + x] = 1.0f;

@@ -14,14 +14,14 @@ constexpr int kDiscWidth = 360, kDiscHeight = 220;
 
 // A black disc with a white eye, two lines of 5 px that run into it, and a dash of 26 px.
 std::string discWithLines() {
-  std::string pixels(static_cast<std::size_t>(kDiscWidth) * kDiscHeight, '\xff');
+  std::string pixels(std::ptrdiff_t{kDiscWidth} * kDiscHeight, '\xff');
   for (int y = 0; y < kDiscHeight; ++y) {
     for (int x = 0; x < kDiscWidth; ++x) {
       const double r = std::hypot(x - 100, y - 100);
       const bool isInk = (r < 50.0 && r > 12.0) || (std::abs(y - 100) <= 2 && x > 145 && x < 340) ||
                          (std::abs(x - 100) <= 2 && y > 145 && y < 210) ||
                          (std::abs(y - 30) <= 2 && x > 250 && x < 277);
-      if (isInk) pixels[static_cast<std::size_t>(y) * kDiscWidth + static_cast<std::size_t>(x)] = '\x10';
+      if (isInk) pixels[y * kDiscWidth + x] = '\x10';
     }
   }
   return "P5\n360 220\n255\n" + pixels;

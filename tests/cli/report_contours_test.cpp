@@ -16,11 +16,10 @@ constexpr int kWidth = 320, kHeight = 200;
 
 // White paper with black bars 5 px high.
 std::string pageWithBars(std::initializer_list<std::array<int, 3>> bars) {
-  std::string pixels(static_cast<std::size_t>(kWidth) * kHeight, '\xff');
+  std::string pixels(std::ptrdiff_t{kWidth} * kHeight, '\xff');
   for (const auto& [x0, x1, y] : bars)
     for (int row = y - 2; row <= y + 2; ++row)
-      for (int x = x0; x < x1; ++x)
-        pixels[static_cast<std::size_t>(row) * kWidth + static_cast<std::size_t>(x)] = '\x10';
+      for (int x = x0; x < x1; ++x) pixels[row * kWidth + x] = '\x10';
   return "P5\n320 200\n255\n" + pixels;
 }
 

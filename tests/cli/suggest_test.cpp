@@ -99,12 +99,11 @@ TEST_F(Suggest, SaysWhatIsWrong) {
 // A stem of 5 px that forks evenly at (200, 100): black on white.
 std::string fork() {
   constexpr int kForkWidth = 400, kForkHeight = 200;
-  std::string pixels(static_cast<std::size_t>(kForkWidth) * kForkHeight, '\xff');
+  std::string pixels(std::ptrdiff_t{kForkWidth} * kForkHeight, '\xff');
   for (int y = 0; y < kForkHeight; ++y) {
     for (int x = 20; x < 380; ++x) {
       const double aside = x < 200 ? 0.0 : 0.2 * (x - 200);
-      if (std::min(std::abs(y - 100 - aside), std::abs(y - 100 + aside)) <= 2.5)
-        pixels[static_cast<std::size_t>(y) * kForkWidth + static_cast<std::size_t>(x)] = '\x10';
+      if (std::min(std::abs(y - 100 - aside), std::abs(y - 100 + aside)) <= 2.5) pixels[y * kForkWidth + x] = '\x10';
     }
   }
   return "P5\n400 200\n255\n" + pixels;

@@ -267,7 +267,7 @@ TEST_F(Trace, ListsTheParameters) {
     EXPECT_FALSE(list[i]["help"].get<std::string>().empty());
   }
   const auto text = run("parameters");
-  EXPECT_EQ(static_cast<std::size_t>(std::count(text.out.begin(), text.out.end(), '\n')), list.size() + 1);
+  EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), std::ssize(list) + 1);
 }
 
 TEST_F(Trace, HelpAndVersionSucceed) {

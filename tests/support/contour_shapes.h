@@ -26,13 +26,13 @@ struct RenderSettings {
 /// Renders `inside` (image frame, px): area sampling, separable Gaussian, noise, 16-bit quantisation.
 inline GreyImage renderShape(const std::function<bool(double, double)>& inside, const RenderSettings& s) {
   constexpr int kSub = 6;
-  const auto w = static_cast<std::size_t>(s.width), h = static_cast<std::size_t>(s.height);
-  std::vector<double> cover(w * h), across(w * h);
+  const std::ptrdiff_t w = s.width;
+  std::vector<double> cover(w * s.height), across(cover.size());
   for (int y = 0; y < s.height; ++y) {
     for (int j = 0; j < kSub; ++j) {
       for (int i = 0; i < kSub * s.width; ++i) {
         if (!inside((i + 0.5) / kSub, y + (j + 0.5) / kSub)) continue;
-        cover[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(i / kSub)] += 1.0 / (kSub * kSub);
+        cover[y * w + i / kSub] += 1.0 / (kSub * kSub);
       }
     }
   }
@@ -50,14 +50,12 @@ inline GreyImage renderShape(const std::function<bool(double, double)>& inside, 
     for (int k = -reach; k <= reach; ++k) {
       const int xx = std::clamp(horizontal ? x + k : x, 0, s.width - 1);
       const int yy = std::clamp(horizontal ? y : y + k, 0, s.height - 1);
-      sum += kernel[k + reach] * from[static_cast<std::size_t>(yy) * w + static_cast<std::size_t>(xx)];
+      sum += kernel[k + reach] * from[yy * w + xx];
     }
     return sum;
   };
   for (int y = 0; y < s.height; ++y) {
-    for (int x = 0; x < s.width; ++x) {
-      across[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)] = blurred(cover, x, y, true);
-    }
+    for (int x = 0; x < s.width; ++x) across[y * w + x] = blurred(cover, x, y, true);
   }
   std::mt19937 random(s.seed);
   std::normal_distribution<double> gauss(0.0, 1.0);

@@ -17,8 +17,8 @@ constexpr double kGrainPx = 1.0;  // [px] Gaussian that gives the white noise it
 std::vector<float> unitGrain(int width, int height, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<float> normal;
-  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
-  std::vector<float> grain(w * h), rows(w * h);
+  const std::ptrdiff_t w = width;
+  std::vector<float> grain(w * height), rows(grain.size());
   for (float& g : grain) g = normal(random);
   std::vector<float> kernel;
   double squares = 0.0;
@@ -30,11 +30,10 @@ std::vector<float> unitGrain(int width, int height, std::uint32_t seed) {
       for (int x = 0; x < width; ++x) {
         float sum = 0.0f;
         for (int k = -4; k <= 4; ++k) {
-          const auto xx = static_cast<std::size_t>((x + k * dx + width) % width);
-          const auto yy = static_cast<std::size_t>((y + k * dy + height) % height);
+          const int xx = (x + k * dx + width) % width, yy = (y + k * dy + height) % height;
           sum += kernel[k + 4] * from[yy * w + xx];
         }
-        to[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)] = sum;
+        to[y * w + x] = sum;
       }
     }
   };
@@ -117,7 +116,7 @@ std::vector<std::vector<Vec2>> hatchLines(const Vec2& middle, double angleDeg, i
 }
 
 std::vector<float> coverageOf(const std::vector<std::vector<Vec2>>& lines, double widthPx, int width, int height) {
-  std::vector<float> cover(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
+  std::vector<float> cover(std::ptrdiff_t{width} * height, 0.0f);
   for (const auto& line : lines) {
     const std::vector<float> one = strokeCoverage(line, false, widthPx, width, height);
     for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
@@ -130,7 +129,7 @@ void grainCoverage(std::vector<float>& coverage, int width, int height,
   const std::vector<float> grain = unitGrain(width, height, seed);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const std::ptrdiff_t i = std::ptrdiff_t{y} * width + x;
       const double part = share(x + 0.5, y + 0.5), factor = 0.75 + 0.45 * static_cast<double>(grain[i]);
       coverage[i] *= static_cast<float>(std::clamp(std::lerp(1.0, factor, part), 0.0, 1.0));
     }
@@ -171,7 +170,7 @@ DenseScore scoreDense(const std::vector<std::vector<Vec2>>& truth, const std::ve
     score.bridges += bridgesOf(lineOf);
   }
   for (const auto& points : passing) {
-    const auto skip = static_cast<std::size_t>(endsPx);
+    const std::size_t skip = static_cast<int>(endsPx);
     std::size_t judged = 0, covered = 0;
     std::map<int, std::size_t> by;
     for (std::size_t p = skip; p + skip < points.size(); ++p) {

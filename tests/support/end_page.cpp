@@ -69,7 +69,7 @@ std::vector<Vec2> borderOf(const EndLine& course, const Ending& end) {
 
 EndPage endPage(StrokeEnd kind, double widthPx) {
   EndPage page{kColumns * kCellPx, kRows * kCellPx, {}, {}};
-  page.coverage.assign(static_cast<std::size_t>(page.width) * static_cast<std::size_t>(page.height), 0.0f);
+  page.coverage.assign(std::ptrdiff_t{page.width} * page.height, 0.0f);
   const double taper = kind == StrokeEnd::Taper ? std::clamp(8.0 * widthPx, 24.0, 72.0) : 0.0;
   const Ending end{kind, 0.5 * widthPx, taper, 0.5 * std::max(kBodyPx, kBodyTapers * taper) + taper};
   constexpr int kStrokes = kColumns * kRows;

@@ -233,13 +233,12 @@ std::vector<Vec2> circle(const Vec2& centre, double radius) {
   return points;
 }
 
-LabelPage::LabelPage(int width, int height)
-    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+LabelPage::LabelPage(int width, int height) : width_(width), height_(height), pixels_(std::ptrdiff_t{width} * height) {}
 
 void LabelPage::begin(bool isShape) { isShape_.push_back(isShape); }
 
 void LabelPage::paint(int x, int y, double cover) {
-  Pixel& p = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  Pixel& p = pixels_[y * width_ + x];
   p.cover = std::max(p.cover, static_cast<float>(cover));
   if (cover < 0.3 || p.isShape) return;
   p.isShape = isShape_.back();
@@ -340,8 +339,7 @@ LabelPage::Score LabelPage::score(const BitImage& ink, const BitImage& shapes) c
   Count kind[2];
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const Pixel& p =
-          pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+      const Pixel& p = pixels_[y * width_ + x];
       if (!ink.at(x, y) || p.object < 0) continue;
       const int right = shapes.at(x, y) == p.isShape ? 1 : 0;
       for (Count* c : {&object[p.object], &kind[p.isShape ? 1 : 0]}) {

@@ -24,8 +24,7 @@ void stamp(std::vector<std::uint8_t>& coverage, int width, int height, const Vec
     for (int x = x0; x <= x1; ++x) {
       const double inside = radius + 0.5 - (Vec2(x + 0.5, y + 0.5) - at).norm();
       const auto share = static_cast<std::uint8_t>(255.0 * std::clamp(inside, 0.0, 1.0));
-      std::uint8_t& pixel =
-          coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+      std::uint8_t& pixel = coverage[std::ptrdiff_t{y} * width + x];
       pixel = std::max(pixel, share);
     }
 }
@@ -35,7 +34,7 @@ void stamp(std::vector<std::uint8_t>& coverage, int width, int height, const Vec
 Scan largePage(int width, int height, int strokes, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  std::vector<std::uint8_t> coverage(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+  std::vector<std::uint8_t> coverage(std::ptrdiff_t{width} * height, 0);
   // One stroke a cell of a grid, a wave across it: they come near each other and seldom cross.
   const int across = std::max(1, static_cast<int>(std::lround(std::sqrt(strokes / 2.0))));
   const int down = (strokes + across - 1) / across;
@@ -60,7 +59,7 @@ Scan largePage(int width, int height, int strokes, std::uint32_t seed) {
   scan.grey = GreyImage(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const std::ptrdiff_t i = std::ptrdiff_t{y} * width + x;
       const double paper = kPaperLeft + (kPaperRight - kPaperLeft) * x / width;
       const double grey = paper + (kInk - paper) * coverage[i] / 255.0 + table[random() & 0xffff];
       scan.grey.pixels[i] = static_cast<std::uint16_t>(257 * std::clamp(static_cast<int>(std::lround(grey)), 0, 255));

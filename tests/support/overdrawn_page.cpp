@@ -72,7 +72,7 @@ void drawOver(std::vector<PenPath>& strokes, const MeantLine& line, int count, d
 
 Scan overdrawnScan(const std::vector<PenPath>& strokes) {
   constexpr int kSide = kOverdrawnPagePx;
-  std::vector<float> cover(static_cast<std::size_t>(kSide) * kSide, 0.0f);
+  std::vector<float> cover(std::ptrdiff_t{kSide} * kSide, 0.0f);
   for (const PenPath& s : strokes) {
     const std::vector<float> one = strokeCoverage(s, false, kOverdrawnPenPx, kSide, kSide);
     for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);

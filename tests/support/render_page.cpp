@@ -9,9 +9,7 @@
 namespace batten::test {
 namespace {
 
-std::size_t at(int x, int y, int width) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-}
+std::size_t at(int x, int y, int width) { return std::ptrdiff_t{y} * width + x; }
 
 /// Adds the signed area that an edge leaves to its right, per pixel row (cover and area accumulation).
 void addEdge(std::vector<double>& cells, int width, int height, Vec2 a, Vec2 b) {
@@ -86,10 +84,10 @@ PageStyle varyingPage(std::uint32_t seed) { return {230, 120, 0, 120, 0.8, 2, 0,
 PageStyle gradatedPage(std::uint32_t seed) { return {250, 150, 30, 0, 1.2, 5, 0, seed, 0}; }
 
 std::vector<float> fillCoverage(const std::vector<Vec2>& outline, int width, int height) {
-  std::vector<double> cells(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height), 0.0);
+  std::vector<double> cells(std::ptrdiff_t{width + 1} * height, 0.0);
   for (std::size_t i = 0; i < outline.size(); ++i)
     addEdge(cells, width, height, outline[i], outline[(i + 1) % outline.size()]);
-  std::vector<float> coverage(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::vector<float> coverage(std::ptrdiff_t{width} * height);
   for (int y = 0; y < height; ++y) {
     double sum = 0.0;
     for (int x = 0; x < width; ++x) {
@@ -104,7 +102,7 @@ std::vector<float> strokeCoverage(const std::vector<Vec2>& outline, bool closed,
                                   int height) {
   // Distance to the dense polyline, by splatting: coverage of a straight edge at that distance (box-filtered by a
   // ramp).
-  std::vector<float> distance(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1e9f);
+  std::vector<float> distance(std::ptrdiff_t{width} * height, 1e9f);
   const double half = 0.5 * widthPx, reach = half + 1.5;
   const std::size_t count = outline.size() - (closed ? 0 : 1);
   Vec2 from = outline[0];

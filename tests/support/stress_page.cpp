@@ -29,7 +29,7 @@ std::vector<Vec2> blob(double cx, double cy, double rx, double ry, double tiltDe
 
 StressScene filled(std::string name, std::vector<std::vector<Vec2>> lines, int width, int height) {
   StressScene scene{std::move(name), {}, std::move(lines)};
-  scene.coverage.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
+  scene.coverage.assign(std::ptrdiff_t{width} * height, 0.0f);
   for (const auto& line : scene.lines) {
     const std::vector<float> one = fillCoverage(line, width, height);
     // Even-odd: a shape inside another is a hole, one inside that an island.
@@ -40,7 +40,7 @@ StressScene filled(std::string name, std::vector<std::vector<Vec2>> lines, int w
 
 StressScene drawn(std::string name, std::vector<std::vector<Vec2>> lines, double pen, int width, int height) {
   StressScene scene{std::move(name), {}, std::move(lines)};
-  scene.coverage.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
+  scene.coverage.assign(std::ptrdiff_t{width} * height, 0.0f);
   for (const auto& line : scene.lines) {
     const std::vector<float> one = strokeCoverage(line, false, pen, width, height);
     for (std::size_t i = 0; i < one.size(); ++i) scene.coverage[i] = std::max(scene.coverage[i], one[i]);
@@ -53,7 +53,7 @@ class NearestPoint {
  public:
   NearestPoint(const std::vector<std::vector<Vec2>>& lines, int width, int height)
       : columns_(width / kCell + 3), rows_(height / kCell + 3) {
-    cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    cells_.resize(std::ptrdiff_t{columns_} * rows_);
     for (const auto& line : lines)
       for (std::size_t i = 0; i + 1 < line.size(); ++i) at(line[i])->push_back({line[i], line[i + 1]});
   }
@@ -77,7 +77,7 @@ class NearestPoint {
   std::vector<std::pair<Vec2, Vec2>>* at(const Vec2& p) {
     const int x = std::clamp(static_cast<int>(std::floor(p.x() / kCell)) + 1, 0, columns_ - 1);
     const int y = std::clamp(static_cast<int>(std::floor(p.y() / kCell)) + 1, 0, rows_ - 1);
-    return &cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)];
+    return &cells_[y * columns_ + x];
   }
   int columns_, rows_;
   std::vector<std::vector<std::pair<Vec2, Vec2>>> cells_;

@@ -41,7 +41,7 @@ class NumberReader {
       at_ = text_.size();  // not a number: give up on the rest
       return 0.0;
     }
-    at_ += static_cast<std::size_t>(end - rest.c_str());
+    at_ += end - rest.c_str();
     return value;
   }
   bool isNumber() {
@@ -107,13 +107,18 @@ Map transformOf(const std::string& text) {
 
 SvgCubic lineTo(const Vec2& a, const Vec2& b) { return {{a, a + (b - a) / 3.0, a + (b - a) * (2.0 / 3.0), b}}; }
 
-/// Elliptic arc as cubics of at most a quarter turn (SVG 1.1, appendix F.6).
-void arcTo(std::vector<SvgCubic>& out, const Vec2& from, const Vec2& to, double rx, double ry, double turnDeg,
-           bool large, bool sweep) {
-  rx = std::abs(rx);
-  ry = std::abs(ry);
+struct EllipticArc {
+  Vec2 from, to;
+  double rx, ry, rotationDeg;
+  bool large, sweep;
+};
+
+/// As cubics of at most a quarter turn (SVG 1.1, appendix F.6).
+void addArc(std::vector<SvgCubic>& out, const EllipticArc& arc) {
+  const auto& [from, to, givenRx, givenRy, rotationDeg, large, sweep] = arc;
+  double rx = std::abs(givenRx), ry = std::abs(givenRy);
   if (!(rx > 0.0) || !(ry > 0.0)) return out.push_back(lineTo(from, to));
-  const Eigen::Rotation2Dd turn(turnDeg * std::numbers::pi / 180.0);
+  const Eigen::Rotation2Dd turn(rotationDeg * std::numbers::pi / 180.0);
   const Vec2 half = turn.inverse() * Vec2(0.5 * (from - to));
   const double over = std::pow(half.x() / rx, 2) + std::pow(half.y() / ry, 2);
   if (over > 1.0) rx *= std::sqrt(over), ry *= std::sqrt(over);
@@ -213,7 +218,7 @@ class PathReader {
         const double rx = in_.number(), ry = in_.number(), turn = in_.number();
         const bool large = in_.flag(), sweep = in_.flag();
         const Vec2 to = point(relative);
-        arcTo(segments_, from, to, rx, ry, turn, large, sweep);
+        addArc(segments_, {from, to, rx, ry, turn, large, sweep});
         here_ = to;
         break;
       }

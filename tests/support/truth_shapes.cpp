@@ -124,8 +124,7 @@ std::vector<ProfileExtremum> extremaOf(const std::vector<double>& kappa, double 
   std::vector<ProfileExtremum> found;
   const std::size_t n = kappa.size();
   if (n < 3) return found;
-  const std::size_t begin =
-      periodic ? static_cast<std::size_t>(std::max_element(kappa.begin(), kappa.end()) - kappa.begin()) : 0;
+  const std::size_t begin = periodic ? std::max_element(kappa.begin(), kappa.end()) - kappa.begin() : 0;
   std::size_t low = begin, high = begin;
   int direction = 0;
   for (std::size_t i = 1; i < n + (periodic ? 1 : 0); ++i) {

@@ -114,7 +114,7 @@ std::vector<WidthStroke> widthStrokes() {
 }
 
 std::vector<float> widthCoverage(const std::vector<WidthStroke>& strokes) {
-  std::vector<float> page(static_cast<std::size_t>(kWidthPagePx) * static_cast<std::size_t>(kWidthPagePx), 0.0f);
+  std::vector<float> page(std::ptrdiff_t{kWidthPagePx} * kWidthPagePx, 0.0f);
   for (const WidthStroke& stroke : strokes) {
     const auto borders = stroke.borders();
     std::vector<float> own = fillCoverage(borders[0], kWidthPagePx, kWidthPagePx);

@@ -96,7 +96,7 @@ TEST(TilePyramid, EveryLevelShowsTheSameRamp) {
   ASSERT_GE(pyramid->levels.size(), 3u);
   for (const double zoom : {4.0, 1.0, 0.6, 0.3, 0.11, 0.05}) {
     const QRect device(0, 0, static_cast<int>(3001 * zoom), 8);
-    std::vector<std::uint8_t> grey(static_cast<std::size_t>(device.width()) * 8);
+    std::vector<std::uint8_t> grey(device.width() * 8);
     sampleGrey(*pyramid, zoom, device, grey.data());
     for (int i = 2; i + 2 < device.width(); i += 7) {
       const double expected = 255.0 * ((i + 0.5) / zoom - 0.5) / 3000.0;

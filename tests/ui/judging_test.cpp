@@ -117,7 +117,7 @@ TEST_F(Judging, TheMarksOnAFairedCurveAreItsOwn) {
   ASSERT_NO_FATAL_FAILURE(fairWithin("2"));
   const TracedCurve& curve = *session().selected();
   const auto marks = extremumMarks(session(), session().selectedCurve(), Judged::Result);
-  EXPECT_EQ(marks.size(), static_cast<std::size_t>(curve.fairedFigures.extrema));
+  EXPECT_EQ(std::ssize(marks), curve.fairedFigures.extrema);
   for (const ExtremumMark& mark : marks) {
     const auto hit = closestPoint(curve.faired, session().output().frame.pointToModel(mark.px));
     EXPECT_LT(hit.distance, 1e-6);

@@ -92,7 +92,7 @@ TEST_F(Killed, TheWorkOfADragIsOfferedBack) {
   const int count = isNumber && asked > 0 ? asked : 3;
   constexpr int kAtOnce = 4;
   std::mt19937 random(5);
-  std::vector<Victim> victims(static_cast<std::size_t>(count));
+  std::vector<Victim> victims(count);
   for (int i = 0; i < count; ++i) {
     const bool isLong = count >= 10 && i % 10 == 0;
     victims[i].livesMs = static_cast<int>(isLong ? 30000 + random() % 15000 : random() % 2500);

@@ -289,9 +289,9 @@ void CurveCanvas::State::linkCursor(const std::optional<Vec2>& px) {
   const CurveComb* comb = selectedComb();
   if (px && comb != nullptr) {
     if (const auto near = nearestOn(comb->points, *px); near && near->distance <= reachImagePx()) {
-      const auto i = static_cast<std::size_t>(near->position);
-      const auto next = std::min(i + 1, comb->points.size() - 1);
-      const double t = near->position - static_cast<double>(i);
+      const int i = static_cast<int>(near->position);
+      const int next = std::min(i + 1, static_cast<int>(comb->points.size()) - 1);
+      const double t = near->position - i;
       ownsCursor = true;
       session.setCursor(comb->points[i].s + t * (comb->points[next].s - comb->points[i].s));
       return;

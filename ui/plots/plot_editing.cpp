@@ -155,7 +155,7 @@ void PlotEditing::drag(const QPoint& position) {
   if (!hasMoved_ && dragged_ == Dragged::Split) return;
   if (dragged_ == Dragged::Split) return moveSplit(session_, *index_, fractionAt(position.x()), gesture_);
   std::vector<ProfilePoint> profile = fairingAsked(session_).profile;
-  const auto at = static_cast<std::size_t>(index_.value_or(0));
+  const std::size_t at = index_.value_or(0);
   if (!index_ || at >= profile.size()) return;
   // Points keep their order; the first and last of an open curve stay at its ends.
   const double gap = 1e-3;

@@ -146,7 +146,7 @@ void addNoise(PlotData& data, const TracedCurve& curve, const std::vector<CurveS
   const double step = sketched.back().s / (static_cast<double>(sketched.size()) - 1.0);
   for (const auto& [s, sigma] : noise) {
     const double at = step > 0 ? s / step : 0.0;
-    const auto k = static_cast<std::size_t>(std::clamp(std::lround(at), 0L, static_cast<long>(sketched.size()) - 1));
+    const long k = std::clamp(std::lround(at), 0L, static_cast<long>(sketched.size()) - 1);
     if (!std::isfinite(sigma) || !std::isfinite(s)) continue;
     data.noise.push_back({s * scale, sketched[k].kappa - 2 * sigma, sketched[k].kappa + 2 * sigma});
   }

@@ -8,6 +8,7 @@
 #include "core/fairing/profile/target_degrees.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "ui/session/change_recipe.h"
+#include "ui/session/curve_piece.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/session_runner.h"
 #include "ui/session/suggestion_source.h"
@@ -173,14 +174,10 @@ void EditorSession::setSideWork(const QObject* panel, bool busy, bool isShown) {
 }
 
 void EditorSession::selectCurve(std::optional<int> index) {
-  const TracedCurve* curve = curveAt(index);
-  if (!curve) index.reset();
+  if (!curveAt(index)) index.reset();
   runner_->selectsItself = false;
   runner_->anchorPx.reset();
-  if (curve && output_.pieces) {
-    const auto piece = static_cast<std::size_t>(curve->piece);
-    if (piece < output_.pieces->pieces.size()) runner_->anchorPx = anchorOf(output_.pieces->pieces[piece]);
-  }
+  if (const auto piece = pieceOf(*this, index)) runner_->anchorPx = anchorOf(output_.pieces->pieces[*piece]);
   if (index == selectedCurve_) return;
   selectedCurve_ = index;
   setCursor(std::nullopt);
@@ -228,11 +225,9 @@ void EditorSession::unpin() {
 }
 
 const TracedCurve* EditorSession::pinnedOf(std::optional<int> curve) const {
-  const TracedCurve* of = curveAt(curve);
-  if (!pinned_ || !output_.pieces || !of) return nullptr;
-  const auto piece = static_cast<std::size_t>(of->piece);
-  if (piece >= output_.pieces->pieces.size()) return nullptr;
-  const Vec2 anchor = anchorOf(output_.pieces->pieces[piece]);
+  const auto piece = pieceOf(*this, curve);
+  if (!pinned_ || !piece) return nullptr;
+  const Vec2 anchor = anchorOf(output_.pieces->pieces[*piece]);
   const TracedCurve* nearest = nullptr;
   double best = kSamePlacePx * kSamePlacePx;
   for (const TracedCurve& candidate : pinned_->faired->curves) {

@@ -20,7 +20,7 @@ std::optional<std::size_t> choiceOf(const EditorSession& session, const Extremum
   const auto& choices = session.recipe().extremumChoices;
   if (!session.isStale(StageId::Curves)) {
     if (!note.constraint || *note.constraint < 0 || *note.constraint >= std::ssize(choices)) return std::nullopt;
-    return static_cast<std::size_t>(*note.constraint);
+    return *note.constraint;
   }
   const Vec2 px = session.output().frame.pointToImage(note.point);
   for (std::size_t i = 0; i < choices.size(); ++i)

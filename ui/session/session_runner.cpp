@@ -10,6 +10,7 @@
 #include "core/base/platform_memory.h"
 #include "core/pipeline/recipe/recipe_places.h"
 #include "core/pipeline/run/stage_keys.h"
+#include "ui/session/curve_piece.h"
 #include "ui/session/guarded.h"
 #include "ui/session/merge_outputs.h"
 #include "ui/session/path_text.h"
@@ -21,8 +22,7 @@ namespace {
 /// that undoing finds them. Every value that a slider passes leaves some, too, which nobody asks for again.
 std::size_t cacheBytes(const Scan& scan) {
   constexpr std::size_t kBytesPerPixel = 2, kLeastBytes = std::size_t{64} << 20;
-  return std::max(kLeastBytes, kBytesPerPixel * static_cast<std::size_t>(scan.grey.width) *
-                                   static_cast<std::size_t>(scan.grey.height));
+  return std::max(kLeastBytes, kBytesPerPixel * scan.grey.width * scan.grey.height);
 }
 
 /// The page that the recipe wants: the one that is shown, or another one of the picture.
@@ -339,13 +339,12 @@ void EditorSession::Runner::curvesChanged() {
         index = static_cast<int>(i);
       }
   } else if (anchorPx && session.output_.pieces) {
-    const auto& pieces = session.output_.pieces->pieces;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      const auto piece = static_cast<std::size_t>(curves[i].piece);
-      if (piece >= pieces.size()) continue;
-      const double distance = squaredDistance(pieces[piece], *anchorPx);
-      if (distance < nearest) nearest = distance, index = static_cast<int>(i);
+    for (int i = 0; i < std::ssize(curves); ++i) {
+      const auto piece = pieceOf(session, i);
+      if (!piece) continue;
+      const double distance = squaredDistance(session.output_.pieces->pieces[*piece], *anchorPx);
+      if (distance < nearest) nearest = distance, index = i;
     }
   }
   if (index != before) session.pointedSpan_.reset();

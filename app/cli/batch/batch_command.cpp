@@ -39,7 +39,7 @@ Result<std::string> textOf(const std::string& input) {
       const std::size_t before = lines.size();
       lines.resize(before + kBlock);
       std::cin.read(lines.data() + before, kBlock);
-      lines.resize(before + static_cast<std::size_t>(std::cin.gcount()));
+      lines.resize(before + std::cin.gcount());
       if (lines.size() == before) return lines;
     }
     return wrong("The manifest from stdin is too large: split it.");

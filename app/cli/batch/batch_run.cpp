@@ -24,8 +24,8 @@ volatile std::sig_atomic_t signalsCaught = 0;  // a signal handler can reach not
 
 void catchSignal(int) { signalsCaught = signalsCaught + 1; }
 
-constexpr int kTickMs = 100;        // signals are heard and memory is looked at this often
-constexpr int kLongestTurnMs = 50;  // the event loop is not held up longer by pages that need no call
+constexpr int kTickMs = 100;          // signals are heard and memory is looked at this often
+constexpr int kLongestStartsMs = 50;  // the event loop is not held up longer by pages that need no call
 constexpr double kProgressEverySeconds = 1.0;
 
 // What a call is taken to need at its peak. The program alone takes 85 MB; drawings and photographs of 0.2 to 35
@@ -108,9 +108,9 @@ void BatchRun::run() {
 bool BatchRun::isLeft() const { return next_ < pages_.size() || candidate_ || !busy_.empty() || !again_.empty(); }
 
 void BatchRun::startMore() {
-  QElapsedTimer turn;
-  turn.start();
-  while (turn.elapsed() < kLongestTurnMs) {
+  QElapsedTimer clock;
+  clock.start();
+  while (clock.elapsed() < kLongestStartsMs) {
     hearSignals();
     if (!whyStopped_.empty() || std::ssize(running_) >= settings_.jobs) return;
     if (!takeNext()) return;

@@ -182,7 +182,7 @@ Result<Card> cardOf(const BatchPage& page, const std::string* error, const fs::p
       return fail(ErrorCode::CannotWrite, "Cannot write the thumbnails of the overview: this Qt has no JPEG writer.");
     }
     const QByteArray& made = bytes.data();
-    if (auto saved = saveAtomically(card.picture, {made.data(), static_cast<std::size_t>(made.size())}); !saved) {
+    if (auto saved = saveAtomically(card.picture, std::string_view(made.data(), made.size())); !saved) {
       return fail(saved.error());
     }
   }
@@ -290,9 +290,8 @@ Result<void> writeContactSheet(const std::vector<BatchPage>& pages, const std::m
   {
     const QuietStderr quiet;
     parallelFor(RunContext{}, static_cast<int>(pages.size()), 1, [&](int begin, int) {
-      const auto i = static_cast<std::size_t>(begin);
-      const auto error = errors.find(i);
-      cards[i] = cardOf(pages[i], error == errors.end() ? nullptr : &error->second, pictures);
+      const auto error = errors.find(begin);
+      cards[begin] = cardOf(pages[begin], error == errors.end() ? nullptr : &error->second, pictures);
     });
   }
   std::map<std::string, int> kinds;
@@ -315,8 +314,7 @@ Result<void> writeContactSheet(const std::vector<BatchPage>& pages, const std::m
     for (std::size_t i = k * kPagesAFile; i < end; ++i)
       html += figureOf(pages[i], *cards[i], captions[i], files[k].parent_path());
     html += "</main>" + links + "</body></html>\n";
-    if (auto saved = saveAtomically(files[k], {html.data(), static_cast<std::size_t>(html.size())}); !saved)
-      return saved;
+    if (auto saved = saveAtomically(files[k], std::string_view(html.data(), html.size())); !saved) return saved;
   }
   return {};
 }

@@ -4,11 +4,11 @@
 #include <QByteArray>
 #include <QXmlStreamReader>
 #include <cctype>
-#include <charconv>
 
 #include "core/base/regular_file.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/cubic.h"
+#include "core/exchange/model/file_text.h"
 #include "core/exchange/text/curve_json.h"
 
 namespace batten::cli {
@@ -37,20 +37,6 @@ DrawnLines linesOfJson(const std::string& text) {
   return drawn;
 }
 
-/// The numbers of a text; blanks and commas part them.
-std::vector<double> numbersOf(const QByteArray& text) {
-  std::vector<double> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (at < end) {
-    double value = 0.0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error == std::errc()) numbers.push_back(value);
-    at = next > at ? next : at + 1;
-  }
-  return numbers;
-}
-
 /// The polylines of a path of absolute moves, lines and cubics, as our writer makes them.
 void addPath(const QByteArray& path, const std::vector<double>& box, DrawnLines& drawn) {
   Vec2 pen(0.0, 0.0);
@@ -59,7 +45,7 @@ void addPath(const QByteArray& path, const std::vector<double>& box, DrawnLines&
     const char command = path[at++];
     qsizetype end = at;
     while (end < path.size() && std::isalpha(static_cast<unsigned char>(path[end])) == 0) ++end;
-    const std::vector<double> n = numbersOf(path.mid(at, end - at));
+    const std::vector<double> n = numbersIn(path.mid(at, end - at).toStdString());
     at = end;
     if (command == 'M' && n.size() >= 2) drawn.lines.push_back({toPage({n[0], n[1]})});
     if (drawn.lines.empty()) continue;
@@ -88,7 +74,7 @@ DrawnLines linesOfSvg(const std::string& text) {
   while (!xml.atEnd()) {
     if (xml.readNext() != QXmlStreamReader::StartElement) continue;
     if (xml.name() == QLatin1String("svg")) {
-      box = numbersOf(xml.attributes().value(QLatin1String("viewBox")).toLatin1());
+      box = numbersIn(xml.attributes().value(QLatin1String("viewBox")).toLatin1().toStdString());
       if (box.size() != 4 || !(box[2] > 0.0) || !(box[3] > 0.0)) return {};
       drawn.aspect = box[2] / box[3];
     } else if (xml.name() == QLatin1String("path") && box.size() == 4) {

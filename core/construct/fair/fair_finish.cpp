@@ -32,12 +32,11 @@ constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the c
 constexpr const char* kShortNote = "Too short for the fair fit; a low-degree curve was fitted to the points.";
 constexpr const char* kPlainNote = "The fair fit could not be solved; a smoothed curve was used.";
 
-/// Back from px about the origin to mm, with the corner points to the last digit.
-Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piece, const ConstructPiece& in,
-                          double pixelMm) {
+/// Back from the frame about the origin, with the corner points to the last digit.
+Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piece, const ConstructPiece& in) {
   if (!curve) return curve;
   std::vector<Vec2> points(curve->controlPoints().begin(), curve->controlPoints().end());
-  for (Vec2& p : points) p += piece.origin * pixelMm;
+  for (Vec2& p : points) p += piece.origin;
   if (piece.pins.start) points.front() = in.points.front().at;
   if (piece.pins.end) points.back() = in.points.back().at;
   return NurbsCurve::make(5, {curve->knots().begin(), curve->knots().end()}, std::move(points));
@@ -45,14 +44,13 @@ Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piec
 
 class FinishedFit {
  public:
-  FinishedFit(FairPiece& piece, const ConstructPiece& in, const FinishScale& scale, const FairFitOptions& options,
+  FinishedFit(FairPiece& piece, const ConstructPiece& in, const FairNoise& noise, const FairFitOptions& options,
               const RunContext& context)
       : piece_(piece),
         in_(in),
-        pixelMm_(scale.pixelMm),
-        s0_(scale.s0),
-        cutoffPx_(scale.cutoffPx),
-        willBeCut_(scale.willBeCut),
+        s0_(noise.s0),
+        cutoffPx_(noise.cutoffPx),
+        willBeCut_(noise.willBeCut),
         options_(options),
         context_(context) {}
 
@@ -61,7 +59,7 @@ class FinishedFit {
     if (fair() || context_.isCancelled()) return;
     const auto& base = piece_.frame->base;
     const auto [start, end] = pinShifts(base);
-    auto curve = placed(base.toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
+    auto curve = placed(base.toNurbs(start, end), piece_, in_);
     if (!curve) return simple(kPlainNote);
     report_ = {};
     noConstraintMet();
@@ -72,7 +70,7 @@ class FinishedFit {
 
  private:
   void simple(const char* note) {
-    auto curve = placed(simpleCurve(piece_.data, piece_.pins, pixelMm_), piece_, in_, pixelMm_);
+    auto curve = placed(simpleCurve(piece_.data, piece_.pins), piece_, in_);
     if (!curve) {
       piece_.result = fail(curve.error());
       return;
@@ -117,9 +115,8 @@ class FinishedFit {
   bool leavesItsPoints(const Eigen::VectorXd& mean) {
     const auto curve = offsetCurve(frame_.base, mean, context_);
     if (!curve) return false;
-    auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
-    if (!nurbs || outlierRanges(pointDeviation(*nurbs, in_, pixelMm_, context_), in_, pixelMm_, false).empty())
-      return false;
+    auto nurbs = placed(curve->toNurbs(), piece_, in_);
+    if (!nurbs || outlierRanges(pointDeviation(*nurbs, in_, context_), in_, false).empty()) return false;
     report_ = {};
     report_.why = Termination::Degenerate;
     report_.note = kPlainNote;
@@ -149,7 +146,7 @@ class FinishedFit {
   std::vector<PlacedConstraint> placedConstraints() const {
     std::vector<PlacedConstraint> placed;
     for (const ExtremumConstraint& constraint : in_.constraints) {
-      const Vec2 p = constraint.point / pixelMm_ - piece_.origin;
+      const Vec2 p = constraint.point - piece_.origin;
       double least = std::numeric_limits<double>::infinity(), u = 0.0;
       for (const FairPoint& point : piece_.data.points) {
         const double distance = (point.at - p).squaredNorm();
@@ -168,16 +165,14 @@ class FinishedFit {
     const PlaneDerivatives start = frame_.base.at(0.0, 1);
     const bool left = cross(start[0] - fit.centre, start[1]) > 0.0;
     const UniformQuintic curve = circleCurve(fit, start[0], left);
-    auto nurbs = placed(curve.toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
+    auto nurbs = placed(curve.toNurbs(), piece_, in_);
     if (!nurbs) return false;
     report_.why = Termination::Exact;
     report_.isCircle = true;
     noConstraintMet();
     // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
     const double sigma = std::sqrt(s0_ / meanWeight() / frame_.base.knots().length) / (fit.radius * fit.radius);
-    for (const double s : {0.0, curve.knots().length}) {
-      report_.noise.push_back({s * pixelMm_, sigma / pixelMm_});
-    }
+    for (const double s : {0.0, curve.knots().length}) report_.noise.push_back({s, sigma});
     for (const FairPoint& p : piece_.data.points) {
       if (p.use) addResidual((p.at - fit.centre).norm() - fit.radius, p.weight);
     }
@@ -201,7 +196,7 @@ class FinishedFit {
     const auto fit = fitLine(blockMeans(frame_));
     if (!fit || !(fit->squares / s0_ - objective < options_.extremumSignificance)) return false;
     const Vec2 &first = piece_.data.points.front().at, &last = piece_.data.points.back().at;
-    auto curve = placed(lineCurve(*fit, first, last, piece_.pins, pixelMm_), piece_, in_, pixelMm_);
+    auto curve = placed(lineCurve(*fit, first, last, piece_.pins), piece_, in_);
     if (!curve) return false;
     report_.why = Termination::Exact;
     report_.isLine = true;
@@ -211,9 +206,7 @@ class FinishedFit {
     // A parabola's curvature from data of density S0 over the length L: variance 720 S0 / L^5.
     const double length = (last - first).norm();
     const double sigma = std::sqrt(720.0 * s0_ / meanWeight() / std::pow(length, 5));
-    for (const double s : {0.0, length}) {
-      report_.noise.push_back({s * pixelMm_, sigma / pixelMm_});
-    }
+    for (const double s : {0.0, length}) report_.noise.push_back({s, sigma});
     piece_.result = ConstructedPiece{*curve, report_};
     return true;
   }
@@ -299,7 +292,7 @@ class FinishedFit {
       }
     }
     const auto [start, end] = pinShifts(*curve);
-    auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
+    auto nurbs = placed(curve->toNurbs(start, end), piece_, in_);
     if (!nurbs) return false;
     report_.fullControlPoints = nurbs->controlPointCount();
     if (auto fewer = withFewerKnots(posterior, *curve, start, end)) nurbs = std::move(*fewer);
@@ -334,11 +327,7 @@ class FinishedFit {
     limits.endShift = end;
     const auto fewer = withFewestKnots(curve, limits, context_);
     if (!fewer) return std::nullopt;
-    std::vector<double> knots(fewer->curve.knots().begin(), fewer->curve.knots().end());
-    std::vector<Vec2> points(fewer->curve.controlPoints().begin(), fewer->curve.controlPoints().end());
-    for (double& k : knots) k *= pixelMm_;
-    for (Vec2& p : points) p *= pixelMm_;
-    auto nurbs = placed(NurbsCurve::make(5, std::move(knots), std::move(points)), piece_, in_, pixelMm_);
+    auto nurbs = placed(fewer->curve, piece_, in_);
     if (!nurbs) return std::nullopt;
     report_.knotRemovalMovedPx = fewer->movedPx;
     return nurbs;
@@ -358,8 +347,8 @@ class FinishedFit {
     const auto note = [&](const FairExtremum& e, bool kept) {
       const double cost = e.costKnown || !kept ? e.removalCost : circleCost.value_or(e.removalCost);
       const double u = std::clamp(e.u, 0.0, curve.knots().length);
-      ExtremumNote made{curve.arcLength(u) * pixelMm_, e.kappa / pixelMm_, e.maximum, kept, cost};
-      made.point = (curve.at(u, 0)[0] + piece_.origin) * pixelMm_;
+      ExtremumNote made{curve.arcLength(u), e.kappa, e.maximum, kept, cost};
+      made.point = curve.at(u, 0)[0] + piece_.origin;
       made.constraint = e.constraint;
       report_.extrema.push_back(made);
     };
@@ -374,13 +363,13 @@ class FinishedFit {
     for (int i = 0; i < std::ssize(frame_.checks); i += stride) {
       const FrameStation& s = frame_.checks[i];
       const double variance = BandedCholesky::quadratic(posterior.covariance, s.kappaRow);
-      report_.noise.push_back({curve.arcLength(s.u) * pixelMm_, std::sqrt(std::max(0.0, variance)) / pixelMm_});
+      report_.noise.push_back({curve.arcLength(s.u), std::sqrt(std::max(0.0, variance))});
     }
   }
 
   FairPiece& piece_;
   const ConstructPiece& in_;
-  double pixelMm_, s0_, cutoffPx_;
+  double s0_, cutoffPx_;
   bool willBeCut_;
   const FairFitOptions& options_;
   const RunContext& context_;
@@ -393,9 +382,9 @@ class FinishedFit {
 
 }  // namespace
 
-void finishFairPiece(FairPiece& piece, const ConstructPiece& in, const FinishScale& scale,
-                     const FairFitOptions& options, const RunContext& context) {
-  FinishedFit(piece, in, scale, options, context).run();
+void finishFairPiece(FairPiece& piece, const ConstructPiece& in, const FairNoise& noise, const FairFitOptions& options,
+                     const RunContext& context) {
+  FinishedFit(piece, in, noise, options, context).run();
 }
 
 }  // namespace batten

@@ -7,8 +7,7 @@
 namespace batten {
 
 /// What is known of a piece when it is finished.
-struct FinishScale {
-  double pixelMm = 1.0;
+struct FairNoise {
   double s0 = 0.0;        ///< [px^2 px] noise density.
   double cutoffPx = 0.0;  ///< Cut-off wavelength of the prior.
   /// A piece whose smoothing already leaves its points will be cut there and fitted again, and gets no more than that
@@ -18,6 +17,6 @@ struct FinishScale {
 
 /// The rest, once noise and cut-off are known and `rough` is set: sets `result`, `squares` and `pointCount`. Leaves
 /// `result` absent when cancelled.
-void finishFairPiece(FairPiece&, const ConstructPiece&, const FinishScale&, const FairFitOptions&, const RunContext&);
+void finishFairPiece(FairPiece&, const ConstructPiece&, const FairNoise&, const FairFitOptions&, const RunContext&);
 
 }  // namespace batten

@@ -21,6 +21,41 @@ constexpr int kFitRounds = 6;              // of fits of a contour; stretches ar
 constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
 constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
+/// The contour in px, the unit of the noise: all that this room calculates is in px, 1/px and so on.
+ConstructContour inPixels(const ConstructContour& contour) {
+  ConstructContour px{{}, contour.isStroke, 1.0, contour.inkWidthPx};
+  const auto toPx = [&](const Vec2& p) { return Vec2(p / contour.pixelMm); };
+  for (const ConstructPiece& piece : contour.pieces) {
+    ConstructPiece& made = px.pieces.emplace_back(ConstructPiece{inFrame(piece, toPx)});
+    made.constraints = piece.constraints;
+    for (ExtremumConstraint& constraint : made.constraints) constraint.point = toPx(constraint.point);
+  }
+  return px;
+}
+
+/// The curve and its report back in mm. An end that is a point of the piece is that point to the last digit, so that
+/// pieces meet.
+Result<ConstructedPiece> inMillimetres(ConstructedPiece made, const ConstructPiece& px, const ConstructPiece& mm,
+                                       double pixelMm) {
+  std::vector<double> knots(made.curve.knots().begin(), made.curve.knots().end());
+  std::vector<Vec2> points(made.curve.controlPoints().begin(), made.curve.controlPoints().end());
+  const bool fromFirst = points.front() == px.points.front().at, toLast = points.back() == px.points.back().at;
+  for (double& k : knots) k *= pixelMm;
+  for (Vec2& p : points) p *= pixelMm;
+  if (fromFirst) points.front() = mm.points.front().at;
+  if (toLast) points.back() = mm.points.back().at;
+  auto curve = NurbsCurve::make(made.curve.degree(), std::move(knots), std::move(points));
+  if (!curve) return fail(curve.error());
+  made.curve = std::move(*curve);
+  for (ExtremumNote& note : made.report.extrema) {
+    note.s *= pixelMm;
+    note.kappa /= pixelMm;
+    note.point *= pixelMm;
+  }
+  for (NoiseNote& note : made.report.noise) note = {note.s * pixelMm, note.sigma / pixelMm};
+  return made;
+}
+
 /// The rest of the frame, which is most of what a piece holds, is of no use after the noise is known.
 void keepBaseOnly(FairPiece& piece) {
   FairFrame bare;
@@ -57,7 +92,7 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
   const double ordinary = ordinarySigma(contour);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      pieces[i] = prepareFairPiece(contour.pieces[i], contour.isStroke, contour.pixelMm, ordinary, options, context);
+      pieces[i] = prepareFairPiece(contour.pieces[i], contour.isStroke, ordinary, options, context);
     }
   });
   if (context.isCancelled()) return cancelled();
@@ -74,8 +109,8 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
   if (context.isCancelled()) return cancelled();
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      const FinishScale scale{contour.pixelMm, s0, CutoffTable::cutoffPx(choice.k[i].value_or(0)), willBeCut};
-      finishFairPiece(pieces[i], contour.pieces[i], scale, options, context);
+      const FairNoise noise{s0, CutoffTable::cutoffPx(choice.k[i].value_or(0)), willBeCut};
+      finishFairPiece(pieces[i], contour.pieces[i], noise, options, context);
       pieces[i].frame.reset();
       pieces[i].data = {};
       pieces[i].rough.resize(0);
@@ -102,10 +137,10 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
                                                const RunContext& context) {
   std::vector<SmoothSections> parts;
   for (const ConstructPiece& piece : contour.pieces) {
-    parts.emplace_back(piece, contour.isStroke, contour.pixelMm, options);
+    parts.emplace_back(piece, contour.isStroke, options);
   }
   for (int round = 0; round < kFitRounds; ++round) {
-    ConstructContour stretches{{}, contour.isStroke, contour.pixelMm};
+    ConstructContour stretches{{}, contour.isStroke};
     std::vector<std::size_t> counts;
     for (const SmoothSections& part : parts) {
       auto pieces = part.stretches();
@@ -160,10 +195,15 @@ Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, c
   try {
     FairFitOptions asked = options;
     asked.extremumSignificance = costAsked(contour, options);
-    auto pieces = fitParts(contour, asked, context);
+    const ConstructContour px = inPixels(contour);
+    auto pieces = fitParts(px, asked, context);
     if (!pieces) return pieces;
-    for (ConstructedPiece& piece : *pieces)
-      for (ExtremumNote& note : piece.report.extrema) note.askedCost = asked.extremumSignificance;
+    for (std::size_t i = 0; i < pieces->size(); ++i) {
+      auto piece = inMillimetres(std::move((*pieces)[i]), px.pieces[i], contour.pieces[i], contour.pixelMm);
+      if (!piece) return fail(piece.error());
+      for (ExtremumNote& note : piece->report.extrema) note.askedCost = asked.extremumSignificance;
+      (*pieces)[i] = std::move(*piece);
+    }
     return pieces;
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to fit the curve.");

@@ -150,19 +150,16 @@ CurveEnd endOf(const NurbsCurve& curve) {
   return {d[0], d[1], d[2]};
 }
 
-Result<NurbsCurve> cornerFill(std::span<const Vec2> points, double pixelMm, const std::optional<CurveEnd>& before,
+Result<NurbsCurve> cornerFill(std::span<const Vec2> points, const std::optional<CurveEnd>& before,
                               const std::optional<CurveEnd>& after) {
-  // In px about the first point: the numbers of the system stay near 1.
-  const auto scaled = [&](CurveEnd e, const Vec2& origin) {
-    return CurveEnd{(e[0] - origin) / pixelMm, e[1], e[2] * pixelMm};
-  };
+  // About the first point: the numbers of the system stay near 1.
   const Vec2 origin = before ? (*before)[0] : points.empty() ? (*after)[0] : points.front();
-  std::optional<CurveEnd> first, last;
-  if (before) first = scaled(*before, origin);
-  if (after) last = scaled(*after, origin);
+  std::optional<CurveEnd> first = before, last = after;
+  if (first) (*first)[0] -= origin;
+  if (last) (*last)[0] -= origin;
   std::vector<Vec2> p;
   if (first) p.push_back((*first)[0]);
-  for (const Vec2& q : points) p.push_back((q - origin) / pixelMm);
+  for (const Vec2& q : points) p.push_back(q - origin);
   if (last) p.push_back((*last)[0]);
   std::vector<double> t(1, 0.0);
   for (std::size_t i = 1; i < p.size(); ++i) t.push_back(t.back() + (p[i] - p[i - 1]).norm());
@@ -187,16 +184,15 @@ Result<NurbsCurve> cornerFill(std::span<const Vec2> points, double pixelMm, cons
     if (problem.pointsAway(controls) <= 1) break;
   }
   if (controls.empty()) return fail(ErrorCode::Numerical, "A sharp turn could not be rounded; mark its corner.");
-  for (Vec2& c : controls) c = origin + c * pixelMm;
-  for (double& k : knots) k *= pixelMm;
+  for (Vec2& c : controls) c += origin;
   if (!before) controls.front() = points.front();
   if (!after) controls.back() = points.back();
   return NurbsCurve::make(5, std::move(knots), std::move(controls));
 }
 
-Result<NurbsCurve> tightLoop(std::span<const Vec2> points, double pixelMm) {
+Result<NurbsCurve> tightLoop(std::span<const Vec2> points) {
   std::vector<Vec2> p;
-  for (const Vec2& q : points) p.push_back((q - points.front()) / pixelMm);
+  for (const Vec2& q : points) p.push_back(q - points.front());
   std::vector<double> t(1, 0.0);
   for (std::size_t i = 1; i < p.size(); ++i) t.push_back(t.back() + (p[i] - p[i - 1]).norm());
   const double length = p.empty() ? 0.0 : t.back() + (p.front() - p.back()).norm();
@@ -214,7 +210,7 @@ Result<NurbsCurve> tightLoop(std::span<const Vec2> points, double pixelMm) {
     if (away <= 1) break;
   }
   if (!loop) return nothing();
-  auto curve = loop->toNurbs(pixelMm, pixelMm, Vec2::Zero(), Vec2::Zero());
+  auto curve = loop->toNurbs();
   if (!curve) return curve;
   return curve->mapped(Eigen::Matrix2d::Identity(), points.front());
 }

@@ -36,8 +36,8 @@ std::vector<float> smoothSpread(const std::vector<PiecePoint>& points, bool clos
   return square;
 }
 
-/// Points that differ from their predecessor, in px about their mean, and what they weigh.
-void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, double ordinarySigmaPx) {
+/// Points that differ from their predecessor, about their mean, and what they weigh.
+void readPoints(FairPiece& piece, const ConstructPiece& in, double ordinarySigmaPx) {
   std::vector<FairPoint> px;
   const std::vector<float> beside = smoothSpread(in.points, in.closed);
   for (int i = 0; i < std::ssize(in.points); ++i) {
@@ -45,7 +45,7 @@ void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, doub
     const double sigma = in.points[i].sigmaPx.value_or(0.0f);
     const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
     FairPoint& p = px.emplace_back();
-    p.at = in.points[i].at / pixelMm;
+    p.at = in.points[i].at;
     p.weight = std::clamp(ratio * ratio, kLeastWeight, kMostWeight);
     p.spread = static_cast<double>(beside[i]);
   }
@@ -153,10 +153,10 @@ void weighByNoise(FairData& data, const LocalNoise& noise, double measured, doub
   }
 }
 
-FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixelMm, double ordinarySigmaPx,
+FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double ordinarySigmaPx,
                            const FairFitOptions& options, CancelCheck check) {
   FairPiece piece;
-  readPoints(piece, in, pixelMm, ordinarySigmaPx);
+  readPoints(piece, in, ordinarySigmaPx);
   FairData& data = piece.data;
   if (data.points.size() < 2) return piece;
   double length = 0.0;

@@ -9,9 +9,9 @@ namespace batten {
 /// [px] Median of the standard deviations that the points of a contour came with; 0: they came with none.
 double ordinarySigma(const ConstructContour&);
 
-/// Points in px, cleaned and gated; pilot, first frame and the table of cut-offs.
-FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, double ordinarySigmaPx,
-                           const FairFitOptions&, CancelCheck);
+/// Points cleaned and gated; pilot, first frame and the table of cut-offs. @param piece in px.
+FairPiece prepareFairPiece(const ConstructPiece& piece, bool isStroke, double ordinarySigmaPx, const FairFitOptions&,
+                           CancelCheck);
 
 /// [-] What merged strokes leave open about the line that was meant: a noise density of this part of the cube of half
 /// their half-width (a hand wanders over a length proportional to its excursion), …

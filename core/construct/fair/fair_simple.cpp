@@ -20,7 +20,7 @@ constexpr double kLoopCutoffShare = 0.25;  // of the length of a small closed li
 constexpr double kLoopSpacingPx = 16.0;    // of its knots
 constexpr double kPinWeight = 1e8;
 
-Result<NurbsCurve> bezier(std::vector<Vec2> points, double length, double scale) {
+Result<NurbsCurve> bezier(std::vector<Vec2> points, double length) {
   while (points.size() < 6) {
     const double n = static_cast<double>(points.size());
     std::vector<Vec2> raised{points.front()};
@@ -32,12 +32,11 @@ Result<NurbsCurve> bezier(std::vector<Vec2> points, double length, double scale)
     points = std::move(raised);
   }
   std::vector<double> knots(6, 0.0);
-  knots.insert(knots.end(), 6, length * scale);
-  for (Vec2& p : points) p *= scale;
+  knots.insert(knots.end(), 6, length);
   return NurbsCurve::make(5, std::move(knots), std::move(points));
 }
 
-Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, double scale, const std::vector<double>& t) {
+Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const std::vector<double>& t) {
   const double length = t.back();
   const int used = static_cast<int>(std::ranges::count(data.points, true, &FairPoint::use));
   const bool straight = length < kStraightBelowPx || used < 4;
@@ -65,7 +64,7 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, double 
   if (!sound) points = {first, last};
   if (pins.start) points.front() = first;
   if (pins.end) points.back() = last;
-  return bezier(std::move(points), length, scale);
+  return bezier(std::move(points), length);
 }
 
 }  // namespace
@@ -156,17 +155,16 @@ std::optional<LineFit> fitLine(std::span<const WeightedPoint> data) {
   return fit;
 }
 
-Result<NurbsCurve> lineCurve(const LineFit& line, const Vec2& first, const Vec2& last, const FairPins& pins,
-                             double scale) {
+Result<NurbsCurve> lineCurve(const LineFit& line, const Vec2& first, const Vec2& last, const FairPins& pins) {
   const auto onLine = [&](const Vec2& p, const Vec2& through) -> Vec2 {
     return through + (p - through).dot(line.direction) * line.direction;
   };
   const Vec2 a = pins.start ? *pins.start : onLine(first, pins.end.value_or(line.point));
   const Vec2 b = pins.end ? *pins.end : onLine(last, pins.start.value_or(line.point));
-  return bezier({a, b}, (b - a).norm(), scale);
+  return bezier({a, b}, (b - a).norm());
 }
 
-Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins, double scale) {
+Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins) {
   const auto nothing = [] {
     return fail(ErrorCode::Numerical, "A line is too short for a curve; drop short lines or specks.");
   };
@@ -179,12 +177,12 @@ Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins, doubl
     weights.push_back(p.use ? 1.0 : 0.0);
   }
   if (!(t.back() > 0.0) || !std::isfinite(t.back())) return nothing();
-  if (!data.closed) return openCurve(data, pins, scale, t);
+  if (!data.closed) return openCurve(data, pins, t);
   const double length = t.back() + (points.front() - points.back()).norm();
   const double lambda = data.density * std::pow(kLoopCutoffShare * length / (2.0 * std::numbers::pi), 6);
   const auto loop = fitUniformQuintic(fairKnots(length, kLoopSpacingPx, true), t, points, weights, lambda);
   if (!loop) return nothing();
-  return loop->toNurbs(scale, scale, Vec2::Zero(), Vec2::Zero());
+  return loop->toNurbs();
 }
 
 }  // namespace batten

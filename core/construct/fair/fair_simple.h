@@ -42,11 +42,11 @@ struct LineFit {
 };
 /// Total least squares line. Absent when all points are one.
 std::optional<LineFit> fitLine(std::span<const WeightedPoint>);
-/// The straight piece from the first to the last point: on the line, but through the pins. px in, scaled by `scale`.
-Result<NurbsCurve> lineCurve(const LineFit&, const Vec2& first, const Vec2& last, const FairPins&, double scale);
+/// The straight piece from the first to the last point: on the line, but through the pins.
+Result<NurbsCurve> lineCurve(const LineFit&, const Vec2& first, const Vec2& last, const FairPins&);
 
 /// For pieces too short for the fair fit: polynomial of low degree through the points in order (straight below 12 px),
 /// closed ones a smooth loop. Ends exactly at the pins. @return Numerical when the points are all one.
-Result<NurbsCurve> simpleCurve(const FairData&, const FairPins&, double scale);
+Result<NurbsCurve> simpleCurve(const FairData&, const FairPins&);
 
 }  // namespace batten

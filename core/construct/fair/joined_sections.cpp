@@ -40,9 +40,8 @@ std::string sharpFeatureNote(std::size_t count) {
 /// The curve of a piece, section by section in the order of the line.
 class SectionChain {
  public:
-  SectionChain(const ConstructPiece& piece, double pixelMm, const FittedSections& sections, const RunContext& context)
+  SectionChain(const ConstructPiece& piece, const FittedSections& sections, const RunContext& context)
       : piece_(piece),
-        pixelMm_(pixelMm),
         smooth_(sections.smooth),
         fits_(sections.fits),
         count_(static_cast<int>(smooth_.size())),
@@ -71,8 +70,7 @@ class SectionChain {
 
   /// Without a smooth section: close to the points all along.
   Result<ConstructedPiece> throughThePoints() {
-    auto curve = piece_.closed ? tightLoop(positionsOf(piece_.points), pixelMm_)
-                               : cornerFill(positionsOf(piece_.points), pixelMm_, {}, {});
+    auto curve = piece_.closed ? tightLoop(positionsOf(piece_.points)) : cornerFill(positionsOf(piece_.points), {}, {});
     if (!curve) return fail(curve.error());
     whole_.curve = std::move(*curve);
     whole_.report.why = Termination::Degenerate;
@@ -91,10 +89,10 @@ class SectionChain {
   /// Closed: begins in the middle of the longest section, where all derivatives meet.
   Result<void> beginInTheMiddle() {
     const NurbsCurve& longest = fits_[first_].curve;
-    halfMm_ = 0.5 * lengthOf(longest);
-    auto made = split(longest, longest.start() + halfMm_);
+    half_ = 0.5 * lengthOf(longest);
+    auto made = split(longest, longest.start() + half_);
     if (!made) return fail(made.error());
-    place(made->right, fits_[first_].report, halfMm_, 2.0 * halfMm_);
+    place(made->right, fits_[first_].report, half_, 2.0 * half_);
     halves_ = std::move(*made);
     return {};
   }
@@ -102,7 +100,7 @@ class SectionChain {
   Result<void> endInTheMiddle() {
     if (context_.isCancelled()) return cancelled();
     if (auto filled = fillBefore(first_); !filled) return filled;
-    place(halves_->left, fits_[first_].report, 0.0, halfMm_);
+    place(halves_->left, fits_[first_].report, 0.0, half_);
     return {};
   }
 
@@ -132,9 +130,9 @@ class SectionChain {
                     const std::optional<CurveEnd>& after) {
     std::vector<Vec2> points;
     for (int i = range.first; i <= range.last; ++i) points.push_back(piece_.points[i % pointCount_].at);
-    auto curve = cornerFill(points, pixelMm_, before, after);
+    auto curve = cornerFill(points, before, after);
     if (!curve) return fail(curve.error());
-    totalMm_ += lengthOf(*curve);
+    total_ += lengthOf(*curve);
     fills_.push_back(*curve);
     parts_.push_back(std::move(*curve));
     return {};
@@ -142,9 +140,9 @@ class SectionChain {
 
   /// A fit, or half of one: what lies between two of its arc lengths.
   void place(const NurbsCurve& curve, const ConstructReport& report, double from, double to) {
-    addNotes(whole_.report, report, {from, to, totalMm_});
+    addNotes(whole_.report, report, {from, to, total_});
     parts_.push_back(curve);
-    totalMm_ += lengthOf(curve);
+    total_ += lengthOf(curve);
   }
 
   Result<ConstructedPiece> joined() {
@@ -162,17 +160,16 @@ class SectionChain {
   }
 
   const ConstructPiece& piece_;
-  double pixelMm_;
   std::span<const PointRange> smooth_;
   std::span<const ConstructedPiece> fits_;
   int count_, pointCount_;
   const RunContext& context_;
   ConstructedPiece whole_;
   std::vector<NurbsCurve> parts_, fills_;
-  double totalMm_ = 0.0;              ///< Length of the parts so far.
+  double total_ = 0.0;                ///< Length of the parts so far.
   int first_ = 0;                     ///< The smooth section with which the curve begins.
   std::optional<SplitCurve> halves_;  ///< Closed: of its fit.
-  double halfMm_ = 0.0;
+  double half_ = 0.0;
 };
 
 }  // namespace
@@ -192,9 +189,9 @@ void addNotes(ConstructReport& whole, const ConstructReport& part, const NotedSt
   if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
 }
 
-Result<ConstructedPiece> joinSections(const ConstructPiece& piece, double pixelMm, const FittedSections& sections,
+Result<ConstructedPiece> joinSections(const ConstructPiece& piece, const FittedSections& sections,
                                       const RunContext& context) {
-  return SectionChain(piece, pixelMm, sections, context).run();
+  return SectionChain(piece, sections, context).run();
 }
 
 }  // namespace batten

@@ -12,8 +12,8 @@ namespace batten {
 
 /// What lies between two arc lengths of a part of a curve, and where that begins in the whole.
 struct NotedStretch {
-  double from = 0.0, to = 0.0;  ///< [mm] In the part.
-  double offset = 0.0;          ///< [mm] Of `from` in the whole.
+  double from = 0.0, to = 0.0;  ///< [px] In the part.
+  double offset = 0.0;          ///< [px] Of `from` in the whole.
 };
 /// Adds the notes of a stretch of a part to those of the whole.
 void addNotes(ConstructReport& whole, const ConstructReport& part, const NotedStretch&);
@@ -23,7 +23,7 @@ struct FittedSections {
   std::span<const PointRange> sharp, smooth;
   std::span<const ConstructedPiece> fits;  ///< One per smooth section.
 };
-/// Fits and tight curves through the sharp features as one curve, with the reports together.
-Result<ConstructedPiece> joinSections(const ConstructPiece&, double pixelMm, const FittedSections&, const RunContext&);
+/// Fits and tight curves through the sharp features as one curve, with the reports together. All in px.
+Result<ConstructedPiece> joinSections(const ConstructPiece&, const FittedSections&, const RunContext&);
 
 }  // namespace batten

@@ -25,7 +25,7 @@ constexpr double kLongestRatio = 1.15;
 constexpr double kLoosePx = 4.0;  // that a curve may be longer than its points: of short lines noise makes length
 constexpr double kLongRunPx = 30.0;
 
-/// The points of a piece in px with lengths along them; outliers stand aside.
+/// The points of a piece with lengths along them; outliers stand aside.
 struct Course {
   std::vector<int> index;  ///< Of the points that are used.
   std::vector<Vec2> p;     ///< Averages of three.
@@ -41,13 +41,13 @@ struct Course {
   }
 };
 
-Course courseOf(const ConstructPiece& piece, double pixelMm, double gatePx) {
+Course courseOf(const ConstructPiece& piece, double gatePx) {
   FairData data;
   data.closed = piece.closed;
   std::vector<int> original;
   for (int i = 0; i < std::ssize(piece.points); ++i) {
     if (!piece.points[i].at.allFinite()) continue;
-    data.points.emplace_back().at = piece.points[i].at / pixelMm;
+    data.points.emplace_back().at = piece.points[i].at;
     original.push_back(i);
   }
   if (gatePx > 0.0) rejectOutliers(data, gatePx, medianSpacing(data));
@@ -140,9 +140,8 @@ Passing follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at,
 
 }  // namespace
 
-std::vector<PointRange> sharpFeatures(const ConstructPiece& piece, bool isStroke, double pixelMm,
-                                      const FairFitOptions& options) {
-  const Course course = courseOf(piece, pixelMm, isStroke ? options.gateStrokePx : options.gateOutlinePx);
+std::vector<PointRange> sharpFeatures(const ConstructPiece& piece, bool isStroke, const FairFitOptions& options) {
+  const Course course = courseOf(piece, isStroke ? options.gateStrokePx : options.gateOutlinePx);
   const int n = course.count();
   std::vector<PointRange> features;
   if (n < 5) return features;
@@ -167,10 +166,8 @@ std::vector<PointRange> sharpFeatures(const ConstructPiece& piece, bool isStroke
   return features;
 }
 
-std::vector<PointRange> united(std::vector<PointRange> ranges, const ConstructPiece& piece, double pixelMm,
-                               double leastBetweenPx) {
+std::vector<PointRange> united(std::vector<PointRange> ranges, const ConstructPiece& piece, double least) {
   const int n = static_cast<int>(piece.points.size());
-  const double least = leastBetweenPx * pixelMm;
   std::sort(ranges.begin(), ranges.end(), [](const PointRange& a, const PointRange& b) { return a.first < b.first; });
   std::vector<PointRange> out;
   for (const PointRange& r : ranges) {
@@ -220,7 +217,7 @@ bool PointDeviation::good() const {
   return veryFar == 0 && far <= share && lengthRatio < kLongestRatio;
 }
 
-PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& piece, double pixelMm, CancelCheck check) {
+PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& piece, CancelCheck check) {
   PointDeviation result;
   std::vector<Vec2> polygon;
   std::vector<double> parameter;
@@ -228,28 +225,28 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   const auto breaks = curve.breaks();
   for (std::size_t j = 0; j + 1 < breaks.size(); ++j) {
     const double width = breaks[j + 1] - breaks[j];
-    const int steps = std::clamp(static_cast<int>(width / pixelMm / 2.0), 2, 16);
+    const int steps = std::clamp(static_cast<int>(width / 2.0), 2, 16);
     for (int i = 0; i < steps; ++i) parameter.push_back(breaks[j] + width * i / steps);
   }
   parameter.push_back(breaks.back());
-  for (const double u : parameter) polygon.push_back(curve.point(u) / pixelMm);
+  for (const double u : parameter) polygon.push_back(curve.point(u));
   for (std::size_t i = 1; i < polygon.size(); ++i) length += (polygon[i] - polygon[i - 1]).norm();
   const int n = static_cast<int>(piece.points.size());
   constexpr int kStride = 4;  // noise of single points makes no length
   for (int i = kStride; i < n; i += kStride) {
-    pointLength += (piece.points[i].at - piece.points[i - kStride].at).norm() / pixelMm;
+    pointLength += (piece.points[i].at - piece.points[i - kStride].at).norm();
   }
-  if (n > 0) pointLength += (piece.points[n - 1].at - piece.points[(n - 1) / kStride * kStride].at).norm() / pixelMm;
-  if (piece.closed && n > 0) pointLength += (piece.points.front().at - piece.points.back().at).norm() / pixelMm;
+  if (n > 0) pointLength += (piece.points[n - 1].at - piece.points[(n - 1) / kStride * kStride].at).norm();
+  if (piece.closed && n > 0) pointLength += (piece.points.front().at - piece.points.back().at).norm();
   result.lengthRatio = length / (pointLength + kLoosePx);
   std::size_t at = 0;
   if (piece.closed && n > 0) {
-    follow(polygon, piece.points.front().at / pixelMm, at, 2 * polygon.size());
+    follow(polygon, piece.points.front().at, at, 2 * polygon.size());
   }
   double along = 0.0;
   for (const PiecePoint& point : piece.points) {
     if (check.isCancelled()) return {};
-    const Vec2 p = point.at / pixelMm;
+    const Vec2& p = point.at;
     Passing d = follow(polygon, p, at, 8);
     if (d.distance > kBackPx) {
       if (const Passing further = follow(polygon, p, at, 24); further.distance < d.distance) d = further;
@@ -280,15 +277,14 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   return result;
 }
 
-std::vector<PointRange> outlierRanges(const PointDeviation& close, const ConstructPiece& piece, double pixelMm,
-                                      bool whole) {
+std::vector<PointRange> outlierRanges(const PointDeviation& close, const ConstructPiece& piece, bool whole) {
   std::vector<PointRange> out;
   const int n = static_cast<int>(piece.points.size());
   if (n < 5) return out;
   const bool outliers =
       std::ranges::any_of(close.points, [](const PointOffset& p) { return !(p.distancePx <= kOutlierPx); });
   if (!outliers && close.lengthRatio < kLongestRatio) return out;
-  const Course course = courseOf(piece, pixelMm, 0.0);
+  const Course course = courseOf(piece, 0.0);
   const std::vector<double> angle = turning(course, std::max(kArmPx, kArmPoints * course.total / n));
   if (course.count() != n) return {{0, n - 1}};
   const auto distance = [&](int i) { return close.points[((i % n) + n) % n].distancePx; };

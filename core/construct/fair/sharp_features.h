@@ -9,6 +9,8 @@
 
 namespace batten {
 
+// Pieces and curves are in px here.
+
 /// Points first..last of a piece. In closed pieces `last` may pass the number of points: indices count modulo.
 struct PointRange {
   int first = 0, last = 0;
@@ -16,11 +18,11 @@ struct PointRange {
 
 /// Stretches of a piece that turn more sharply than the fair fit can follow: unmarked corners, tips and
 /// hairpins, with a little of the line on either side. In order, at most once round a closed piece.
-std::vector<PointRange> sharpFeatures(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
+std::vector<PointRange> sharpFeatures(const ConstructPiece&, bool isStroke, const FairFitOptions&);
 
 /// Sorts ranges and unites those that leave less than `leastBetweenPx` of line between them, or between them and an
 /// open end.
-std::vector<PointRange> united(std::vector<PointRange>, const ConstructPiece&, double pixelMm, double leastBetweenPx);
+std::vector<PointRange> united(std::vector<PointRange>, const ConstructPiece&, double leastBetweenPx);
 
 /// The stretches between sharp features, in order (closed: beginning after the first one); without any the whole piece.
 std::vector<PointRange> between(const std::vector<PointRange>& features, const ConstructPiece&);
@@ -40,10 +42,10 @@ struct PointDeviation {
   /// Everywhere near enough, and no longer than the points allow.
   bool good() const;
 };
-PointDeviation pointDeviation(const NurbsCurve&, const ConstructPiece&, double pixelMm, CancelCheck check = {});
+PointDeviation pointDeviation(const NurbsCurve&, const ConstructPiece&, CancelCheck check = {});
 
 /// Where a curve has left the points: the ranges to treat as sharp features so that the rest can be fitted. Long ones
 /// shrink to their sharpest place unless `whole`.
-std::vector<PointRange> outlierRanges(const PointDeviation&, const ConstructPiece&, double pixelMm, bool whole);
+std::vector<PointRange> outlierRanges(const PointDeviation&, const ConstructPiece&, bool whole);
 
 }  // namespace batten

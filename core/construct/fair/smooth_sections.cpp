@@ -24,7 +24,7 @@ constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, 
 constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorter stretches have no fairness to keep
 constexpr double kSeamShare = 1e-3;        // of a closed curve: what is nearer to its seam begins or ends there
 /// Of a piece that is taken apart at them: nobody draws a line that turns sharply so often from corner to corner.
-constexpr std::size_t kMostSharpFeatures = 1000;
+constexpr int kMostSharpFeatures = 1000;
 
 /// What lies between two parameters of a fit; of a closed one through its seam where `to` comes before `from`.
 Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, double to, bool closed) {
@@ -68,15 +68,14 @@ std::string scatteredNote(std::size_t places) {
 
 }  // namespace
 
-SmoothSections::SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm,
-                               const FairFitOptions& options)
-    : piece_(piece), pixelMm_(pixelMm) {
-  std::vector<PointRange> sharp = sharpFeatures(piece, isStroke, pixelMm, options);
-  if (sharp.size() > kMostSharpFeatures) {
+SmoothSections::SmoothSections(const ConstructPiece& piece, bool isStroke, const FairFitOptions& options)
+    : piece_(piece) {
+  std::vector<PointRange> sharp = sharpFeatures(piece, isStroke, options);
+  if (std::ssize(sharp) > kMostSharpFeatures) {
     scattered_ = sharp.size();
     sharp = {{0, static_cast<int>(piece.points.size()) - 1}};
   }
-  sharp_ = united(std::move(sharp), piece, pixelMm, kLeastSmoothPx);
+  sharp_ = united(std::move(sharp), piece, kLeastSmoothPx);
   smooth_ = between(sharp_, piece);
 }
 
@@ -122,10 +121,10 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
     const auto& constraints = pieces[i].constraints;
     if (std::any_of(constraints.begin(), constraints.end(), [](const ExtremumConstraint& w) { return !w.keep; }))
       continue;
-    const PointDeviation close = pointDeviation(fits_[i].curve, pieces[i], pixelMm_, run);
+    const PointDeviation close = pointDeviation(fits_[i].curve, pieces[i], run);
     if (run.isCancelled()) return false;
     const int offset = smooth_[i].first;
-    const auto outliers = outlierRanges(close, pieces[i], pixelMm_, lastRound);
+    const auto outliers = outlierRanges(close, pieces[i], lastRound);
     for (PointRange r : outliers) sharp.push_back({r.first + offset, r.last + offset});
     if (lastRound && !outliers.empty()) cuts.push_back({i, close, outliers});
     more = more || !outliers.empty();
@@ -135,7 +134,7 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
   for (PointRange& r : sharp) {
     if (r.first >= n) r = {r.first - n, r.last - n};
   }
-  sharp_ = united(std::move(sharp), piece_, pixelMm_, kLeastSmoothPx);
+  sharp_ = united(std::move(sharp), piece_, kLeastSmoothPx);
   if (lastRound) {
     keepNear(cuts, pieces);
   } else {
@@ -155,7 +154,7 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
       continue;
     }
     const ConstructPiece& piece = pieces[i];
-    const auto outliers = united(cut->outliers, piece, pixelMm_, kLeastSmoothPx);
+    const auto outliers = united(cut->outliers, piece, kLeastSmoothPx);
     const std::vector<PointOffset>& at = cut->close.points;
     const int n = static_cast<int>(at.size());
     for (const PointRange& r : between(outliers, piece)) {
@@ -176,20 +175,17 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
 Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& context) const {
   PieceSet set;
   set.pieces.resize(1);
-  Piece& px = set.pieces[0];
-  px = Piece{inFrame(piece_, [&](const Vec2& p) { return Vec2(p / pixelMm_); })};
-  px.lengthPx = polylineLength(positionsOf(px.points), false);
-  for (PiecePoint& p : px.points) p.refined = true;
+  Piece& line = set.pieces[0];
+  line = Piece{static_cast<const PieceLine&>(piece_)};
+  line.lengthPx = polylineLength(positionsOf(line.points), false);
+  for (PiecePoint& p : line.points) p.refined = true;
   SegmentParams adaptive;
   adaptive.mode = SegmentMode::Adaptive;
   const auto segments = regressionSegments(set, adaptive, context);
   if (!segments) return fail(segments.error());
   ConstructPiece piece = piece_;
   piece.stations = segments->pieces.at(0).stations;
-  for (Station& s : piece.stations) {
-    for (Vec2* p : {&s.point, &s.from, &s.to}) *p *= pixelMm_;
-  }
-  auto made = constructQuinticNurbs(piece, pixelMm_, ConstructParams{}, context);
+  auto made = constructQuinticNurbs(piece, 1.0, ConstructParams{}, context);
   if (!made) return made;
   made->report.why = Termination::Degenerate;
   made->report.note = "The fair fit did not stay on this line; quintic NURBS were used.";
@@ -215,7 +211,7 @@ Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const
 }
 
 Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
-  auto whole = joinSections(piece_, pixelMm_, {sharp_, smooth_, fits_}, context);
+  auto whole = joinSections(piece_, {sharp_, smooth_, fits_}, context);
   if (context.isCancelled()) return cancelled();
   if (whole && scattered_) {
     whole->report.note = scatteredNote(*scattered_);
@@ -226,14 +222,14 @@ Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) 
   };
   std::optional<int> far;
   if (whole) {
-    const PointDeviation close = pointDeviation(whole->curve, piece_, pixelMm_, context);
+    const PointDeviation close = pointDeviation(whole->curve, piece_, context);
     if (context.isCancelled()) return cancelled();
     if (close.good()) return whole;
     far = farness(close);
   }
   auto other = throughStations(context);
   if (!other) return whole;
-  if (far && farness(pointDeviation(other->curve, piece_, pixelMm_, context)) >= *far) return whole;
+  if (far && farness(pointDeviation(other->curve, piece_, context)) >= *far) return whole;
   return other;
 }
 

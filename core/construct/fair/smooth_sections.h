@@ -14,10 +14,10 @@
 namespace batten {
 
 /// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and sharp
-/// features. One of more than 1000 sharp features becomes one tight curve along its points, with a note.
+/// features. One of more than 1000 sharp features becomes one tight curve along its points, with a note. All in px.
 class SmoothSections {
  public:
-  SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm, const FairFitOptions&);
+  SmoothSections(const ConstructPiece& piece, bool isStroke, const FairFitOptions&);
 
   bool hasSharpFeatures() const { return !sharp_.empty(); }
   /// The smooth stretches as pieces of their own.
@@ -44,7 +44,6 @@ class SmoothSections {
   std::vector<PiecePoint> pointsOf(const PointRange&) const;
 
   const ConstructPiece& piece_;
-  double pixelMm_;
   std::vector<PointRange> sharp_, smooth_;
   std::optional<std::size_t> scattered_;  ///< Sharp features of a piece that has too many to be taken apart.
   std::vector<ConstructedPiece> fits_;

@@ -49,10 +49,10 @@ struct PointBox {
   double squareFrom(const Vec2& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm(); }
 };
 
-/// A polyline in parts, with boxes that tell which of them cannot be the nearest to a point.
+/// A polyline [px] in parts, with boxes that tell which of them cannot be the nearest to a point.
 class BoxedLine {
  public:
-  explicit BoxedLine(const std::vector<Vec2>& points) : points_(points) {
+  explicit BoxedLine(std::span<const Vec2> points) : points_(points) {
     const std::size_t segments = points.empty() ? 0 : points.size() - 1;
     for (std::size_t first = 0; first < segments; first += kPartSegments) {
       Part part{{}, first, std::min(first + kPartSegments, segments)};
@@ -67,10 +67,9 @@ class BoxedLine {
   struct Nearest {
     double square = std::numeric_limits<double>::infinity(), side = 1.0;
   };
-  /// @param marginMm more than rounding makes of distances.
-  void look(const Vec2& p, double marginMm, Nearest& found) const {
+  void look(const Vec2& p, Nearest& found) const {
     const auto isBeyond = [&](const PointBox& box) {
-      return box.squareFrom(p) > (1.0 + kMarginShare) * found.square + marginMm * marginMm;
+      return box.squareFrom(p) > (1.0 + kMarginShare) * found.square + kRoundingPx * kRoundingPx;
     };
     if (isBeyond(box_)) return;
     for (const Part& part : parts_) {
@@ -86,16 +85,17 @@ class BoxedLine {
 
  private:
   static constexpr std::size_t kPartSegments = 4;
-  static constexpr double kMarginShare = 1e-6;
+  static constexpr double kMarginShare = 1e-6, kRoundingPx = 1e-6;  // more than rounding makes of distances
   struct Part {
     PointBox box;
     std::size_t first, last;  ///< Segments.
   };
-  const std::vector<Vec2>& points_;
+  std::span<const Vec2> points_;
   PointBox box_;
   std::vector<Part> parts_;
 };
 
+/// Measures in px along the points of a piece; stations and the curves through them are in mm.
 class Refiner {
  public:
   Refiner(const PieceLine& piece, const ConstructPiece& given, StationSet start, double pixelMm, double tolerancePx)
@@ -128,10 +128,11 @@ class Refiner {
   }
 
   /// How far the points lie from the curve; false where it is no curve through the stations.
-  bool measure(const std::vector<std::vector<Vec2>>& curve) {
+  bool measure(std::vector<std::vector<Vec2>> curve) {
     if (curve.size() != s_.size() - (given_.closed ? 0 : 1)) return false;
-    for (const auto& line : curve) {
+    for (auto& line : curve) {
       if (!std::all_of(line.begin(), line.end(), [](const Vec2& p) { return p.allFinite(); })) return false;
+      for (Vec2& p : line) p = toPx(p);
     }
     away_.clear();
     excess_ = 0.0;
@@ -161,9 +162,8 @@ class Refiner {
   const StationSet& set() const { return set_; }
 
  private:
-  static constexpr double kRoundingPx = 1e-6;
-
-  Vec2 stationPx(std::size_t i) const { return set_.stations[i].point / pixelMm_; }
+  Vec2 toPx(const Vec2& mm) const { return mm / pixelMm_; }
+  Vec2 stationPx(std::size_t i) const { return toPx(set_.stations[i].point); }
   double end(std::size_t i) const { return i + 1 < s_.size() ? s_[i + 1] : s_.front() + meter_.length(); }
   double length(std::size_t i) const { return end(i) - s_[i]; }
 
@@ -200,7 +200,7 @@ class Refiner {
     const auto distanceOf = [&](const Vec2& p) {
       BoxedLine::Nearest nearest;
       for (const BoxedLine* line : {&own, before, after})
-        if (line) line->look(p, kRoundingPx * pixelMm_, nearest);
+        if (line) line->look(p, nearest);
       return nearest.side * std::sqrt(nearest.square);
     };
     int i = meter_.lowerBound(s_[interval]), last = meter_.lowerBound(end(interval));
@@ -212,7 +212,7 @@ class Refiner {
       double sum = 0.0;
       int count = 0;
       for (; i <= last && (meter_.s(i) < until || until > end(interval) - 0.5 * block); ++i, ++count) {
-        sum += distanceOf(meter_.point(i) * pixelMm_) / pixelMm_;
+        sum += distanceOf(meter_.point(i));
       }
       if (count > 0) largest = std::max(largest, std::abs(sum / count));
     }

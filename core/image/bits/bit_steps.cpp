@@ -64,7 +64,7 @@ class StepsOnTile {
   /// Writes words [firstWord, pastWord) of rows [begin, end).
   void run(const BitImage& image, const StepTile& tile, const StepTile& inner, BitImage& out) {
     const int words = tile.words();
-    const auto size = static_cast<std::size_t>(words) * static_cast<std::size_t>(tile.rows());
+    const std::ptrdiff_t size = std::ptrdiff_t{words} * tile.rows();
     now_.resize(size);
     next_.resize(size);
     const std::uint64_t lastMask = tile.pastWord == image.wordsPerRow ? image.lastWordMask() : ~std::uint64_t{0};

@@ -17,8 +17,8 @@ class PaddedBits {
   PaddedBits(const BitImage& image, bool replicate);
 
   /// First word of row y, -1 <= y <= height; index -1 and wordsPerRow are the guards.
-  std::uint64_t* row(int y) { return words_.data() + static_cast<std::size_t>(y + 1) * stride_ + 1; }
-  const std::uint64_t* row(int y) const { return words_.data() + static_cast<std::size_t>(y + 1) * stride_ + 1; }
+  std::uint64_t* row(int y) { return words_.data() + (y + 1) * stride_ + 1; }
+  const std::uint64_t* row(int y) const { return words_.data() + (y + 1) * stride_ + 1; }
   int width() const { return width_; }
   int height() const { return height_; }
   int wordsPerRow() const { return wordsPerRow_; }
@@ -31,7 +31,7 @@ class PaddedBits {
 
  private:
   int width_, height_, wordsPerRow_;
-  std::size_t stride_;
+  std::ptrdiff_t stride_;
   std::uint64_t lastMask_;
   std::vector<std::uint64_t> words_;
 };

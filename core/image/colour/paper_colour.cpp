@@ -17,6 +17,9 @@ constexpr double kFromRank = 0.6, kToRank = 0.95;  // of the pixels of a cell by
 constexpr double kPaperShare = 0.5;                // of the page's bright level: darker cells are no paper
 constexpr int kFitRounds = 12;
 constexpr double kLeastSpread = 0.004;  // of a ratio: below it cells agree
+constexpr double kInertia = 1e-3;       // cells: what a round weighs that keeps the fit of the one before
+constexpr float kLeastRatio = 0.05f;    // of a channel: paper is no darker
+constexpr double kBrightRank = 0.9;     // of the cells, for the bright level of the page
 
 using Sextet = Eigen::Matrix<double, 6, 1>;
 
@@ -69,8 +72,8 @@ std::array<double, 6> fitRatio(const std::vector<CellColour>& cells, std::size_t
     std::vector<double> residuals;
     for (const CellColour& cell : cells) residuals.push_back(cell.ratio[channel] - fitted.dot(termsAt(cell.u, cell.v)));
     const double spread = std::max(kLeastSpread, robustSigma(std::vector<double>(residuals)));
-    Eigen::Matrix<double, 6, 6> normal = 1e-3 * Eigen::Matrix<double, 6, 6>::Identity();
-    Sextet right = 1e-3 * fitted;
+    Eigen::Matrix<double, 6, 6> normal = kInertia * Eigen::Matrix<double, 6, 6>::Identity();
+    Sextet right = kInertia * fitted;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const double away = residuals[i] / (2.0 * spread), weight = 1.0 / (1.0 + away * away);
       const Sextet terms = termsAt(cells[i].u, cells[i].v);
@@ -97,7 +100,7 @@ void PaperColour::ratiosOfRow(int y, int width, int height, std::array<std::vect
     float* row = out[k].data();
     for (int x = 0; x < width; ++x) {
       const float at = static_cast<float>(x) + 0.5f;
-      row[x] = std::max(0.05f, start + at * (slope + at * bend));
+      row[x] = std::max(kLeastRatio, start + at * (slope + at * bend));
     }
   }
 }
@@ -119,7 +122,7 @@ PaperColour measurePaperColour(const GreyImage& grey, const ColourImage& colour,
   paper.cellPx = std::clamp(std::min(grey.width, grey.height) / kCellsAcross, kSmallestCellPx, kLargestCellPx);
   paper.columns = (grey.width + paper.cellPx - 1) / paper.cellPx;
   paper.rows = (grey.height + paper.cellPx - 1) / paper.cellPx;
-  std::vector<CellColour> cells(static_cast<std::size_t>(paper.columns) * static_cast<std::size_t>(paper.rows));
+  std::vector<CellColour> cells(std::ptrdiff_t{paper.columns} * paper.rows);
   parallelFor(context, paper.rows, 1, [&](int begin, int end) {
     std::vector<std::pair<std::uint16_t, Rgb8>> pixels;
     for (int j = begin; j < end; ++j) {
@@ -148,7 +151,7 @@ PaperColour measurePaperColour(const GreyImage& grey, const ColourImage& colour,
                               ? static_cast<float>(cells[i].grey)
                               : paper.bright[i]);
   std::vector<float> levels = paper.bright;
-  const double most = static_cast<double>(lowerQuantile(levels, 0.9));
+  const double most = static_cast<double>(lowerQuantile(levels, kBrightRank));
   std::erase_if(cells, [&](const CellColour& cell) { return cell.grey < kPaperShare * most; });
   for (auto& ratio : paper.ratio) ratio[0] = 1.0;
   if (cells.empty()) return paper;

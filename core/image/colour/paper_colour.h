@@ -24,10 +24,7 @@ struct PaperColour {
   /// Ratios of the three channels at the pixel centres of row y. @param out three rows of `width` values.
   void ratiosOfRow(int y, int width, int height, std::array<std::vector<float>, 3>& out) const;
   /// Grey of the paper around a pixel. @pre inside the page.
-  float paperAt(int x, int y) const {
-    return bright[static_cast<std::size_t>(y / cellPx) * static_cast<std::size_t>(columns) +
-                  static_cast<std::size_t>(x / cellPx)];
-  }
+  float paperAt(int x, int y) const { return bright[y / cellPx * columns + x / cellPx]; }
   /// The same without steps: bilinear between the middles of the cells.
   float levelAt(int x, int y) const;
 };

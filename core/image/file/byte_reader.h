@@ -27,7 +27,7 @@ class ByteReader {
   }
   ByteReader part(std::uint64_t offset, std::uint64_t count, bool bigEndian) const {
     if (!has(offset, count)) return ByteReader({}, bigEndian);
-    return ByteReader(bytes_.subspan(offset, static_cast<std::size_t>(count)), bigEndian);
+    return ByteReader(bytes_.subspan(offset, count), bigEndian);
   }
   std::span<const std::byte> bytes() const { return bytes_; }
 

@@ -26,7 +26,9 @@ constexpr double kPresence = 0.35;    // of the line's depth: fainter stretches 
 constexpr double kSolidLight = 0.35;  // less light comes through a dark line: what is over it cannot be told
 constexpr double kSnapShare = 0.35;   // of the depth: what is left of a line after it is divided out
 constexpr double kSnapPerNoise = 2.5;
-constexpr double kLeastStroke = 0.12;    // of the paper's light: what a stroke across takes at least
+constexpr double kLeastStroke = 0.12;  // of the paper's light: what a stroke across takes at least
+// Of what the whole line takes of the light, and of the light: a stretch takes no more.
+constexpr double kMostOfWhole = 1.35, kMostBesides = 0.02;
 constexpr double kSteepestStroke = 2.0;  // [px along / px across]
 constexpr int kStrokeSteps = 8;          // to either side
 
@@ -144,8 +146,7 @@ class RulingEraser {
   double atBlocks(const std::vector<double>& values, int x) const {
     const double place = (x + 0.5) / kBlockPx - 0.5;
     const double low = std::clamp(std::floor(place), 0.0, static_cast<double>(values.size() - 1));
-    const auto i = static_cast<std::size_t>(low);
-    const std::size_t j = std::min(i + 1, values.size() - 1);
+    const int i = static_cast<int>(low), j = std::min(i + 1, static_cast<int>(values.size()) - 1);
     return values[i] + std::clamp(place - low, 0.0, 1.0) * (values[j] - values[i]);
   }
 
@@ -179,9 +180,9 @@ class RulingEraser {
     });
     std::vector<std::optional<double>> known;
     // A line without slope meets every second place only, but for a few pixels, which say nothing of the whole.
-    const auto least = static_cast<std::size_t>(kLeastOfColumns * (end(toBlock - 1) - begin(fromBlock)));
+    const auto least = static_cast<int>(kLeastOfColumns * (end(toBlock - 1) - begin(fromBlock)));
     for (auto& values : light)
-      known.push_back(values.size() <= least
+      known.push_back(std::ssize(values) <= least
                           ? std::nullopt
                           : std::optional(std::min(1.0, static_cast<double>(lowerQuantile(values, kPaperRank)))));
     std::vector<double> profile = withoutGaps(known);
@@ -216,9 +217,8 @@ class RulingEraser {
 
   double at(const std::vector<double>& profile, double offset) const {
     const double place = std::clamp((offset + reach_) * kBinsPerPx, 0.0, bins() - 1.0);
-    const auto i = static_cast<std::size_t>(place);
-    const std::size_t j = std::min(i + 1, profile.size() - 1);
-    return profile[i] + (place - static_cast<double>(i)) * (profile[j] - profile[i]);
+    const int i = static_cast<int>(place), j = std::min(i + 1, static_cast<int>(profile.size()) - 1);
+    return profile[i] + (place - i) * (profile[j] - profile[i]);
   }
 
   using Place = std::vector<double>::const_iterator;
@@ -275,7 +275,7 @@ class RulingEraser {
     if (!isSolid_ && depthHere < kPresence * depth_) return;
     // A stroke that runs along the line is no part of it.
     for (std::size_t i = 0; i < profile.size(); ++i)
-      profile[i] = std::max({profile[i], 1.0 - 1.35 * (1.0 - whole_[i]) - 0.02, 0.0});
+      profile[i] = std::max({profile[i], 1.0 - kMostOfWhole * (1.0 - whole_[i]) - kMostBesides, 0.0});
     const double leastStroke = std::max(kLeastStroke, 3.0 * noiseLevel_);
     const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
     forStrip(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {

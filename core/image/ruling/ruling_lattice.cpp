@@ -22,6 +22,17 @@ constexpr double kLatticeReach = 0.18;  // of the spacing: how far a stretch may
 constexpr double kLeastReach = 1.2;     // [grid]
 constexpr double kPrintReach = 2.5;     // [grid] printed lines lie nearer to the lattice
 constexpr double kLeastOfLine = 0.5;    // of the strips: a line is seen
+constexpr double kPairReach = 0.04;     // of the spacing: half width of what counts as one distance
+constexpr double kAlmostBest = 0.6;  // of the pairs at the best spacing: a smaller one that has so many is the line's
+constexpr double kRefineReach = 0.75, kRefineStep = 0.05;  // [grid] the spacing is sought finer than whole numbers
+constexpr double kStepLearned = 0.15;                      // of what one line of a chain says of the step to the next
+constexpr double kLeastStepShare = 0.3,
+                 kMostStepShare = 3.0;  // of the spacing: a lattice with such steps has gone astray
+constexpr double kMostJump = 50.0;      // [lines] in one step of Newton
+constexpr int kNewtonRounds = 6;
+// A prior of the terms, per stretch: none of place, spacing and slope; on the bends two thousandths of what the
+// stretches say; those that are held do not move.
+constexpr double kFreeTerm = 1e-6, kBendingTerm = 2e-3, kHeldTerm = 1e9;
 constexpr int kMatchRounds = 4;
 
 using Terms = Eigen::Matrix<double, 10, 1>;
@@ -38,7 +49,7 @@ struct Member {
 /// How often stretches of a strip lie `spacing` apart.
 double pairsAt(const RulingStretches& found, double spacing) {
   double sum = 0.0;
-  const double reach = std::max(kLeastReach, 0.04 * spacing);
+  const double reach = std::max(kLeastReach, kPairReach * spacing);
   for (const auto& strip : found.strips) {
     for (std::size_t i = 0, j = 0; i < strip.size(); ++i) {
       while (j < strip.size() && strip[j] < strip[i] + spacing - reach) ++j;
@@ -60,10 +71,10 @@ double commonSpacing(const RulingStretches& found, double height, const RunConte
     best = std::max(best, pairs.back());
   }
   for (int spacing = static_cast<int>(kSmallestSpacing); spacing < most; ++spacing) {
-    const auto s = static_cast<std::size_t>(spacing);
-    if (pairs[s] < 0.6 * best || pairs[s] < pairs[s - 1] || pairs[s] < pairs[s + 1]) continue;
+    const double sum = pairs[spacing];
+    if (sum < kAlmostBest * best || sum < pairs[spacing - 1] || sum < pairs[spacing + 1]) continue;
     double refined = spacing, top = 0.0;
-    for (double near = spacing - 0.75; near <= spacing + 0.75; near += 0.05) {
+    for (double near = spacing - kRefineReach; near <= spacing + kRefineReach; near += kRefineStep) {
       const double here = pairsAt(found, near) + pairsAt(found, 2.0 * near);
       if (here > top) {
         top = here;
@@ -87,7 +98,7 @@ std::vector<std::pair<int, double>> longestChain(const std::vector<double>& plac
       if (lines > kMostMissing + 1) break;
       if (lines < 1.0 || std::fabs(away - lines * step) > std::max(kLeastReach, kChainReach * spacing)) continue;
       chain.emplace_back(chain.back().first + static_cast<int>(lines), places[i]);
-      step += 0.15 * (away / lines - step);
+      step += kStepLearned * (away / lines - step);
     }
     if (chain.size() > best.size()) best = std::move(chain);
     if (best.size() + start >= places.size()) break;
@@ -152,7 +163,7 @@ class LatticeFit {
 
   /// Adds the stretches of a strip that lie on the lattice, at most one a line.
   void match(int strip, double share) {
-    const double x = xOf(static_cast<std::size_t>(strip));
+    const double x = xOf(strip);
     const std::size_t before = members_.size();
     for (const double y : found_.strips[strip]) {
       const double k = std::round(lineAt(x, y));
@@ -171,11 +182,11 @@ class LatticeFit {
   /// The line number, as a real, at a place of a strip (y without the slope).
   double lineAt(double x, double y) const {
     double k = lattice_.middle + (y - lattice_.at(lattice_.middle, x) + lattice_.slope * x) / spacing_;
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < kNewtonRounds; ++round) {
       const double here = lattice_.at(k, x) - lattice_.slope * x;
       const double step = lattice_.at(k + 0.5, x) - lattice_.at(k - 0.5, x);
-      if (step < 0.3 * spacing_ || step > 3.0 * spacing_) break;
-      k += std::clamp((y - here) / step, -50.0, 50.0);
+      if (step < kLeastStepShare * spacing_ || step > kMostStepShare * spacing_) break;
+      k += std::clamp((y - here) / step, -kMostJump, kMostJump);
     }
     return k;
   }
@@ -185,7 +196,7 @@ class LatticeFit {
     Eigen::Matrix<double, 10, 10> normal = Eigen::Matrix<double, 10, 10>::Zero();
     Terms right = Terms::Zero();
     const auto count = static_cast<double>(members_.size());
-    for (int i = 0; i < 10; ++i) normal(i, i) = i >= terms ? 1e9 * count : (i < 3 ? 1e-6 : 2e-3) * count;
+    for (int i = 0; i < 10; ++i) normal(i, i) = (i >= terms ? kHeldTerm : i < 3 ? kFreeTerm : kBendingTerm) * count;
     for (const Member& m : members_) {
       const Terms t = termsOf((m.line - lattice_.middle) / lattice_.reach, m.x / lattice_.halfWidth - 1.0);
       normal += t * t.transpose();

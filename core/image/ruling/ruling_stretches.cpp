@@ -36,13 +36,12 @@ BATTEN_HOT_LOOP void meansOfFive(const float* in, float* __restrict out, int cou
 /// of them, or a mirrored one, would be fresh memory, which costs more than the sums.
 class AveragedRows {
  public:
-  explicit AveragedRows(const PlaneView& grey)
-      : grey_(grey), width_(grey.width()), padded_(static_cast<std::size_t>(width_) + 2 * kAlong) {}
+  explicit AveragedRows(const PlaneView& grey) : grey_(grey), width_(grey.width()), padded_(width_ + 2 * kAlong) {}
 
   void make(int first, int past) {
     static_assert(kAlong == 2);
     first_ = first;
-    rows_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(past - first));
+    rows_.resize(std::ptrdiff_t{width_} * (past - first));
     grey_.copyRows(first, past, rows_.data());
     for (int y = first; y < past; ++y) {
       float* row = rows_.data() + std::ptrdiff_t{y - first} * width_;
@@ -127,7 +126,7 @@ std::array<std::vector<LinePixel>, kStrips> linePixels(const PlaneView& grey, co
   const int blocks = (height + kRowsPerBlock - 1) / kRowsPerBlock;
   std::vector<std::array<std::vector<LinePixel>, kStrips>> parts(blocks);
   parallelFor(context, height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<std::uint8_t> marks((static_cast<std::size_t>(width) + 7) / 8 * 8, 0);
+    std::vector<std::uint8_t> marks((width + 7) / 8 * 8, 0);
     AveragedRows averaged(grey);
     averaged.make(std::max(0, begin - kFarSide), std::min(height, end + kFarSide));
     for (int y = std::max(1, begin); y < std::min(end, height - 1); ++y) {
@@ -160,8 +159,8 @@ void project(const std::vector<LinePixel>& pixels, double slope, double offset, 
   std::fill(bins.begin(), bins.end(), 0);
   const auto tilt = static_cast<float>(slope), shift = static_cast<float>(offset);
   for (const LinePixel& p : pixels) {
-    const auto bin = static_cast<std::size_t>(p.y - tilt * p.x + shift);
-    if (bin < bins.size()) ++bins[bin];
+    const auto bin = static_cast<int>(p.y - tilt * p.x + shift);
+    if (bin >= 0 && bin < std::ssize(bins)) ++bins[bin];
   }
 }
 
@@ -184,6 +183,7 @@ double scoreOf(const std::vector<int>& bins, float least) {
 
 /// Places where three bins together hold enough pixels, each at their centre of mass.
 std::vector<double> peaksOf(const std::vector<int>& bins, double least, double offset) {
+  constexpr double kNearest = 2.5;  // bins: two peaks that are nearer share one
   std::vector<double> places;
   const auto around = [&](std::size_t i) { return bins[i - 1] + bins[i] + bins[i + 1]; };
   for (std::size_t i = 2; i + 2 < bins.size(); ++i) {
@@ -191,7 +191,7 @@ std::vector<double> peaksOf(const std::vector<int>& bins, double least, double o
     if (here < least || here < around(i - 1) || here <= around(i + 1)) continue;
     const double shift = static_cast<float>(bins[i + 1] - bins[i - 1]) / static_cast<float>(here);
     const double place = static_cast<double>(i) + 0.5 + shift - offset;
-    if (places.empty() || place - places.back() > 2.5) places.push_back(place);
+    if (places.empty() || place - places.back() > kNearest) places.push_back(place);
   }
   return places;
 }
@@ -225,10 +225,11 @@ RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& con
   const double offset = kSteepest * out.width + 2.0;
   const double least = kLeastOfStrip * out.stripWidth;
   const int steps = static_cast<int>(std::ceil(kSteepest * out.stripWidth / 1.5));
+  const int binCount = static_cast<int>(out.height + 2.0 * offset) + 2;
   std::vector<double> scores(2 * steps + 1, 0.0);
   const auto slopeOf = [&](int step) { return kSteepest * (step - steps) / steps; };
   parallelFor(context, 2 * steps + 1, 1, [&](int begin, int end) {
-    std::vector<int> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
+    std::vector<int> bins(binCount);
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       for (const auto& strip : pixels) {
         project(strip, slopeOf(i), offset, bins);
@@ -240,7 +241,7 @@ RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& con
   const auto best = static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
   if (scores[best] <= 0.0) return out;
   out.slope = slopeOf(best);
-  std::vector<int> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
+  std::vector<int> bins(binCount);
   for (const auto& strip : pixels) {
     project(strip, out.slope, offset, bins);
     out.strips.push_back(peaksOf(bins, least, offset));

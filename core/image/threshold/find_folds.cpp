@@ -19,6 +19,12 @@ constexpr double kLeastSeen = 0.5;     // of the step: what the grey itself step
 constexpr double kBarShare = 0.2;      // of the page's smaller side: two opposite steps that are nearer make a bar
 constexpr double kWindowPx = 96.0;     // along the course: a line that crosses takes up a small part of it
 constexpr double kSpacingPx = 16.0;
+constexpr float kShownShare = 0.3f;      // of the median step: a place where the step shows
+constexpr double kCoarseRows = 400.0;    // of the first look along a course: hardly more for a longer one, …
+constexpr double kLeastRowPx = 4.0;      // … and no closer than this
+constexpr double kOppositeCos = -0.9;    // of the normals: opposite but for 26 degrees
+constexpr double kUsualSidePx = 1000.0;  // of the shrunk page; softness goes with the size of the scan, …
+constexpr double kLeastScale = 0.5, kMostScale = 3.0;  // … within limits
 
 float sample(const Plane& u, const Vec2& p) {
   const int x = std::clamp(static_cast<int>(p.x()), 0, u.width - 1);
@@ -41,7 +47,7 @@ bool mayStep(const Plane& u, const FoldCourse& c) {
   }
   std::vector<float> sorted = steps;
   const float middle = lowerQuantile(sorted, 0.5);
-  const auto shown = std::count_if(steps.begin(), steps.end(), [&](float step) { return step > 0.3f * middle; });
+  const auto shown = std::count_if(steps.begin(), steps.end(), [&](float step) { return step > kShownShare * middle; });
   return static_cast<double>(middle) > 0.5 * kLeastFoldStep && 2 * shown > kPlaces;
 }
 
@@ -53,7 +59,7 @@ class FoldMaker {
   std::optional<PaperFold> make() {
     const int widest = static_cast<int>(kWidest * scale_);
     const FoldStrip coarse =
-        foldStripAlong(image_, course_, widest, std::max(4.0, (course_.to - course_.from) / 400.0));
+        foldStripAlong(image_, course_, widest, std::max(kLeastRowPx, (course_.to - course_.from) / kCoarseRows));
     const std::vector<double> slopes = foldSlopesAcross(coarse);
     const auto rough = fitFoldStep(foldStepsOf(coarse, widest - kFoldPaperPx, slopes));
     if (!rough) return std::nullopt;
@@ -91,7 +97,7 @@ class FoldMaker {
     const std::vector<std::vector<StripPixel>> pixels = stripPixels(fold, fit);
     std::vector<std::vector<float>> profiles;
     for (int k = 0; k < fold.stations; ++k) profiles.push_back(edgeProfile(pixels, k, fold));
-    const auto taps = static_cast<std::size_t>(fold.taps());
+    const int taps = fold.taps();
     fillGaps(profiles);
     std::vector<float> raw;
     for (std::vector<float>& profile : profiles) {
@@ -126,8 +132,7 @@ class FoldMaker {
         const auto row = static_cast<int>((t - course_.from) / strip_.stepPx);
         if (t < course_.from || row >= strip_.rows || std::fabs(d) > fold.reach + 0.5) continue;
         if (fit.shows[row] == 0) continue;
-        const auto station = static_cast<std::size_t>(
-            std::min<double>(fold.stations - 1, std::lround((t - course_.from) / fold.spacing)));
+        const long station = std::min<long>(fold.stations - 1, std::lround((t - course_.from) / fold.spacing));
         pixels[station].push_back({static_cast<float>(d), static_cast<float>(image_.level(x, y)) - bright[row]});
       }
     }
@@ -144,7 +149,7 @@ class FoldMaker {
     for (int k = std::max(0, station - around); k <= std::min(fold.stations - 1, station + around); ++k) {
       for (const StripPixel& pixel : pixels[k]) {
         const double v = (static_cast<double>(pixel.d) + fold.reach) * PaperFold::kTapsPerPx;
-        const auto bin = static_cast<std::size_t>(std::clamp<long>(std::lround(v), 0, taps - 1));
+        const long bin = std::clamp<long>(std::lround(v), 0, taps - 1);
         values[bin].push_back(pixel.value);
         places[bin] += v;
       }
@@ -224,7 +229,7 @@ FoldCourse enlarged(FoldCourse c, int shrink) {
 
 /// Two steps of opposite direction close together: a bar that was drawn.
 bool isBar(const FoldCourse& a, const FoldCourse& b, double nearPx) {
-  if (a.normal.dot(b.normal) > -0.9) return false;
+  if (a.normal.dot(b.normal) > kOppositeCos) return false;
   const double first = (b.at(b.from, 0.0) - a.origin).dot(a.normal), last = (b.at(b.to, 0.0) - a.origin).dot(a.normal);
   return std::min(std::fabs(first), std::fabs(last)) < nearPx;
 }
@@ -237,7 +242,8 @@ std::vector<PaperFold> findFolds(const GreyImage& image, const Plane& smoothed, 
   for (const FoldCourse& line : findFoldLines(smoothed, edges, context)) {
     if (context.isCancelled()) return {};
     if (!mayStep(smoothed, line)) continue;
-    const double scale = std::clamp(std::sqrt(static_cast<double>(image.width) * image.height) / 1000.0, 0.5, 3.0);
+    const double side = std::sqrt(static_cast<double>(image.width) * image.height);
+    const double scale = std::clamp(side / kUsualSidePx, kLeastScale, kMostScale);
     if (auto fold = FoldMaker(image, enlarged(line, shrink), scale).make()) found.push_back(std::move(*fold));
   }
   const double nearPx = kBarShare * std::min(image.width, image.height);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -115,11 +116,14 @@ class Accumulator {
   std::vector<std::uint16_t> counts_;
 };
 
-/// Bends the course to the crests near it, twice nearer the second time.
+/// Bends the course to the crests near it, nearer from round to round.
 bool bendToCrests(const Plane& u, const std::vector<Voter>& voters, FoldCourse& c) {
+  constexpr std::array kReaches = {12.0, 6.0, 3.0};  // [px]
+  constexpr int kFewestVoters = 20;
+  constexpr double kFreePrior = 1e-9, kBendPrior = 1e-2;  // of the voters' weight: few of them do not bend a course
   const Vec2 middle(0.5 * u.width, 0.5 * u.height);
   const double scale = c.scale();
-  for (const double reach : {12.0, 6.0, 3.0}) {
+  for (const double reach : kReaches) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     int near = 0;
@@ -134,8 +138,8 @@ bool bendToCrests(const Plane& u, const std::vector<Voter>& voters, FoldCourse& 
       right += weight * d * row;
       ++near;
     }
-    if (near < 20) return false;
-    normal.diagonal() += Eigen::Vector4d(1e-9, 1e-9, 1e-2, 1e-2) * normal(0, 0);
+    if (near < kFewestVoters) return false;
+    normal.diagonal() += Eigen::Vector4d(kFreePrior, kFreePrior, kBendPrior, kBendPrior) * normal(0, 0);
     const Eigen::Vector4d bend = normal.ldlt().solve(right);
     if (!bend.allFinite()) return false;
     for (int k = 0; k < 4; ++k) c.bend[k] = bend[k];

@@ -13,6 +13,11 @@ constexpr double kLeastAtEnds = 0.3;   // of the first and the last tenth
 constexpr double kAlike = 0.35;        // relative: steps that belong to one fold
 constexpr double kLooselyAlike = 0.8;  // the same on noisy pages: no step is never a step
 constexpr double kUneven = 6.0;        // median unevennesses of the paper: what stands out of it
+constexpr double kLeastAtEdge = 0.3;   // of the step in the middle: a fold may fade out, but not away
+constexpr double kStepLeft = 0.03;     // of the step: as good as none
+constexpr double kLeastLeft = 0.5;     // [grey] what medians do not tell from none
+/// Standard deviation over the median size of the difference of two normal variables: 1 / (sqrt(2) quantile(3/4)).
+constexpr double kSigmaPerJump = 1.05;
 
 float foldGreyAt(const GreyImage& image, const Vec2& p) {
   const double x = std::clamp(p.x() - 0.5, 0.0, image.width - 1.0),
@@ -29,7 +34,7 @@ float foldGreyAt(const GreyImage& image, const Vec2& p) {
 double noiseOf(const std::vector<double>& steps) {
   std::vector<double> jumps;
   for (std::size_t i = 1; i < steps.size(); ++i) jumps.push_back(std::fabs(steps[i] - steps[i - 1]));
-  return jumps.empty() ? 0.0 : 1.05 * lowerQuantile(jumps, 0.5);
+  return jumps.empty() ? 0.0 : kSigmaPerJump * lowerQuantile(jumps, 0.5);
 }
 
 /// Median over rows [begin, end) that show the step of the grey at d less the brighter paper, in `out` (2 reach + 1).
@@ -90,8 +95,7 @@ std::vector<double> foldStepsOf(const FoldStrip& strip, int reach, const std::ve
   std::vector<double> steps(strip.rows);
   const int outer = std::min(strip.half, reach + kFoldPaperPx);
   for (int i = 0; i < strip.rows; ++i) {
-    const auto at = static_cast<std::size_t>((static_cast<std::int64_t>(i) * static_cast<std::int64_t>(slopes.size())) /
-                                             strip.rows);
+    const std::int64_t at = i * std::ssize(slopes) / strip.rows;
     steps[i] = strip.mean(i, reach, outer) - strip.mean(i, -outer, -reach) - slopes[at] * (reach + outer);
   }
   return steps;
@@ -120,7 +124,7 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
       const double width = static_cast<double>(rows) / kParts;
       fit.slope = (medians[b] - medians[a]) / ((b - a) * width);
       fit.middle = medians[a] + fit.slope * (0.5 * rows - (a + 0.5) * width);
-      if (std::min(fit.at(0, rows), fit.at(rows, rows)) < 0.3 * fit.middle) continue;
+      if (std::min(fit.at(0, rows), fit.at(rows, rows)) < kLeastAtEdge * fit.middle) continue;
       int count = 0;
       for (int i = 0; i < rows; ++i) count += isNear(fit, i) ? 1 : 0;
       if (count > most) {
@@ -140,7 +144,7 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
   return best;
 }
 
-// To where less than a fiftieth of the step is left, a crease included.
+// To where as good as nothing of the step is left, a crease included.
 std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
   std::vector<float> profile;
   const int reach = strip.half - kFoldPaperPx;
@@ -163,7 +167,7 @@ std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
   }
   const double uneven = kUneven * lowerQuantile(outside, 0.5);
   if (uneven > step) return std::nullopt;  // hatching along the course: as much of a step everywhere
-  const double tolerance = std::max({0.03 * step, 0.5, uneven});
+  const double tolerance = std::max({kStepLeft * step, kLeastLeft, uneven});
   int last = 3;
   for (int d = 2; d < reach; ++d) {
     if (left(d) > tolerance || left(-d) > tolerance) last = std::max(last, d);

@@ -35,18 +35,16 @@ double PaperFold::at(double x, double y) const {
   const double k = std::clamp((t - course.from) / spacing, 0.0, stations - 1.0);
   const int k0 = std::min(static_cast<int>(k), std::max(0, stations - 2)), k1 = std::min(k0 + 1, stations - 1);
   const double share = k - k0;
-  const auto a = static_cast<std::size_t>(k0), b = static_cast<std::size_t>(k1);
-  if (d <= -reach) return -(static_cast<double>(depth[a]) + share * static_cast<double>(depth[b] - depth[a]));
-  const auto count = static_cast<std::size_t>(taps());
+  if (d <= -reach) return -(static_cast<double>(depth[k0]) + share * static_cast<double>(depth[k1] - depth[k0]));
   const double v = (d + reach) * kTapsPerPx;
-  const auto i = std::min(static_cast<std::size_t>(v), count - 2);
-  const double part = v - static_cast<double>(i);
-  const auto across = [&](std::size_t station) {
-    const float* row = profile.data() + station * count + i;
+  const int i = std::min(static_cast<int>(v), taps() - 2);
+  const double part = v - i;
+  const auto across = [&](std::ptrdiff_t station) {
+    const float* row = profile.data() + station * taps() + i;
     return static_cast<double>(row[0]) + part * static_cast<double>(row[1] - row[0]);
   };
-  const double first = across(a);
-  return first + share * (across(b) - first);
+  const double first = across(k0);
+  return first + share * (across(k1) - first);
 }
 
 std::pair<int, int> PaperFold::stripOfRow(int y, int width) const {

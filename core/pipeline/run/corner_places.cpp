@@ -68,7 +68,7 @@ std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, doubl
       // What is as small as this and round is as sharp as a cut all over.
       if (contour.closed && polylineLength(positions, true) < kSmallLoopPx) continue;
       piece.closed = contour.closed;
-      for (const PointRange& range : sharpFeatures(piece, contour.kind == ContourKind::Centreline, 1.0, {}))
+      for (const PointRange& range : sharpFeatures(piece, contour.kind == ContourKind::Centreline, {}))
         found[c].push_back({c, range.first, range.last});
     }
   });

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string nested(int depth, const std::string& inner = "") {
-  return std::string(static_cast<std::size_t>(depth), '[') + inner + std::string(static_cast<std::size_t>(depth), ']');
+  return std::string(depth, '[') + inner + std::string(depth, ']');
 }
 
 std::string withKeys(int count) {

@@ -72,7 +72,7 @@ TEST_F(RegularFiles, AFileThatShrinksWhileItIsReadIsBroken) {
   const auto file = RegularFile::open(path);
   ASSERT_TRUE(file);
   fs::resize_file(path, 3);
-  std::string bytes(static_cast<std::size_t>(file->size()), ' ');
+  std::string bytes(file->size(), ' ');
   const auto read = file->read(std::as_writable_bytes(std::span(bytes)));
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error(), FileProblem::Broken);

@@ -102,7 +102,7 @@ TEST(CloserStations, StandEvenlyAndInOrder) {
     return lines;
   };
   const auto set = adaptiveStations(piece, givenStations(piece.stations), 1.0, 0.5, chords, {});
-  ASSERT_EQ(set.stations.size(), piece.stations.size() + static_cast<std::size_t>(set.added));
+  ASSERT_EQ(std::ssize(set.stations), std::ssize(piece.stations) + set.added);
   EXPECT_GT(set.added, 4);
   double last = -1.0;
   for (std::size_t i = 0; i < set.stations.size(); ++i) {

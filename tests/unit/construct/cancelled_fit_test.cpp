@@ -38,7 +38,7 @@ class CancelledFit : public testing::Test {
  protected:
   CancelledFit() { cancelled_.cancel.cancel(); }
   void SetUp() override {
-    piece_ = prepareFairPiece(input_, true, 1.0, 0.0, options_, running_);
+    piece_ = prepareFairPiece(input_, true, 0.0, options_, running_);
     ASSERT_TRUE(piece_.frame);
     frame_ = assembleFrame(piece_.frame->base, piece_.data, options_, 4, running_);
     posterior_ = localPosterior(frame_, kDensity, prior(), 1, options_.emWidthPx, running_);
@@ -62,7 +62,7 @@ TEST_F(CancelledFit, HasNoPilotAndNoFrame) {
   EXPECT_FALSE(fitPilot(piece_.data, options_, cancelled_));
   EXPECT_TRUE(assembleFrame(frame_.base, piece_.data, options_, 4, cancelled_).blocks.empty());
   EXPECT_TRUE(checkStations(frame_.base, 4, cancelled_).empty());
-  EXPECT_FALSE(prepareFairPiece(input_, true, 1.0, 0.0, options_, cancelled_).frame);
+  EXPECT_FALSE(prepareFairPiece(input_, true, 0.0, options_, cancelled_).frame);
   const auto table = cutoffTable(frame_, cancelled_).valid;
   EXPECT_EQ(std::count(table.begin(), table.end(), true), 0);
   const double length = frame_.base.knots().length;
@@ -96,11 +96,11 @@ TEST_F(CancelledFit, RemovesNoKnot) {
 }
 
 TEST_F(CancelledFit, MeasuresNoPoint) {
-  const auto curve = frame_.base.toNurbs(1.0, 1.0, piece_.origin, piece_.origin);
+  const auto curve = frame_.base.toNurbs(piece_.origin, piece_.origin);
   ASSERT_TRUE(curve);
-  EXPECT_EQ(pointDeviation(*curve, input_, 1.0, running_).points.size(), input_.points.size());
-  EXPECT_TRUE(pointDeviation(*curve, input_, 1.0, cancelled_).points.empty());
-  SmoothSections sections(input_, true, 1.0, options_);
+  EXPECT_EQ(pointDeviation(*curve, input_, running_).points.size(), input_.points.size());
+  EXPECT_TRUE(pointDeviation(*curve, input_, cancelled_).points.empty());
+  SmoothSections sections(input_, true, options_);
   ConstructedPiece far;
   far.curve = *NurbsCurve::make(5, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1},
                                 {{0, 900}, {9, 900}, {19, 900}, {29, 900}, {39, 900}, {49, 900}});
@@ -109,7 +109,7 @@ TEST_F(CancelledFit, MeasuresNoPoint) {
 }
 
 TEST_F(CancelledFit, MakesNothingLight) {
-  const auto curve = frame_.base.toNurbs(1.0, 1.0, Vec2::Zero(), Vec2::Zero());
+  const auto curve = frame_.base.toNurbs();
   ASSERT_TRUE(curve);
   EXPECT_TRUE(LightReference::make(*curve, false, 0.5, {}, running_));
   EXPECT_FALSE(LightReference::make(*curve, false, 0.5, {}, cancelled_));

@@ -125,7 +125,7 @@ TEST(ConstructControlPolygon, AllDegreesOpenAndClosed) {
     EXPECT_LT(deviation(around.curve, positionsOf(closed.points), true).max, 0.5);
     const auto a = around.curve.derivatives(around.curve.start(), degree - 1);
     const auto b = around.curve.derivatives(around.curve.end(), degree - 1);
-    for (std::size_t d = 0; d < static_cast<std::size_t>(degree); ++d) EXPECT_LT((a[d] - b[d]).norm(), 1e-9);
+    for (int d = 0; d < degree; ++d) EXPECT_LT((a[d] - b[d]).norm(), 1e-9);
   }
 }
 

@@ -65,7 +65,7 @@ TEST(CornerBlend, TheCurvatureRisesOnceAndFallsOnce) {
         ASSERT_TRUE(blend);
         std::vector<double> bend;
         for (int i = 0; i <= 400; ++i) bend.push_back(curvatureAt(blend->curve, i / 400.0));
-        const auto peak = static_cast<std::size_t>(std::max_element(bend.begin(), bend.end()) - bend.begin());
+        const std::size_t peak = std::max_element(bend.begin(), bend.end()) - bend.begin();
         double back = 0.0;
         for (std::size_t i = 0; i + 1 < bend.size(); ++i)
           back += std::max(0.0, i < peak ? bend[i] - bend[i + 1] : bend[i + 1] - bend[i]);

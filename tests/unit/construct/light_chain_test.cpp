@@ -176,7 +176,7 @@ TEST(LightReference, FollowsTightTurns) {
   std::vector<double> weights(t.size(), 1.0);
   const auto fitted = fitUniformQuintic({t.back(), 160, false}, t, piece.points, weights, 1e-9);
   ASSERT_TRUE(fitted);
-  const auto curve = fitted->toNurbs(1.0, 1.0, Vec2::Zero(), Vec2::Zero());
+  const auto curve = fitted->toNurbs();
   ASSERT_TRUE(curve);
   const auto reference = LightReference::make(*curve, false, 0.5);
   ASSERT_TRUE(reference);

@@ -19,8 +19,8 @@ LightShape shapeOf(int spans, bool closed) {
   LightShape shape;
   shape.degree = kDegree;
   shape.closed = closed;
-  shape.logLengths.assign(static_cast<std::size_t>(spans), 0.0);
-  shape.points.assign(static_cast<std::size_t>(closed ? spans : spans + kDegree), Vec2::Zero());
+  shape.logLengths.assign(spans, 0.0);
+  shape.points.assign(closed ? spans : spans + kDegree, Vec2::Zero());
   return shape;
 }
 

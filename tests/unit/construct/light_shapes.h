@@ -25,7 +25,7 @@ inline NurbsCurve denseCurve(const TruthPiece& piece, bool closed) {
   const UniformKnots knots{length, std::max(6, static_cast<int>(std::lround(length / 6.0))), closed};
   const auto fitted = fitUniformQuintic(knots, t, piece.points, weights, 1e-9);
   if (!fitted) throw std::runtime_error("no dense curve");
-  const auto curve = fitted->toNurbs(1.0, 1.0, Vec2::Zero(), Vec2::Zero());
+  const auto curve = fitted->toNurbs();
   if (!curve) throw std::runtime_error("no dense curve");
   return *curve;
 }

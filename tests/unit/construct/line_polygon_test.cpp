@@ -38,7 +38,7 @@ ConstructContour contourOf(const PaperK& k) {
   std::size_t from = 0;
   for (std::size_t i = 0; i <= k.sharp.size(); ++i) {
     const bool last = i == k.sharp.size();
-    const std::size_t to = last ? k.points.size() - 1 : static_cast<std::size_t>(k.sharp[i]);
+    const std::size_t to = last ? k.points.size() - 1 : k.sharp[i];
     ConstructPiece& piece = contour.pieces.emplace_back();
     piece.points = piecePoints(std::span(k.points).subspan(from, to - from + 1));
     piece.startIsCorner = i > 0;
@@ -89,7 +89,7 @@ TEST(LinePolygon, EveryDegreeKeepsTheElevenCornersOfTheK) {
     for (const Vec2& p : k.points) farthest = std::max(farthest, closestPoint(uniform.curve, p).distance);
     EXPECT_LT(deviation(made.curve, k.points, true).max, 1e-9);
     EXPECT_GT(farthest, 1.0);
-    EXPECT_EQ(uniform.knots.size(), k.points.size() + static_cast<std::size_t>(degree) + 1);
+    EXPECT_EQ(std::ssize(uniform.knots), std::ssize(k.points) + degree + 1);
   }
 }
 

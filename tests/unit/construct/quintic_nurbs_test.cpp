@@ -96,7 +96,7 @@ TEST(SolveQuintic, NaturalEndsAndFourGradientsHoldTheirEquations) {
         if (use == GradientUse::NaturalEnds) {
           EXPECT_LT(d[2].norm() + d[4].norm(), 1e-8);
         } else {
-          EXPECT_LT((d[1] - derivatives[u == 0.0 ? 0 : static_cast<std::size_t>(m - 1)]).norm(), 1e-9);
+          EXPECT_LT((d[1] - derivatives[u == 0.0 ? 0 : m - 1]).norm(), 1e-9);
         }
       }
     }

@@ -95,7 +95,7 @@ TEST(SharpFeatures, FairLinesHaveNoSharpTurns) {
     const auto truth = test::curveOfCurvature(5.0 * radius, [&](double) { return 1.0 / radius; });
     ConstructPiece piece;
     piece.points = piecePoints(test::noisyPoints(truth, 0.127, 3));
-    EXPECT_TRUE(sharpFeatures(piece, false, 1.0, {}).empty()) << radius;
+    EXPECT_TRUE(sharpFeatures(piece, false, {}).empty()) << radius;
   }
 }
 
@@ -103,19 +103,18 @@ TEST(SharpFeatures, TightCurvesMeetTheirNeighbours) {
   const CurveEnd before{Vec2(0, 0), Vec2(1, 0), Vec2(0, 0.01)}, after{Vec2(8, 8), Vec2(0, 1.1), Vec2(0.02, 0)};
   const std::vector<Vec2> points{{1, 0},   {2, 0},   {3, 0},   {4, 0}, {5, 0.2},
                                  {6, 0.6}, {7, 1.5}, {7.6, 3}, {8, 5}, {8, 7}};
-  for (const double pixelMm : {1.0, 0.1}) {
-    std::vector<Vec2> scaled;
-    for (const Vec2& p : points) scaled.push_back(p * pixelMm);
-    const CurveEnd a{before[0] * pixelMm, before[1], before[2] / pixelMm};
-    const CurveEnd b{after[0] * pixelMm, after[1], after[2] / pixelMm};
-    const auto curve = cornerFill(scaled, pixelMm, a, b);
+  for (const Vec2& place : {Vec2(0, 0), Vec2(3000, -2000)}) {
+    std::vector<Vec2> moved;
+    for (const Vec2& p : points) moved.push_back(p + place);
+    const CurveEnd a{before[0] + place, before[1], before[2]}, b{after[0] + place, after[1], after[2]};
+    const auto curve = cornerFill(moved, a, b);
     ASSERT_TRUE(curve.has_value());
     const CurveEnd first = startOf(*curve), last = endOf(*curve);
     for (std::size_t d = 0; d < 3; ++d) {
-      EXPECT_LT((first[d] - a[d]).norm(), 1e-9 / pixelMm) << d;
-      EXPECT_LT((last[d] - b[d]).norm(), 1e-9 / pixelMm) << d;
+      EXPECT_LT((first[d] - a[d]).norm(), 1e-9) << d;
+      EXPECT_LT((last[d] - b[d]).norm(), 1e-9) << d;
     }
-    EXPECT_LT(farthest(scaled, *curve), 1.5 * pixelMm);
+    EXPECT_LT(farthest(moved, *curve), 1.5);
   }
 }
 
@@ -142,7 +141,7 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
       ConstructPiece piece;
       piece.points = piecePoints(bulged(circle, out, at));
       piece.closed = closed;
-      SmoothSections parts(piece, false, 1.0, {});
+      SmoothSections parts(piece, false, {});
       ASSERT_EQ(parts.stretches().size(), 1U);
       EXPECT_TRUE(parts.check({fit->front()}, true));
       const auto whole = parts.joined({});

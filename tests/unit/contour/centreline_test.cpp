@@ -41,7 +41,7 @@ struct Page {
 
 // Strokes inked over one another, scanned with blur .8 and noise 6.
 Page page(const std::vector<Polyline>& strokes, bool closed, double width, int w, int h, unsigned seed = 5) {
-  std::vector<float> cover(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0.0f);
+  std::vector<float> cover(std::ptrdiff_t{w} * h, 0.0f);
   for (const Polyline& s : strokes) {
     const std::vector<float> one = test::strokeCoverage(s, closed, width, w, h);
     for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);

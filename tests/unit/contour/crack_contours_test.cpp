@@ -46,20 +46,20 @@ int crackCount(const BitImage& ink) {
 // and a closed crack path has four more of one kind than of the other. So the enclosed areas add up to the ink exactly.
 void expectAreaIsInk(const BitImage& ink, const ContourSet& set) {
   double sum = 0.0;
-  std::size_t cracks = 0;
+  std::ptrdiff_t cracks = 0;
   for (const Contour& c : set.contours) {
     const double area = signedArea(unrefinedPositionsOf(c.points));
     EXPECT_EQ(c.hole, area < 0.0);
     EXPECT_NEAR(c.areaPx, std::abs(area), 1e-9 * (1.0 + std::abs(area)));
     sum += area + (c.hole ? -0.5 : 0.5);
-    cracks += c.points.size();
+    cracks += std::ssize(c.points);
     double length = 0.0;
     for (std::size_t i = 0; i < c.points.size(); ++i)
       length += (c.points[(i + 1) % c.points.size()].unrefined - c.points[i].unrefined).norm();
     EXPECT_NEAR(c.lengthPx, length, 1e-9 * length);
   }
   EXPECT_NEAR(sum, static_cast<double>(ink.count()), 1e-6);
-  EXPECT_EQ(cracks, static_cast<std::size_t>(crackCount(ink)));
+  EXPECT_EQ(cracks, crackCount(ink));
 }
 
 TEST(CrackContours, SinglePixelIsADiamondClockwiseOnTheScreen) {
@@ -115,8 +115,8 @@ TEST(CrackContours, Checkerboard) {
   }
   const ContourSet set = trace(ink);
   const auto holes = std::count_if(set.contours.begin(), set.contours.end(), [](const Contour& c) { return c.hole; });
-  EXPECT_EQ(set.contours.size() - static_cast<std::size_t>(holes), 1u);  // all ink is joined over corners
-  EXPECT_EQ(holes, 65 * 31 / 2);  // every paper pixel inside is a hole of its own
+  EXPECT_EQ(std::ssize(set.contours) - holes, 1);  // all ink is joined over corners
+  EXPECT_EQ(holes, 65 * 31 / 2);                   // every paper pixel inside is a hole of its own
   expectAreaIsInk(ink, set);
 }
 

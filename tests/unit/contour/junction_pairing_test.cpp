@@ -60,9 +60,16 @@ TEST(JunctionPairing, ManyEndsArePairedToo) {
 }
 
 // How lines of a width are found on a scan of them, by the middles of what is darker than half-way.
-test::DenseScore scoreOf(const std::vector<std::vector<Vec2>>& lines, double widthPx, double tolerancePx, double endsPx,
-                         int width, int height, std::uint32_t seed) {
-  const Scan scan = test::scanOfLines(test::coverageOf(lines, widthPx, width, height), width, height, seed);
+struct LinePage {
+  double lineWidthPx;
+  int width, height;
+  std::uint32_t seed;
+};
+
+test::DenseScore scoreOf(const std::vector<std::vector<Vec2>>& lines, const LinePage& page, double tolerancePx,
+                         double endsPx) {
+  const auto& [lineWidthPx, width, height, seed] = page;
+  const Scan scan = test::scanOfLines(test::coverageOf(lines, lineWidthPx, width, height), width, height, seed);
   BitImage ink(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
@@ -77,12 +84,12 @@ test::DenseScore scoreOf(const std::vector<std::vector<Vec2>>& lines, double wid
 
 // Straight lines of 4 px that cross, or branch off, at a small angle: every one is found as one line.
 TEST(JunctionPairing, LinesAtSmallAnglesAreWhole) {
-  constexpr int kWidth = 640, kHeight = 480;
+  constexpr LinePage kPage{4.0, 640, 480, 3};
   for (const double angleDeg : {20.0, 26.0, 32.0, 40.0}) {
     for (const double firstDeg : {4.0, 37.0, 81.0}) {
       std::vector<std::vector<Vec2>> lines = test::hatchLines({320, 240}, firstDeg, 1, 1.0, 360.0, 0.0);
       lines.push_back(test::hatchLines({320, 240}, firstDeg + angleDeg, 1, 1.0, 360.0, 0.0).front());
-      const test::DenseScore score = scoreOf(lines, 4.0, 4.0, 12.0, kWidth, kHeight, 3);
+      const test::DenseScore score = scoreOf(lines, kPage, 4.0, 12.0);
       EXPECT_EQ(score.whole, 2) << angleDeg << " degrees at " << firstDeg;
       EXPECT_EQ(score.bridges, 0) << angleDeg << " degrees at " << firstDeg;
     }
@@ -92,12 +99,12 @@ TEST(JunctionPairing, LinesAtSmallAnglesAreWhole) {
 // Two hatchings across one another: the crossings lie nearer than the discs of ink at them would allow for one
 // crossing.
 TEST(JunctionPairing, CrossHatchingIsWhole) {
-  constexpr int kWidth = 480, kHeight = 360;
+  constexpr LinePage kPage{3.0, 480, 360, 4};
   for (const double spacingPx : {8.0, 9.0, 12.0}) {
     std::vector<std::vector<Vec2>> lines = test::hatchLines({240, 180}, 45.0, 14, spacingPx, 200.0, 0.0);
     const auto others = test::hatchLines({240, 180}, -45.0, 14, spacingPx, 200.0, 0.0);
     lines.insert(lines.end(), others.begin(), others.end());
-    const test::DenseScore score = scoreOf(lines, 3.0, 2.0, 6.0, kWidth, kHeight, 4);
+    const test::DenseScore score = scoreOf(lines, kPage, 2.0, 6.0);
     EXPECT_GE(score.whole, 27) << spacingPx;
     EXPECT_EQ(score.bridges, 0) << spacingPx;
   }

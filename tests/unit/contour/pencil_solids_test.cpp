@@ -25,7 +25,7 @@ GreyImage tonePage() {
   for (int y = 0; y < kSolidPageHeight; ++y) {
     for (int x = 0; x < kSolidPageWidth; ++x) {
       const bool isTone = (Vec2(x + 0.5, y + 0.5) - kToneCentre).norm() < kToneRadius;
-      if (isTone) cover[static_cast<std::size_t>(y * kSolidPageWidth + x)] = 1.0f;
+      if (isTone) cover[y * kSolidPageWidth + x] = 1.0f;
     }
   }
   test::grainCoverage(
@@ -61,7 +61,7 @@ GreyImage pencilPage(const std::vector<std::vector<Vec2>>& lines, std::uint32_t 
   std::vector<float> cover = test::coverageOf(lines, 7.0, kSolidPageWidth, kSolidPageHeight);
   for (int y = 0; y < kSolidPageHeight; ++y) {
     for (int x = 0; x < kSolidPageWidth; ++x) {
-      if (isTone(Vec2(x + 0.5, y + 0.5))) cover[static_cast<std::size_t>(y * kSolidPageWidth + x)] = 1.0f;
+      if (isTone(Vec2(x + 0.5, y + 0.5))) cover[y * kSolidPageWidth + x] = 1.0f;
     }
   }
   test::grainCoverage(

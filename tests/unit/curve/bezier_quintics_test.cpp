@@ -54,7 +54,7 @@ TEST(QuinticPieces, PlacesAndDerivativesAreThoseOfThePolynomial) {
     Vec2 result = Vec2::Zero();
     double binomial = 1.0;
     for (int i = 0; i <= n; binomial *= static_cast<double>(n - i) / (i + 1), ++i) {
-      result += binomial * std::pow(t, i) * std::pow(1.0 - t, n - i) * value(static_cast<std::size_t>(i));
+      result += binomial * std::pow(t, i) * std::pow(1.0 - t, n - i) * value(i);
     }
     return result;
   };

@@ -29,11 +29,11 @@ inline NurbsCurve randomCurve(std::mt19937& random, int degree, bool clampedEnds
   for (int i = 0; i < inner; ++i) {
     const double at = step();
     const int times = random() % 3 == 0 ? 1 + static_cast<int>(random() % static_cast<unsigned>(degree)) : 1;
-    knots.insert(knots.end(), static_cast<std::size_t>(times), at);
+    knots.insert(knots.end(), times, at);
   }
   const double last = step();
   for (int i = 0; i <= degree; ++i) knots.push_back(clampedEnds ? last : step());
-  const std::size_t count = knots.size() - static_cast<std::size_t>(degree) - 1;
+  const std::size_t count = knots.size() - degree - 1;
   std::vector<Vec2> points;
   std::vector<double> weights;
   for (std::size_t i = 0; i < count; ++i) {

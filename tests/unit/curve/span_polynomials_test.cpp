@@ -14,10 +14,10 @@ TEST(SpanPolynomials, AgreeWithTheBasisOfEveryDegreeAtEveryKindOfKnot) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int degree = 1; degree <= 7; ++degree) {
-    const auto order = static_cast<std::size_t>(degree) + 1;
+    const std::size_t order = degree + 1;
     std::vector<double> knots(order, -2.0);
     knots.insert(knots.end(), {0.0, 0.5, degree > 1 ? 0.5 : 0.7, 3.0});  // a double knot of degree 1 would be a gap
-    knots.insert(knots.end(), static_cast<std::size_t>(degree), 10.0);   // a corner
+    knots.insert(knots.end(), degree, 10.0);                             // a corner
     knots.insert(knots.end(), order, 11.0);
     std::vector<Vec2> points;
     for (std::size_t i = 0; i + order < knots.size(); ++i) points.emplace_back(1e4 + uniform(random), uniform(random));

@@ -96,7 +96,7 @@ TEST(Dxf, SimpleKnotsNeverRepeatInside) {
     const auto* curve = std::get_if<NurbsCurve>(&entity.shape);
     if (curve == nullptr) continue;
     ++splines;
-    EXPECT_EQ(curve->knots().size(), curve->breaks().size() + 2 * static_cast<std::size_t>(curve->degree()));
+    EXPECT_EQ(std::ssize(curve->knots()), std::ssize(curve->breaks()) + 2 * curve->degree());
   }
   EXPECT_GT(splines, 8) << "cut at the repeated knots";
 }

@@ -81,9 +81,9 @@ inline ExportDocument exportOfAllDegrees() {
     std::vector<Vec2> points;
     for (int i = 0; i <= degree + 2; ++i)
       points.emplace_back(10 + 9 * i, 60 + 5 * degree + (i % 2 == 0 ? 0 : 3) + i * i);
-    std::vector<double> knots(static_cast<std::size_t>(degree) + 1, 0.0);
+    std::vector<double> knots(degree + 1, 0.0);
     knots.insert(knots.end(), {11.0, 27.0});
-    knots.insert(knots.end(), static_cast<std::size_t>(degree) + 1, 40.0);
+    knots.insert(knots.end(), degree + 1, 40.0);
     document.curves.push_back({"degree-" + std::to_string(degree), false, {{made(degree, knots, points)}}});
   }
   document.curves.push_back({"arc", false, {{curveOf(CadArc{{60, 70}, 12.5, 0.4, 2.1}).value()}}});
@@ -95,7 +95,7 @@ inline ExportDocument exportOfAllDegrees() {
 inline double basisByDefinition(const std::vector<double>& knots, std::size_t i, int degree, double u) {
   const double end = knots.back();
   if (degree == 0) return (u >= knots[i] && u < knots[i + 1]) || (u == end && knots[i] < end && knots[i + 1] == end);
-  const auto p = static_cast<std::size_t>(degree);
+  const std::size_t p = degree;
   double sum = 0.0;
   if (knots[i + p] > knots[i])
     sum += (u - knots[i]) / (knots[i + p] - knots[i]) * basisByDefinition(knots, i, degree - 1, u);

@@ -96,8 +96,7 @@ TEST_P(IgesAndStep, BezierSegmentsHaveNoKnotInside) {
   ExportDocument document = test::exportOfAllKinds();
   const FoundFile file = parsed(fileOf(document, settings), format());
   EXPECT_GT(file.curves.size(), 8u);
-  for (const FoundCurve& curve : file.curves)
-    EXPECT_EQ(curve.knots.size(), 2 * static_cast<std::size_t>(curve.degree + 1)) << curve.name;
+  for (const FoundCurve& curve : file.curves) EXPECT_EQ(std::ssize(curve.knots), 2 * (curve.degree + 1)) << curve.name;
 }
 
 TEST_P(IgesAndStep, CubicsKeepTheTolerance) {

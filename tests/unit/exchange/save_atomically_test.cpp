@@ -32,9 +32,7 @@ class SaveAtomically : public ::testing::Test {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
-  std::size_t filesInFolder() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
+  std::size_t filesInFolder() const { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); }
   fs::path folder_;
 };
 
@@ -159,7 +157,7 @@ TEST(Picture, DrawsLinesAndEncodesPng) {
   Picture picture(40, 20);
   const PictureLine line{{{2.5, 10.5}, {37.5, 10.5}}, false, {255, 0, 0}, 1.0};
   drawLines(picture, {&line, 1});
-  const auto pixel = [&](int x, int y) { return picture.rgb[3 * static_cast<std::size_t>(40 * y + x) + 1]; };
+  const auto pixel = [&](int x, int y) { return picture.rgb[3 * (40 * y + x) + 1]; };
   EXPECT_EQ(pixel(20, 10), 0);  // a line of one pixel through the pixel's centre covers exactly that row
   EXPECT_EQ(pixel(20, 9), 255);
   EXPECT_EQ(pixel(20, 11), 255);

@@ -111,7 +111,7 @@ TEST(CornerSections, TilesShowWhatChoosingThemGives) {
     params.target = targetOfDegree(degree);
     const auto chosen = fairBetweenCorners(curve, false, params, {});
     ASSERT_TRUE(chosen);
-    const auto index = static_cast<std::size_t>(degree) - 1;
+    const int index = degree - 1;
     ASSERT_TRUE(all.faired[index]);
     EXPECT_EQ(all.faired[index]->curve, chosen->curve) << degree;
     EXPECT_EQ(all.faired[index]->report.extremaAfter, chosen->report.extremaAfter);

@@ -72,7 +72,7 @@ TEST(CompareShapes, TellsShapesApart) {
 
 TEST(CompareShapes, TheProfileIsRescaledToOne) {
   const ShapeProfile arc = shapeProfile(test::arc(50, 1.25, 16), false);
-  ASSERT_EQ(arc.radius.size(), static_cast<std::size_t>(kShapeSamples));
+  ASSERT_EQ(std::ssize(arc.radius), kShapeSamples);
   for (const double rho : arc.radius) EXPECT_NEAR(rho, 1.0 / 1.25, 1e-6);
   for (const double kappa : arc.curvature) EXPECT_NEAR(kappa, 1.25, 1e-6);
   TargetProfile line;

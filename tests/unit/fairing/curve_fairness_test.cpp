@@ -28,7 +28,7 @@ NurbsCurve lineOf(Curvature kappa, double length = 200.0, int count = 40) {
   }
   const auto at = [&](double t) {
     const double x = kSteps * t;
-    const auto i = static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, kSteps - 1.0));
+    const int i = static_cast<int>(std::clamp(std::floor(x), 0.0, kSteps - 1.0));
     return Vec2(course[i] + (x - static_cast<double>(i)) * (course[i + 1] - course[i]));
   };
   return test::fitted(at, count);

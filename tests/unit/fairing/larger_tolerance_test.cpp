@@ -33,7 +33,7 @@ NurbsCurve randomLine(std::mt19937& random) {
   }
   const auto at = [&](double t) {
     const double x = 200.0 * t;
-    const auto i = static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, 199.0));
+    const int i = static_cast<int>(std::clamp(std::floor(x), 0.0, 199.0));
     return Vec2(course[i] + (x - static_cast<double>(i)) * (course[i + 1] - course[i]));
   };
   return test::noisy(test::fitted(at, count), noise, random());
@@ -93,7 +93,7 @@ TEST(LargerTolerance, NeverGivesMoreExtremaInAnyMode) {
     const NurbsCurve line = randomLine(random);
     const int sketched = countedExtrema(line, false);
     for (std::size_t k = 0; k < kAsked.size(); ++k) {
-      if ((k + static_cast<std::size_t>(i)) % 4 != 0) continue;  // each line in a quarter of the ways
+      if ((k + i) % 4 != 0) continue;  // each line in a quarter of the ways
       const Asked& asked = kAsked[k];
       FairingParams params = paramsOf(asked.mode, asked.choice);
       int before = sketched;

@@ -36,7 +36,7 @@ NurbsCurve fromCurvature(const std::function<double(double)>& kappa, double leng
   return test::fitted(
       [&](double t) {
         const double x = t * kSteps, below = std::min(std::floor(x), kSteps - 1.0);
-        const auto i = static_cast<std::size_t>(below);
+        const int i = static_cast<int>(below);
         return Vec2(course[i] + (x - below) * (course[i + 1] - course[i]));
       },
       controlPoints);

@@ -45,7 +45,7 @@ NurbsCurve randomClosed(std::mt19937& random) {
   for (int j = 0; j < count; ++j) radius.push_back(1.0 + normal(random));
   return test::closedCurve(
       [&](double f) {
-        const double r = radius[static_cast<std::size_t>(std::lround(f * count)) % radius.size()];
+        const double r = radius[std::lround(f * count) % radius.size()];
         return Vec2(a * r * std::cos(2.0 * std::numbers::pi * f), b * r * std::sin(2.0 * std::numbers::pi * f));
       },
       count);
@@ -80,7 +80,7 @@ TEST(RandomCurves, AreFairedWithinTheToleranceInEveryMode) {
     const bool closed = i % 5 == 4;
     const NurbsCurve curve = closed ? randomClosed(random) : randomOpen(random);
     FairingParams params;
-    params.mode = kModes[static_cast<std::size_t>(i) % kModes.size()];
+    params.mode = kModes[i % kModes.size()];
     params.keepExtrema = keptExtremaOf(i / 4 % 5 - 1);
     params.lowPassMm = std::pow(10.0, 2.5 * uniform(random));
     if (i % 3 == 0) params.targets.splits = {0.3 + 0.4 * uniform(random)};

@@ -33,12 +33,11 @@ GreyImage scanned(double grainDepth) {
   GreyImage page(600, 70 * kStrokes);
   std::mt19937 random(11);
   std::normal_distribution<double> normal(0.0, 1.0);
-  std::vector<double> tooth(static_cast<std::size_t>(page.width / 3 + 1) *
-                            static_cast<std::size_t>(page.height / 3 + 1));
+  std::vector<double> tooth((page.width / 3 + 1) * (page.height / 3 + 1));
   for (double& t : tooth) t = normal(random);
   for (int y = 0; y < page.height; ++y) {
     for (int x = 0; x < page.width; ++x) {
-      const double grain = tooth[static_cast<std::size_t>((y / 3) * (page.width / 3 + 1) + x / 3)];
+      const double grain = tooth[(y / 3) * (page.width / 3 + 1) + x / 3];
       const double cover = isInStroke(x, y) ? std::clamp(0.6 + grainDepth * grain, 0.0, 1.0) : 0.0;
       const double level = 235.0 - 150.0 * cover + 2.0 * normal(random);
       page.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * 257.0));

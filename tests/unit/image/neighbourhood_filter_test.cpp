@@ -18,7 +18,7 @@ namespace {
 BitImage fromRows(const nlohmann::json& rows) {
   BitImage image(static_cast<int>(rows.at(0).get<std::string>().size()), static_cast<int>(rows.size()));
   for (int y = 0; y < image.height; ++y) {
-    const auto line = rows.at(static_cast<std::size_t>(y)).get<std::string>();
+    const auto line = rows.at(y).get<std::string>();
     for (int x = 0; x < image.width; ++x) image.set(x, y, line[x] == '1');
   }
   return image;

@@ -70,10 +70,15 @@ inline std::string fromHex(const std::string& hex) {
   return bytes;
 }
 
-/// TIFF of one strip, without compression. `extra`: the meaning of the last sample (1 associated, 2 other alpha; 0
-/// none).
-inline std::string tiffOf(std::uint32_t width, std::uint32_t height, std::uint32_t bits, std::uint32_t photometric,
-                          std::uint32_t samples, std::uint32_t extra, const std::string& data) {
+/// `extra`: the meaning of the last sample (1 associated, 2 other alpha; 0 none).
+struct TiffPixels {
+  std::uint32_t bits, photometric, samples, extra;
+};
+
+/// TIFF of one strip, without compression.
+inline std::string tiffOf(std::uint32_t width, std::uint32_t height, const TiffPixels& pixels,
+                          const std::string& data) {
+  const auto& [bits, photometric, samples, extra] = pixels;
   std::vector<std::string> entries;
   const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
     entries.push_back(little(tag, 2) + little(type, 2) + little(count, 4) + little(value, 4));

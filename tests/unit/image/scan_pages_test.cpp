@@ -67,10 +67,10 @@ TEST_F(ScanPages, EveryPageOfATiffIsReadByItsNumber) {
       EXPECT_EQ(scan->page.number, page);
       EXPECT_EQ(scan->pages, 3);
       EXPECT_EQ(scan->dpi, 100.0 * page);
-      const std::string& row = rows[static_cast<std::size_t>(page) - 1];
+      const std::string& row = rows[page - 1];
       ASSERT_EQ(scan->grey.width, std::ssize(row));
       for (int x = 0; x < scan->grey.width; ++x) {
-        EXPECT_EQ(scan->grey.row(0)[x], 257 * row[static_cast<std::size_t>(x)]) << page;
+        EXPECT_EQ(scan->grey.row(0)[x], 257 * row[x]) << page;
       }
       EXPECT_EQ(probeScan(path, {page, 300.0})->width, std::ssize(row));
       if (page > 1) {

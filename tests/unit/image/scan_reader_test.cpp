@@ -180,7 +180,7 @@ TEST_F(ScanReader, ReadsTiffsWhoseZeroIsWhiteOrBlack) {
   };
   for (const auto& c : cases) {
     for (const std::uint32_t photometric : {1u, 0u}) {
-      const auto scan = readScan(write("grey.tif", tiffOf(3, 1, c.bits, photometric, 1, 0, c.data)), {}, {});
+      const auto scan = readScan(write("grey.tif", tiffOf(3, 1, {c.bits, photometric, 1, 0}, c.data)), {}, {});
       ASSERT_TRUE(scan.has_value()) << c.bits << ": " << scan.error().message;
       std::vector<int> expected = c.expected;
       if (photometric == 0)
@@ -211,7 +211,7 @@ TEST_F(ScanReader, LaysTheAlphaOfTiffsOverWhiteWhetherAssociatedOrNot) {
   for (const auto& [extra, data] : {std::pair{2u, straight}, {1u, associated}}) {
     for (const std::uint32_t bits : {8u, 16u}) {
       const auto scan =
-          readScan(write("a.tif", tiffOf(4, 1, bits, 2, 4, extra, bits == 8 ? data : wide(data))), {}, {});
+          readScan(write("a.tif", tiffOf(4, 1, {bits, 2, 4, extra}, bits == 8 ? data : wide(data))), {}, {});
       ASSERT_TRUE(scan.has_value()) << scan.error().message;
       const auto found = levels(scan->grey);
       for (std::size_t i = 0; i < 4; ++i)
@@ -223,9 +223,9 @@ TEST_F(ScanReader, LaysTheAlphaOfTiffsOverWhiteWhetherAssociatedOrNot) {
 TEST_F(ScanReader, RefusesGreyTiffsWhoseAlphaTheDecoderDrops) {
   const std::string data = fromHex("c88000ff7700");
   for (const std::uint32_t extra : {1u, 2u})
-    EXPECT_THAT(refusal(write("ga.tif", tiffOf(3, 1, 8, 1, 2, extra, data))), HasSubstr("as PNG"));
+    EXPECT_THAT(refusal(write("ga.tif", tiffOf(3, 1, {8, 1, 2, extra}, data))), HasSubstr("as PNG"));
   // A second sample that is no alpha, a mask as painting programs keep them, does not matter.
-  const auto scan = readScan(write("mask.tif", tiffOf(3, 1, 8, 1, 2, 0, data)), {}, {});
+  const auto scan = readScan(write("mask.tif", tiffOf(3, 1, {8, 1, 2, 0}, data)), {}, {});
   ASSERT_TRUE(scan.has_value()) << scan.error().message;
   EXPECT_EQ(levels(scan->grey), (std::vector<int>{200, 0, 119}));
 }

@@ -19,9 +19,16 @@ struct Page {
 };
 
 /// A ring of 8 px pen width and a filled disc on paper that falls off across the page, blurred as a scanner does.
-Page drawPage(int width, int height, double dark, double fall, double contrast, double noise, unsigned seed = 4) {
+struct Tones {
+  double dark, fall;  // of the paper
+  double contrast, noise;
+};
+
+Page drawPage(int width, int height, const Tones& tones) {
+  constexpr unsigned kSeed = 4;
+  const auto& [dark, fall, contrast, noise] = tones;
   Page page{GreyImage(width, height), BitImage(width, height), BitImage(width, height)};
-  std::mt19937 random(seed);
+  std::mt19937 random(kSeed);
   std::normal_distribution<double> grain(0.0, noise > 0.0 ? noise : 1.0);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -57,21 +64,21 @@ BitImage mask(const GreyImage& grey, const PaperParams& paper, const ThresholdPa
 }
 
 TEST(Thresholds, FindTheDrawingOnCleanGradatedAndDarkNoisyPages) {
-  const Page clean = drawPage(640, 480, 255.0, 0.0, 235.0, 0.0);
+  const Page clean = drawPage(640, 480, {255.0, 0.0, 235.0, 0.0});
   EXPECT_EQ(wrongPixels(clean, mask(clean.grey, {}, {})), 0);
-  const Page scan = drawPage(640, 480, 150.0, 80.0, 110.0, 4.0);
+  const Page scan = drawPage(640, 480, {150.0, 80.0, 110.0, 4.0});
   EXPECT_EQ(wrongPixels(scan, mask(scan.grey, {}, {})), 0);
-  const Page dark = drawPage(640, 480, 50.0, 130.0, 40.0, 4.0);
+  const Page dark = drawPage(640, 480, {50.0, 130.0, 40.0, 4.0});
   EXPECT_LE(wrongPixels(dark, mask(dark.grey, {}, {})), 20);
 }
 
 TEST(Thresholds, FindTheDrawingOnLargePagesToo) {
-  const Page page = drawPage(2101, 1507, 120.0, 90.0, 80.0, 4.0);
+  const Page page = drawPage(2101, 1507, {120.0, 90.0, 80.0, 4.0});
   EXPECT_LE(wrongPixels(page, mask(page.grey, {}, {})), 20);
 }
 
 TEST(Thresholds, PaperFollowsTheGradation) {
-  const Page page = drawPage(640, 480, 80.0, 120.0, 60.0, 0.0);
+  const Page page = drawPage(640, 480, {80.0, 120.0, 60.0, 0.0});
   const auto found = findThresholds(page.grey, {}, {}, {});
   for (const int y : {40, 240, 440}) {
     for (const int x : {20, 200, 480, 620}) {
@@ -90,7 +97,7 @@ TEST(Thresholds, FlatPagesHoldNothing) {
       EXPECT_FALSE(found->note.empty());
       EXPECT_EQ(binarize(page, *found, {}, {})->count(), 0);
     }
-    const Page noise = drawPage(400, 300, 180.0, 40.0, 0.0, 6.0);
+    const Page noise = drawPage(400, 300, {180.0, 40.0, 0.0, 6.0});
     EXPECT_FALSE(findThresholds(noise.grey, {flatten}, {}, {})->foundLine);
     EXPECT_EQ(mask(noise.grey, {flatten}, {}).count(), 0);
   }
@@ -237,14 +244,14 @@ TEST(Thresholds, TinyPicturesDoNotFail) {
 }
 
 TEST(Thresholds, DoNotDependOnThreads) {
-  const Page page = drawPage(900, 700, 100.0, 100.0, 50.0, 4.0);
+  const Page page = drawPage(900, 700, {100.0, 100.0, 50.0, 4.0});
   ThresholdParams params;
   params.reach = 0.5;
   EXPECT_EQ(mask(page.grey, {}, params, 1), mask(page.grey, {}, params, 4));
 }
 
 TEST(Thresholds, OtsuParEachRegionAndFillsEmptyOnes) {
-  const Page page = drawPage(640, 480, 210.0, 20.0, 150.0, 3.0);
+  const Page page = drawPage(640, 480, {210.0, 20.0, 150.0, 3.0});
   const auto found = findThresholds(page.grey, {false}, {}, {});
   EXPECT_TRUE(found->paper.isEmpty());
   EXPECT_TRUE(found->foundLine);
@@ -274,7 +281,7 @@ TEST(Thresholds, TheUsersLevelsAct) {
 }
 
 TEST(Thresholds, StrengthAsksForDarkerInk) {
-  const Page page = drawPage(640, 480, 200.0, 20.0, 100.0, 2.0);
+  const Page page = drawPage(640, 480, {200.0, 20.0, 100.0, 2.0});
   ThresholdParams weak, strong;
   weak.strength = 0.6;
   strong.strength = 1.6;
@@ -283,7 +290,7 @@ TEST(Thresholds, StrengthAsksForDarkerInk) {
 }
 
 TEST(Thresholds, HistogramsCountEveryPixelOnce) {
-  const Page page = drawPage(643, 481, 100.0, 100.0, 50.0, 4.0);
+  const Page page = drawPage(643, 481, {100.0, 100.0, 50.0, 4.0});
   std::uint64_t total = 0;
   for (int region = 0; region < kRegions; ++region) {
     for (const auto n : regionHistogram(page.grey, region)) total += n;

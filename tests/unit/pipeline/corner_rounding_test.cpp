@@ -18,8 +18,8 @@ namespace batten {
 namespace {
 
 NurbsCurve line(const Vec2& a, const Vec2& b, int degree) {
-  std::vector<double> knots(static_cast<std::size_t>(degree) + 1, 0.0);
-  knots.insert(knots.end(), static_cast<std::size_t>(degree) + 1, (b - a).norm());
+  std::vector<double> knots(degree + 1, 0.0);
+  knots.insert(knots.end(), degree + 1, (b - a).norm());
   std::vector<Vec2> points;
   for (int i = 0; i <= degree; ++i) points.push_back(a + (b - a) * i / degree);
   return NurbsCurve::make(degree, knots, points).value();

@@ -233,7 +233,7 @@ TEST(LightCurves, DetailRaisesTheToleranceOfAllCurvesOrOfOne) {
       << "fairing starts from what the user sees";
 
   recipe.construct.detail = 0.0;
-  const std::size_t own = makeOwnChoice(recipe.choices, *plain.pieces, static_cast<std::size_t>(exact.piece));
+  const std::size_t own = makeOwnChoice(recipe.choices, *plain.pieces, exact.piece);
   recipe.choices[own].detail = 0.8;
   EXPECT_FALSE(recipe.choices[own].isEmpty());
   const auto one = runPipeline(test::ellipseScan(), recipe, cache, {}, {});

@@ -167,7 +167,7 @@ TEST_P(RandomLines, GiveSoundCurvesInEveryWay) {
     }
     for (std::size_t i = 0; i < modes.size(); ++i) {
       // The curves take turns: every mode meets every construction.
-      const NurbsCurve& curve = curves[(static_cast<std::size_t>(trial) + i) % curves.size()];
+      const NurbsCurve& curve = curves[(trial + i) % curves.size()];
       SCOPED_TRACE("fairing " + modes[i].name + ", line " + std::to_string(trial));
       Recipe recipe = recipeOf(modes[i]);
       recipe.fairing.target = *targetOfNumber(trial % 7);

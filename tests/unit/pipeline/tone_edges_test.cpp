@@ -37,7 +37,7 @@ Scan tonePage(const ToneCase& c) {
     const double cover = 0.5 * std::erfc(-inside / (std::sqrt(2.0) * c.blurPx));
     return 235.0 - c.contrast * cover * (c.fadePx > 0.0 ? std::exp(-std::max(0.0, inside) / c.fadePx) : 1.0);
   };
-  const std::vector<float> noInk(static_cast<std::size_t>(kToneWidth) * static_cast<std::size_t>(kToneHeight), 0.0f);
+  const std::vector<float> noInk(std::ptrdiff_t{kToneWidth} * kToneHeight, 0.0f);
   return test::renderStress(noInk, kToneWidth, kToneHeight, paper, {1.0, c.noise, 0.0}, 4);
 }
 

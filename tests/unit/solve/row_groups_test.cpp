@@ -25,7 +25,7 @@ struct Rows {
       std::vector<int> index(kUnknowns);
       for (int i = 0; i < kUnknowns; ++i) index[i] = i;
       std::shuffle(index.begin(), index.end(), random);
-      index.resize(static_cast<std::size_t>(size));
+      index.resize(size);
       std::sort(index.begin(), index.end());
       for (int repeat = 0; repeat < 1 + size % 5; ++repeat) {
         std::vector<double> values;

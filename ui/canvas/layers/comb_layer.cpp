@@ -91,7 +91,7 @@ void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& com
   const double last = static_cast<double>(comb.points.size() - 1);
   auto run = runs.begin();
   for (int i = 0; i < quills; ++i) {
-    const auto at = static_cast<std::size_t>(std::lround(last * i / (quills - 1)));
+    const std::size_t at = std::lround(last * i / (quills - 1));
     while (run->last < at) ++run;
     if (run->isSpike) continue;
     lines.append(QLineF(transform.toWidget(comb.points[at].px), combTip(comb.points[at], scale, transform)));
@@ -148,8 +148,8 @@ CombScale combScale(const CanvasScene& scene) {
   const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
   // By the sketched curve, so that fairing does not change the scale under the eye.
   const auto curves = scene.session.curves();
-  const auto at = static_cast<std::size_t>(reference->index);
-  const int extrema = at < curves.size() ? curves[at].sketchedFigures.extrema : 0;
+  const int at = reference->index;
+  const int extrema = at >= 0 && at < std::ssize(curves) ? curves[at].sketchedFigures.extrema : 0;
   const double lengthPx = reference->lengthMm / scene.combs->source.frame.lengthToModel(1.0);
   const CombedCurve curve{reference->robustKappa, reference->extentPx, lengthPx, extrema};
   const double viewPx = std::min(view.width(), view.height()) * scene.transform.imagePerWidget();

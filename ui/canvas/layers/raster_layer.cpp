@@ -62,7 +62,7 @@ void renderPage(const RasterContent& content, double zoom, const QRect& device, 
   const Cover none;
   std::vector<std::uint8_t> grey;
   if (content.showsPicture && content.pyramid) {
-    grey.resize(static_cast<std::size_t>(device.width()) * static_cast<std::size_t>(device.height()));
+    grey.resize(std::ptrdiff_t{device.width()} * device.height());
     sampleGrey(*content.pyramid, zoom, device, grey.data());
   }
   std::array<QRgb, 256> palette{};
@@ -78,8 +78,7 @@ void renderPage(const RasterContent& content, double zoom, const QRect& device, 
     for (int i = 0; i < device.width(); ++i) {
       const double x = (device.x() + i + 0.5) / zoom;
       const bool onPage = onRow && x >= 0.0 && x < content.pageWidth;
-      const std::size_t at =
-          static_cast<std::size_t>(j) * static_cast<std::size_t>(device.width()) + static_cast<std::size_t>(i);
+      const std::ptrdiff_t at = std::ptrdiff_t{j} * device.width() + i;
       if (onPage && content.paper && !grey.empty()) {
         const double paper = std::max(1.0, content.paper->at(x, y));
         grey[at] = static_cast<std::uint8_t>(std::min(255.0, 255.0 * grey[at] / paper + 0.5));

@@ -19,16 +19,11 @@ TileLevel emptyLevel(int shift, int scanWidth, int scanHeight) {
   level.height = std::max(1, scanHeight >> shift);
   level.tilesAcross = (level.width + TileLevel::kTile - 1) / TileLevel::kTile;
   const int down = (level.height + TileLevel::kTile - 1) / TileLevel::kTile;
-  level.tiles.resize(static_cast<std::size_t>(level.tilesAcross) * static_cast<std::size_t>(down) << 16);
+  level.tiles.resize(std::ptrdiff_t{level.tilesAcross} * down << 16);
   return level;
 }
 
-std::uint8_t* pixel(TileLevel& level, int x, int y) {
-  const std::size_t tile =
-      static_cast<std::size_t>(y >> 8) * static_cast<std::size_t>(level.tilesAcross) + static_cast<std::size_t>(x >> 8);
-  return level.tiles.data() + (tile << 16) + (static_cast<std::size_t>(y & 255) << 8) +
-         static_cast<std::size_t>(x & 255);
-}
+std::uint8_t* pixel(TileLevel& level, int x, int y) { return level.tiles.data() + level.index(x, y); }
 
 /// Number of levels after which the shorter side is small enough to paint from at any smaller zoom.
 int levelCount(const GreyImage& grey) {
@@ -96,9 +91,8 @@ Axis axisFor(int from, int count, double zoom, int shift, int size, int scanSize
 template <class At>
 void blend(const Axis& columns, const Axis& rows, int width, std::uint8_t* out, At&& at) {
   for (int j = rows.begin; j < rows.end; ++j) {
-    const auto r = static_cast<std::size_t>(j);
-    const int wy = rows.weight[r], y0 = rows.first[r], y1 = rows.second[r];
-    std::uint8_t* to = out + r * static_cast<std::size_t>(width);
+    const int wy = rows.weight[j], y0 = rows.first[j], y1 = rows.second[j];
+    std::uint8_t* to = out + std::ptrdiff_t{j} * width;
     for (int i = columns.begin; i < columns.end; ++i) {
       const int c = i;
       const int wx = columns.weight[c], x0 = columns.first[c], x1 = columns.second[c];

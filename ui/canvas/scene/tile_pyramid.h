@@ -18,11 +18,11 @@ struct TileLevel {
   int shift = 0;  ///< One pixel covers 2^shift scan pixels a side.
   int width = 0, height = 0, tilesAcross = 0;
   std::vector<std::uint8_t> tiles;  ///< Tile by tile, row by row within a tile.
-  std::uint8_t at(int x, int y) const {
-    const std::size_t tile =
-        static_cast<std::size_t>(y >> 8) * static_cast<std::size_t>(tilesAcross) + static_cast<std::size_t>(x >> 8);
-    return tiles[(tile << 16) + (static_cast<std::size_t>(y & 255) << 8) + static_cast<std::size_t>(x & 255)];
+  std::ptrdiff_t index(int x, int y) const {
+    const std::ptrdiff_t tile = std::ptrdiff_t{y >> 8} * tilesAcross + (x >> 8);
+    return (tile << 16) + ((y & 255) << 8) + (x & 255);
   }
+  std::uint8_t at(int x, int y) const { return tiles[index(x, y)]; }
 };
 
 /// The scan at halved sizes, for painting at any zoom without touching the whole page. The scan itself is level 0 and

@@ -108,7 +108,7 @@ class CornerTool final : public PointTool {
 
   Index selected() const override {
     const auto mark = scene_.session.selectedCorner();
-    return mark ? Index(static_cast<std::size_t>(*mark)) : std::nullopt;
+    return mark ? Index(*mark) : std::nullopt;
   }
   void select(Index mark) override {
     scene_.session.selectCorner(mark ? std::optional(static_cast<int>(*mark)) : std::nullopt);

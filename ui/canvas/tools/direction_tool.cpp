@@ -77,9 +77,8 @@ class DirectionTool final : public CanvasTool {
     update();
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-      const bool isOver = over_ && static_cast<std::size_t>(*over_) == i;
-      paintArrow(painter, shown_[i], isOver ? colors::target() : colors::accent());
+    for (int i = 0; i < std::ssize(shown_); ++i) {
+      paintArrow(painter, shown_[i], over_ == i ? colors::target() : colors::accent());
       paintStart(painter, shown_[i]);
     }
     painter.restore();

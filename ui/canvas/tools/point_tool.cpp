@@ -105,7 +105,7 @@ std::optional<bool> PointTool::tab(bool next) {
   const std::ptrdiff_t wanted =
       now ? static_cast<std::ptrdiff_t>(*now) + (next ? 1 : -1) : (next ? std::ptrdiff_t{0} : last);
   const bool isInside = wanted >= 0 && wanted <= last;
-  select(isInside ? Index(static_cast<std::size_t>(wanted)) : std::nullopt);
+  select(isInside ? Index(wanted) : std::nullopt);
   nudgeGesture_.reset();
   scene_.repaint();
   return isInside;

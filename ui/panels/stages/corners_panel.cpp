@@ -250,7 +250,7 @@ void CornersPanel::refreshMarks() {
                                        [&](const Corner& c) { return c.mark == static_cast<int>(i); });
       if (corner != pieces->corners.end()) angle = degrees(corner->turningAngleRad);
       for (const MarkPair& pair : pieces->sameCorner)
-        if (static_cast<std::size_t>(pair.mark) == i) same = pair.other;
+        if (pair.mark == static_cast<int>(i)) same = pair.other;
       lost =
           std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
     }
@@ -291,7 +291,7 @@ void CornersPanel::showFound() {
   QStringList lines;
   if (recipe.corners.automatic && pieces)
     lines += found == 0 ? recipe.cornerMarks.empty() ? tr("No certain corner was found.")
-                                                     : tr("No certain corner beside the marked ones.")
+                                                     : tr("No certain corner besides the marked ones.")
                         : counted(found, tr("1 certain corner was found (diamond). Click it to exclude it."),
                                   tr("%1 certain corners were found (diamonds). Click one to exclude it."));
   // A mark wins over an excluded corner within its reach.

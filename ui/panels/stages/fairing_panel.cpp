@@ -46,7 +46,7 @@ QStringList wordsOf(const Parameter& parameter) {
 /// The mode that the segment stands for, by its word in the parameter table.
 FairingMode modeAt(int segment) {
   Recipe recipe;
-  modeParameter().set(recipe, modeParameter().choices.at(static_cast<std::size_t>(segment)));
+  modeParameter().set(recipe, modeParameter().choices.at(segment));
   return recipe.fairing.mode;
 }
 

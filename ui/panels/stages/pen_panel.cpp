@@ -53,7 +53,7 @@ PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
   connect(list_, &QListWidget::currentRowChanged, this, [this](int row) {
     remove_->setEnabled(row >= 0);
     if (filling_ || row < 0) return;
-    if (const auto curve = curveOfStroke(session_, static_cast<std::size_t>(row))) session_.selectCurve(*curve);
+    if (const auto curve = curveOfStroke(session_, row)) session_.selectCurve(*curve);
   });
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::runFinished})
@@ -85,7 +85,7 @@ void PenPanel::refresh() {
 
 void PenPanel::removeSelected() {
   const int row = list_->currentRow();
-  if (row >= 0) removeStroke(session_, static_cast<std::size_t>(row));
+  if (row >= 0) removeStroke(session_, row);
 }
 
 }  // namespace batten

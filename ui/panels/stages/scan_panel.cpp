@@ -226,7 +226,7 @@ QString inkName(const InkColour& ink) {
       QT_TRANSLATE_NOOP("batten::ScanPanel", "Violet"),  QT_TRANSLATE_NOOP("batten::ScanPanel", "Violet"),
       QT_TRANSLATE_NOOP("batten::ScanPanel", "Magenta"), QT_TRANSLATE_NOOP("batten::ScanPanel", "Red")};
   constexpr double kStepDeg = 360.0 / static_cast<double>(kNames.size());
-  const auto at = static_cast<std::size_t>(std::lround(*ink.hueDeg / kStepDeg)) % kNames.size();
+  const std::size_t at = std::lround(*ink.hueDeg / kStepDeg) % kNames.size();
   return ScanPanel::tr(kNames[at]);
 }
 

@@ -5,20 +5,12 @@
 #include <utility>
 
 #include "core/pipeline/run/direction_owners.h"
+#include "ui/session/curve_piece.h"
 
 namespace batten {
 namespace {
 
 QString directionText(const char* text) { return QCoreApplication::translate("DirectionEdits", text); }
-
-std::optional<std::size_t> pieceNumber(const EditorSession& session, std::optional<int> curve) {
-  const TracedCurve* of = session.curveAt(curve);
-  const auto& pieces = session.output().pieces;
-  if (!pieces || !of) return std::nullopt;
-  const int piece = of->piece;
-  if (piece < 0 || piece >= std::ssize(pieces->pieces)) return std::nullopt;
-  return static_cast<std::size_t>(piece);
-}
 
 }  // namespace
 
@@ -29,7 +21,7 @@ std::vector<CurveCourse> curveCourses(const EditorSession& session) {
   const DirectionOwners owners = assignDirections(*output.pieces, session.recipe());
   for (int i = 0; i < std::ssize(session.curves()); ++i) {
     CurveCourse& course = courses.emplace_back();
-    const auto piece = pieceNumber(session, i);
+    const auto piece = pieceOf(session, i);
     if (!piece) continue;
     const auto& wanted = owners.ofPiece[*piece];
     course.isReversed = wanted && wanted->isReversed;
@@ -43,7 +35,7 @@ std::vector<CurveCourse> curveCourses(const EditorSession& session) {
 }
 
 void reverseCurve(EditorSession& session, std::optional<int> curve) {
-  const auto piece = pieceNumber(session, curve);
+  const auto piece = pieceOf(session, curve);
   if (!piece) return;
   Recipe after = session.recipe();
   reverseDirection(after, *session.output().pieces, *piece);
@@ -51,7 +43,7 @@ void reverseCurve(EditorSession& session, std::optional<int> curve) {
 }
 
 void startCurveAt(EditorSession& session, int curve, const Vec2& px, GestureId gesture) {
-  const auto piece = pieceNumber(session, curve);
+  const auto piece = pieceOf(session, curve);
   if (!piece) return;
   Recipe after = session.recipe();
   setStart(after, *session.output().pieces, *piece, px);

@@ -269,7 +269,7 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   sketch = lowPass(sketch, 1.0 / kSamples, 2.0 / count, curve.closed);
   for (int i = 0; i < count; ++i) {
     const double f = static_cast<double>(i) / (curve.closed ? count : count - 1);
-    const auto at = std::min(static_cast<std::size_t>(std::lround(f * kSamples)), sketch.size() - 1);
+    const auto at = std::min<std::size_t>(std::lround(f * kSamples), sketch.size() - 1);
     points.push_back({f, sketch[at]});
   }
   return points;

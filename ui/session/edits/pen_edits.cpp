@@ -4,24 +4,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/polyline/polyline_tools.h"
+
 namespace batten {
 namespace {
 
 QString penText(const char* text) { return QObject::tr(text); }
 
 /// Index of the first pen stroke in the contours, when these belong to the present recipe.
-std::optional<std::size_t> firstPenContour(const EditorSession& session) {
+std::optional<int> firstPenContour(const EditorSession& session) {
   const auto& contours = session.output().contours;
-  const std::size_t strokes = session.recipe().penStrokes.size();
-  if (!contours || session.isStale(StageId::Contours) || contours->contours.size() < strokes) return std::nullopt;
-  return contours->contours.size() - strokes;
-}
-
-double squaredToLeg(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 leg = b - a;
-  const double square = leg.squaredNorm();
-  const double f = square > 0.0 ? std::clamp((p - a).dot(leg) / square, 0.0, 1.0) : 0.0;
-  return (p - a - f * leg).squaredNorm();
+  if (!contours || session.isStale(StageId::Contours)) return std::nullopt;
+  const auto first = static_cast<int>(std::ssize(contours->contours) - std::ssize(session.recipe().penStrokes));
+  return first >= 0 ? std::optional(first) : std::nullopt;
 }
 
 }  // namespace
@@ -52,20 +47,16 @@ std::optional<std::size_t> strokeOf(const EditorSession& session, std::optional<
   const auto first = firstPenContour(session);
   const TracedCurve* of = session.curveAt(curve);
   if (!first || session.isStale(StageId::Curves) || !of) return std::nullopt;
-  const auto contour = static_cast<std::size_t>(of->contour);
-  if (contour < *first) return std::nullopt;
-  return contour - *first;
+  if (of->contour < *first) return std::nullopt;
+  return of->contour - *first;
 }
 
 std::optional<int> curveOfStroke(const EditorSession& session, std::size_t stroke) {
   const auto first = firstPenContour(session);
   if (!first) return std::nullopt;
   const auto curves = session.curves();
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (curves[i].contour >= 0 && static_cast<std::size_t>(curves[i].contour) == *first + stroke) {
-      return static_cast<int>(i);
-    }
-  }
+  for (int i = 0; i < std::ssize(curves); ++i)
+    if (curves[i].contour == *first + static_cast<int>(stroke)) return i;
   return std::nullopt;
 }
 
@@ -74,9 +65,9 @@ std::optional<std::size_t> strokeNear(const Recipe& recipe, const Vec2& px, doub
   double best = reachPx * reachPx;
   for (std::size_t s = 0; s < recipe.penStrokes.size(); ++s) {
     const auto& points = recipe.penStrokes[s].points;
-    const std::size_t legs = recipe.penStrokes[s].closed ? points.size() : points.size() - 1;
-    for (std::size_t i = 0; i < legs; ++i) {
-      const double d = squaredToLeg(px, points[i], points[(i + 1) % points.size()]);
+    const std::size_t segments = recipe.penStrokes[s].closed ? points.size() : points.size() - 1;
+    for (std::size_t i = 0; i < segments; ++i) {
+      const double d = awayFromSegment(px, points[i], points[(i + 1) % points.size()]).squaredNorm();
       if (d <= best) best = d, found = s;
     }
   }

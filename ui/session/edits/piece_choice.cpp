@@ -5,20 +5,11 @@
 
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/piece_choices.h"
+#include "ui/session/curve_piece.h"
 #include "ui/session/edits/fairing_edits.h"
 
 namespace batten {
 namespace {
-
-/// The curve's piece, index into the piece set.
-std::optional<std::size_t> pieceOf(const EditorSession& session, std::optional<int> curve) {
-  const TracedCurve* of = session.curveAt(curve);
-  const auto& pieces = session.output().pieces;
-  if (!pieces || !of) return std::nullopt;
-  const int piece = of->piece;
-  if (piece < 0 || piece >= std::ssize(pieces->pieces)) return std::nullopt;
-  return static_cast<std::size_t>(piece);
-}
 
 QString choiceText(const char* text) { return QCoreApplication::translate("PieceChoice", text); }
 

@@ -262,13 +262,12 @@ void CurveList::resizeEvent(QResizeEvent* event) {
 void CurveList::showFairness() {
   const auto curves = session_.curves();
   for (int i = 0; i < std::min(count(), static_cast<int>(curves.size())); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const TracedCurve& curve = curves[at];
-    const bool isKnown = known_ && at < known_->size() && curve.included &&
-                         (*known_)[at].curve == judgedCurve(curve, judged_) && (*known_)[at].fairness;
-    item(i)->setData(BadgeRole, isKnown ? fairnessBadge(*(*known_)[at].fairness) : QString());
-    item(i)->setData(SimilarityRole, isKnown ? (*known_)[at].fairness->similarity : 0.0);
-    const QString why = isKnown ? fairnessSentence(*(*known_)[at].fairness) : QString();
+    const TracedCurve& curve = curves[i];
+    const bool isKnown = known_ && i < std::ssize(*known_) && curve.included &&
+                         (*known_)[i].curve == judgedCurve(curve, judged_) && (*known_)[i].fairness;
+    item(i)->setData(BadgeRole, isKnown ? fairnessBadge(*(*known_)[i].fairness) : QString());
+    item(i)->setData(SimilarityRole, isKnown ? (*known_)[i].fairness->similarity : 0.0);
+    const QString why = isKnown ? fairnessSentence(*(*known_)[i].fairness) : QString();
     QStringList said;
     const QString own = item(i)->data(OwnTipRole).toString();
     for (const QString& one : {own, why})
@@ -331,7 +330,7 @@ void CurveList::judge() {
   const auto wanted = wantedJudgements();
   if (!wanted) return;
   asked_ = wanted;
-  const auto first = static_cast<std::size_t>(session_.selectedCurve().value_or(0));
+  const std::size_t first = session_.selectedCurve().value_or(0);
   worker_->start([this, wanted, before = known_, first](const CancelToken& token) {
     const auto post = [&](const std::function<void(CurveList&)>& act) {
       if (token.isCancelled()) return;

@@ -296,10 +296,9 @@ void MethodTable::compute() {
 }
 
 void MethodTable::show(int method, const std::optional<CurveFigures>& figures, const QString& instead) {
-  const auto at = static_cast<std::size_t>(method);
-  figures_[at] = figures;
-  rows_[at]->show(figures, !figures, instead);
-  if (at + 1 == kMethods.size()) session_.setSideWork(this, false);
+  figures_[method] = figures;
+  rows_[method]->show(figures, !figures, instead);
+  if (method + 1 == std::ssize(kMethods)) session_.setSideWork(this, false);
 }
 
 void MethodTable::stop() {
