@@ -19,11 +19,15 @@ ReportJson explanationToJson(const PipelineOutput& out, const Recipe& recipe, co
     const std::string name = nameOfCurve(out, recipe, out.faired->curves[s.curve]);
     stretches.push_back({{"curve", name}, {"from_px", pointToJson(s.fromPx)}, {"length_px", numberToJson(s.lengthPx)}});
   }
-  return {{"reference_ink_px", e.referencePx},    {"explained", numberToJson(e.explained)},
-          {"missed", numberToJson(e.missed)},     {"curves_px", numberToJson(e.curvesPx)},
-          {"invented", numberToJson(e.invented)}, {"inventions", stretches},
+  return {{"reference_ink_px", e.referencePx},
+          {"explained", numberToJson(e.explained)},
+          {"missed", numberToJson(e.missed)},
+          {"curves_px", numberToJson(e.curvesPx)},
+          {"invented", numberToJson(e.invented)},
+          {"inventions", stretches},
           {"least_explained", numberToJson(e.leastExplained)},
-          {"most_invented", numberToJson(kMostInvented)}, {"note", e.note}};
+          {"most_invented", numberToJson(kMostInvented)},
+          {"note", e.note}};
 }
 
 std::ptrdiff_t stationCount(const SegmentSet& set) {

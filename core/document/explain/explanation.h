@@ -36,10 +36,10 @@ struct Explanation {
   /// Share of that length out of reach of any reference ink, but for declared bridges and for stretches along which the
   /// page is clearly darker than at both sides, or, of borders, than at one. 0..1
   double invented = 0.0;
-  std::vector<InventedStretch> inventions;  ///< Longest first.
-  BitImage missedInk;                       ///< Reference ink that no curve explains.
+  std::vector<InventedStretch> inventions;     ///< Longest first.
+  BitImage missedInk;                          ///< Reference ink that no curve explains.
   double leastExplained = kLeastExplainedPen;  ///< What is asked of this page.
-  std::string note;                         ///< What misses its limit, for the user; else empty.
+  std::string note;                            ///< What misses its limit, for the user; else empty.
   bool isExplained() const { return referencePx == 0 || explained >= leastExplained; }
   bool isInvented() const { return invented > kMostInvented; }  ///< Too much of it.
 };
