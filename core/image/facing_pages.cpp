@@ -15,12 +15,14 @@
 namespace batten {
 namespace {
 
-constexpr double kMostGutterShare = 0.04;  // of the diagonal: the gutter of an open book with its shadow
-constexpr double kLeastAlongGutter = 0.3;  // of the longer side of the facing page lies along the gutter
-constexpr double kShadingShare = 0.12;     // of the diagonal: farther from the gutter paper is flat
-constexpr int kAlongCells = 10;            // from one value along the gutter to the next
-constexpr int kAlongReach = 2;             // values to either side that are counted with one
-constexpr double kPaperRank = 0.75;        // of the cells at one distance: less than a quarter is free of ink
+constexpr double kMostGutterShare = 0.04;        // of the diagonal: the gutter of an open book with its shadow
+constexpr double kLeastAlongGutter = 0.3;        // of the longer side of the facing page lies along the gutter
+constexpr double kShadingShare = 0.12;           // of the diagonal: farther from the gutter paper is flat
+constexpr int kAlongCells = 10;                  // from one value along the gutter to the next
+constexpr int kAlongReach = 2;                   // values to either side that are counted with one
+constexpr double kPaperRankBesideGutter = 0.75;  // of the cells at one distance: at least a quarter is free of ink
+constexpr double kDarkestBesideGutter = 0.6, kDarkestFlat = 0.9;  // of the flat paper: what is darker was drawn
+constexpr double kBrightest = 1.1;
 
 cv::Mat1b grown(const cv::Mat1b& mask, double shareOfDiagonal) {
   const int size = 2 * static_cast<int>(std::ceil(shareOfDiagonal * std::hypot(mask.cols, mask.rows))) + 1;
@@ -144,7 +146,8 @@ class GutterShading {
           values.insert(values.end(), bin.begin(), bin.end());
         }
         if (values.empty()) continue;
-        const auto rank = values.begin() + static_cast<std::ptrdiff_t>(kPaperRank * double(values.size() - 1));
+        const auto rank =
+            values.begin() + static_cast<std::ptrdiff_t>(kPaperRankBesideGutter * double(values.size() - 1));
         std::nth_element(values.begin(), rank, values.end());
         levels_[index(d, s)] = *rank;
       }
@@ -155,6 +158,25 @@ class GutterShading {
         if (levels_[index(d, s)] <= 0.0f) levels_[index(d, s)] = levels_[index(d - 1, s)];
       for (int d = distances_ - 2; d >= 0; --d)
         if (levels_[index(d, s)] <= 0.0f) levels_[index(d, s)] = levels_[index(d + 1, s)];
+    }
+    leaveOutTones();
+  }
+  /// Paper dims towards the gutter, and only so much: a dark area within it is a tone that was drawn.
+  void leaveOutTones() {
+    std::vector<float> outer;
+    for (int s = 0; s < stations_; ++s)
+      if (const float level = levels_[index(distances_ - 1, s)]; level > 0.0f) outer.push_back(level);
+    if (outer.empty()) return;
+    const double flat = static_cast<double>(upperMedian(outer));
+    for (int s = 0; s < stations_; ++s) {
+      float brightest = 0.0f;
+      for (int d = 0; d < distances_; ++d) {
+        float& level = levels_[index(d, s)];
+        if (level <= 0.0f) continue;
+        brightest = std::max(brightest, level);
+        const double least = std::lerp(kDarkestBesideGutter, kDarkestFlat, d / (distances_ - 1.0)) * flat;
+        level = static_cast<float>(std::clamp(static_cast<double>(brightest), least, kBrightest * flat));
+      }
     }
   }
 

@@ -276,7 +276,9 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
     if (auto besideBoth = cellsBeside(even | page, cells)) beside = std::move(besideBoth);
     break;
   }
-  return sheetWithoutNecks(withoutPockets(*beside));
+  const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(*beside));
+  if (cv::countNonZero(sheet) > kMostSheet * static_cast<double>(sheet.total())) return std::nullopt;
+  return sheet;
 }
 
 }  // namespace

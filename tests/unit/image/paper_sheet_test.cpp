@@ -119,6 +119,27 @@ TEST(PaperSheet, ShadingTowardsTheGutterIsTakenOut) {
   EXPECT_NEAR(meanAt(170, 480) / meanAt(250, 480), 170.0 / 225.0, 0.03);
 }
 
+// A wash beside the gutter is no shading of the paper, and the paper beyond it stays as it is.
+TEST(PaperSheet, AToneDrawnBesideTheGutterStays) {
+  const Scan scan = photo([](double x, double y) {
+    if (x > 250.0 && x < 330.0 && y > 100.0 && y < 400.0) return PhotoPixel{170.0, 1.5};
+    return openBook(x, y, true);
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  const GreyImage page = onlyTheSheet(scan.grey, *sheet, {});
+  const auto mean = [&](int x0, int x1, int y0, int y1) {
+    double sum = 0.0;
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) sum += page.level(x, y);
+    }
+    return sum / ((x1 - x0) * (y1 - y0));
+  };
+  const double paper = mean(100, 140, 480, 560);
+  EXPECT_NEAR(mean(260, 320, 110, 390) / paper, 170.0 / 225.0, 0.04);
+  EXPECT_NEAR(mean(100, 140, 120, 380) / paper, 1.0, 0.03);
+}
+
 // The outline of a box, drawn up to a few px from the edge of the sheet.
 TEST(PaperSheet, AShapeDrawnUpToTheEdgeOfTheSheetEnclosesPaper) {
   const Scan scan = photo([](double x, double y) -> PhotoPixel {
