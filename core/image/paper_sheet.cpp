@@ -91,7 +91,7 @@ cv::Mat1b sheetCells(const SheetCells& cells) {
   const cv::Mat1i labels = joinCells(cells);
   std::vector<int> areas;
   for (const int label : labels) {
-    if (label >= std::ssize(areas)) areas.resize(static_cast<std::size_t>(label) + 1, 0);
+    if (label >= std::ssize(areas)) areas.resize(label + 1, 0);
     ++areas[label];
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
