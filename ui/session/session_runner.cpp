@@ -193,10 +193,11 @@ void EditorSession::Runner::curvesChanged() {
   const auto before = session.selectedCurve_;
   std::optional<int> index;
   if (selectsItself) {
-    double longest = -1.0;
+    std::optional<double> longest;
     for (std::size_t i = 0; i < curves.size(); ++i)
-      if (curves[i].included && curves[i].sketchedFigures.lengthMm > longest) {
-        longest = curves[i].sketchedFigures.lengthMm;
+      if (const double length = curves[i].sketchedFigures.lengthMm;
+          curves[i].included && (!longest || length > *longest)) {
+        longest = length;
         index = static_cast<int>(i);
       }
   } else if (anchorPx && session.output_.pieces) {

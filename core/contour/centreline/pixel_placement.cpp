@@ -249,7 +249,7 @@ int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>
     for (const auto& sum : squares)
       if (sum) known.push_back(*sum);
     // Discard a blur that does not fit at least half of the strokes.
-    if (known.size() < some.size() / 2 || known.empty()) return std::numeric_limits<double>::max();
+    if (known.size() < some.size() / 2 || known.empty()) return std::numeric_limits<double>::infinity();
     return upperMedian(known);
   };
   makeTables({kStartBlur - kBlurStrides[0], kStartBlur, kStartBlur + kBlurStrides[0]}, context);

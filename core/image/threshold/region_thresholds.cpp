@@ -31,6 +31,8 @@ constexpr double kEdgeVariance = 1.5 * 1.5;                     // [px^2] of the
 constexpr std::array<double, 3> kSmoothings = {1.0, 1.4, 2.0};  // [px]
 constexpr double kContrastPerNoise = 5.5;
 constexpr double kLeastContrastPerNoise = 4.0;
+constexpr double kLinePerNoise = 2.5;   // of the mean over all crests, which is far less noisy than one pixel
+constexpr double kLeastVariance = 0.1;  // [px^2 of the shrunk page] below, nothing is smoothed
 constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;
@@ -56,7 +58,7 @@ int shrinkFor(const GreyImage& image) {
 /// Variance on the shrunk grid that makes a smoothing of `variancePx` together with the means over the blocks.
 double remainingVariance(double variancePx, int shrink) {
   const double block = (shrink * shrink - 1.0) / 12.0;
-  return std::max(0.1, (variancePx - block) / (shrink * shrink));
+  return std::max(kLeastVariance, (variancePx - block) / (shrink * shrink));
 }
 
 /// The plane smoothed at one place only.
@@ -177,7 +179,7 @@ RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, 
   out.faintLimit = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
   out.paper = std::move(estimate.paper);
   const bool enough = edges.crests.size() >= kMinVotes;
-  out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, 2.5 * depths.noise);
+  out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, kLinePerNoise * depths.noise);
   if (out.foundLine) {
     found = contrastsOf(grey, edges, depths, strength * out.halfLevelShare);
   } else {
