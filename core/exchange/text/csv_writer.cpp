@@ -119,7 +119,7 @@ Result<double> checkCsv(std::string_view text, const ExportDocument& document, c
         most = std::max(most, (curve.point(length.parameter(values[0])) - Vec2(values[1], values[2])).norm());
         ++at;
       }
-      if (std::abs(last - length.total()) > 1e-9 * length.total())
+      if (!last || std::abs(*last - length.total()) > 1e-9 * length.total())
         return readsBackOtherwise("rows are missing of " + name);
     }
   }
