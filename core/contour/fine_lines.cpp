@@ -11,15 +11,19 @@
 namespace batten {
 namespace {
 
-// Centre lines have a point a pixel of the page already.
+// Centre lines have a point a pixel of the page already. Of a few points none may be spared.
 void thinOut(Contour& outline) {
+  constexpr int kFewestPoints = 8;
+  if (std::ssize(outline.points) < kFewestPoints) return;
   std::vector<ContourPoint> kept;
   for (std::size_t i = 0; i < outline.points.size(); i += kFineFactor) kept.push_back(outline.points[i]);
   const int last = static_cast<int>(kept.size()) - 1;
   for (auto& [from, to] : outline.bridges) {
-    from = std::min((from + kFineFactor - 1) / kFineFactor, last);
-    to = std::max(from, to / kFineFactor);
+    from = (from + kFineFactor - 1) / kFineFactor;
+    to = std::min(to / kFineFactor, last);
   }
+  // One between two kept points is none any more.
+  std::erase_if(outline.bridges, [](const auto& bridge) { return bridge.first > bridge.second; });
   outline.points = std::move(kept);
   measureContour(outline);
 }

@@ -14,6 +14,7 @@
 #include "core/contour/chosen_ink.h"
 #include "core/contour/label/ink_labels.h"
 #include "core/image/bits/bit_steps.h"
+#include "core/image/fine_page.h"
 
 namespace batten {
 namespace {
@@ -112,8 +113,9 @@ Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double merge
   return solids;
 }
 
-Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, double pixelsPerPx,
+Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, const GreyImage* page,
                           InkSplit& split, const RunContext& context) {
+  const double pixelsPerPx = page != nullptr ? kFineFactor : 1.0;
   Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths, pixelsPerPx);
   if (!labels) return fail(labels.error());
   split.strokes = std::move(labels->strokes);
@@ -121,7 +123,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   split.penPx = labels->penPx;
   auto [paths, junctions] = findStrokeNet(labels->skeleton, ink, params, context);
   if (context.isCancelled()) return cancelled();
-  GraininessMap grain(paths, grey, context);
+  GraininessMap grain = page != nullptr ? grainOnFinePage(paths, *page, context) : GraininessMap(paths, grey, context);
   const PencilPieces pencil(ink, paths, grain, context);
   if (context.isCancelled()) return cancelled();
   split.known = std::make_unique<StrokesOfInk>(
@@ -156,14 +158,14 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
 }  // namespace
 
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
-                          const RunContext& context, double pixelsPerPx) {
+                          const RunContext& context, const GreyImage* page) {
   InkSplit split;
   split.strokes = split.shapes = BitImage(ink.width, ink.height);
   if (params.mode == EdgeMode::Outline) {
     split.shapes = ink;
   } else if (params.mode == EdgeMode::Centreline) {
     split.strokes = ink;
-  } else if (auto done = splitByLabel(ink, grey, params, pixelsPerPx, split, context); !done) {
+  } else if (auto done = splitByLabel(ink, grey, params, page, split, context); !done) {
     return fail(done.error());
   }
   if (params.choices.empty()) return split;

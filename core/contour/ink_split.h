@@ -29,8 +29,8 @@ struct InkSplit {
 /// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one
 /// way (EdgeParams::mode); regions that the user chose for follow his choice. Ink drawn with a pencil is split piece by
 /// piece (splitStrokes), and of its tones only solids far wider than its strokes are shapes.
-/// @param pixelsPerPx of ink and grey, along a pixel of the page (fine_page.h).
+/// @param page what an enlarged ink and grey were made of (fine_page.h), else absent.
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const RunContext&,
-                          double pixelsPerPx = 1.0);
+                          const GreyImage* page = nullptr);
 
 }  // namespace batten

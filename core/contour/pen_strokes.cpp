@@ -111,8 +111,10 @@ std::string noteOf(const PenReport& report) {
   add(report.tooMany, " is left out", " are left out");
   if (report.tooMany > 0) {
     note += ", because a drawing may hold ";
+    note += std::to_string(kMostPenStrokes);
+    note += " pen strokes of ";
     note += std::to_string(kMostPenPoints);
-    note += " points of pen strokes, about one a pixel: remove some strokes.";
+    note += " points together, about one a pixel: remove some strokes.";
   }
   return note;
 }
@@ -159,6 +161,7 @@ Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStro
   ContourSet result = set;
   PenReport report;
   std::int64_t points = 0;
+  int count = 0;
   for (const PenStroke& stroke : strokes) {
     Contour& contour = result.contours.emplace_back();
     contour.kind = ContourKind::Pen;
@@ -168,12 +171,17 @@ Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStro
       ++report.beside;
       continue;
     }
+    if (count == kMostPenStrokes) {
+      ++report.tooMany;
+      continue;
+    }
     Contour laid = penContour(*kept);
     if (points + std::ssize(laid.points) > kMostPenPoints) {
       ++report.tooMany;
       continue;
     }
     if (!isWhole) ++report.cut;
+    ++count;
     points += std::ssize(laid.points);
     contour = std::move(laid);
   }

@@ -213,7 +213,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
     found.set = std::move(*borders);
     return found;
   }
-  Result<InkSplit> split = splitInk(ink, grey, edges, context, page != nullptr ? kFineFactor : 1.0);
+  Result<InkSplit> split = splitInk(ink, grey, edges, context, page);
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);

@@ -20,38 +20,47 @@ double distanceToChord(const Vec2& p, const Vec2& a, const Vec2& b) {
 }  // namespace
 
 SampleTree::SampleTree(std::vector<CurvePlace> places) : places_(std::move(places)) {
+  sorted_.reserve(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Vec2 &before = places_[i > 0 ? i - 1 : i].point, &behind = places_[std::min(i + 1, places_.size() - 1)].point;
+    sorted_.push_back({before, places_[i].point, behind, places_[i].bulge, i});
+  }
   nodes_.reserve(4 * places_.size() / kLeafSize + 1);
   build(0, places_.size());
 }
 
 void SampleTree::build(std::size_t first, std::size_t last) {
   const std::size_t index = nodes_.size();
-  Node node{places_[first].point, places_[first].point, 0.0, first, last, 0, last - first <= kLeafSize};
-  for (std::size_t i = first - (first > 0 ? 1 : 0); i < std::min(last + 1, places_.size()); ++i) {
-    node.low = node.low.cwiseMin(places_[i].point);
-    node.high = node.high.cwiseMax(places_[i].point);
+  const Vec2& any = sorted_[first].point;
+  Node node{{any, any}, {any, any}, 0.0, first, last, 0, last - first <= kLeafSize};
+  for (std::size_t k = first; k < last; ++k) {
+    const Sorted& one = sorted_[k];
+    node.places.add(one.point);
+    for (const Vec2& end : {one.before, one.point, one.behind}) node.chords.add(end);
+    node.bulge = std::max(node.bulge, one.bulge);
   }
-  for (std::size_t i = first; i < last; ++i) node.bulge = std::max(node.bulge, places_[i].bulge);
   nodes_.push_back(node);
   if (!node.isLeaf) {
     const std::size_t middle = first + (last - first) / 2;
+    const Vec2 size = node.places.high - node.places.low;
+    const int axis = size.x() >= size.y() ? 0 : 1;
+    const auto at = [&](std::size_t k) { return sorted_.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::nth_element(at(first), at(middle), at(last), [axis](const Sorted& a, const Sorted& b) {
+      return a.point[axis] != b.point[axis] ? a.point[axis] < b.point[axis] : a.index < b.index;
+    });
     build(first, middle);
     build(middle, last);
   }
   nodes_[index].behind = nodes_.size();
 }
 
-double SampleTree::distanceTo(const Node& box, const Vec2& p) {
+double SampleTree::distanceTo(const Box& box, const Vec2& p) {
   const Vec2 outside = (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0);
   return outside.norm() * (1.0 - kRounding);
 }
 
-double SampleTree::distanceToChords(std::size_t place, const Vec2& p) const {
-  const Vec2& here = places_[place].point;
-  double distance = (here - p).norm();
-  if (place > 0) distance = std::min(distance, distanceToChord(p, places_[place - 1].point, here));
-  if (place + 1 < places_.size()) distance = std::min(distance, distanceToChord(p, here, places_[place + 1].point));
-  return distance * (1.0 - kRounding);
+double SampleTree::Sorted::distanceToChords(const Vec2& p) const {
+  return std::min(distanceToChord(p, before, point), distanceToChord(p, point, behind)) * (1.0 - kRounding);
 }
 
 std::size_t SampleTree::nearest(const Vec2& p) const {
@@ -59,19 +68,20 @@ std::size_t SampleTree::nearest(const Vec2& p) const {
   std::size_t found = 0;
   double best = std::numeric_limits<double>::infinity();
   const auto look = [&](const Node& leaf) {
-    for (std::size_t i = leaf.first; i < leaf.last; ++i) {
-      const double distance = (places_[i].point - p).norm();
+    for (std::size_t k = leaf.first; k < leaf.last; ++k) {
+      const double distance = (sorted_[k].point - p).norm();
+      const std::size_t i = sorted_[k].index;
       if (distance < best || (distance == best && i < found)) best = distance, found = i;
     }
   };
   std::size_t node = 0;
   while (!nodes_[node].isLeaf) {
     const std::size_t one = node + 1, other = nodes_[one].behind;
-    node = distanceTo(nodes_[other], p) < distanceTo(nodes_[one], p) ? other : one;
+    node = distanceTo(nodes_[other].places, p) < distanceTo(nodes_[one].places, p) ? other : one;
   }
   look(nodes_[node]);
   for (node = 0; node < nodes_.size();) {
-    if (distanceTo(nodes_[node], p) > best) {
+    if (distanceTo(nodes_[node].places, p) > best) {
       node = nodes_[node].behind;
       continue;
     }

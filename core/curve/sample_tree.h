@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -16,10 +17,13 @@ struct CurvePlace {
   double bulge = 0.0;  ///< [unit of the curve] >= 0
 };
 
-/// Places in the order of a curve, in boxes of boxes of neighbours: which ones are near a point is known without
-/// looking at all of them. The answers are those of a search through all, to the last bit.
+/// Places in the order of a curve, in boxes of boxes of places that lie together, however often the curve comes by:
+/// which ones are near a point is known without looking at all of them. The answers are those of a search through all,
+/// to the last bit.
 class SampleTree {
  public:
+  static constexpr std::size_t kFew = 8;
+
   /// @pre at least one place, all finite.
   explicit SampleTree(std::vector<CurvePlace> places);
 
@@ -27,41 +31,70 @@ class SampleTree {
   /// The first of the nearest places, whatever their bulge.
   std::size_t nearest(const Vec2& p) const;
 
-  /// Calls `visit(index)` in ascending order for the places near which the curve may be no farther than `bound()`:
-  /// those whose chords are no farther than that and their bulge. The bound is asked again for every place and may
-  /// shrink meanwhile.
+  /// Calls `visit(index)` for the places near which the curve may be no farther than `bound()`: those whose chords are
+  /// no farther than that and their bulge. The bound is asked again for every place and may shrink meanwhile. The order
+  /// is ascending; of more than kFew places the one that may be nearest comes first, since it rules out most others.
   template <class Bound, class Visit>
   void within(const Vec2& p, const Bound& bound, const Visit& visit) const {
+    std::vector<Near> near;
     for (std::size_t node = 0; node < nodes_.size();) {
       const Node& box = nodes_[node];
-      if (distanceTo(box, p) - box.bulge > bound()) {
+      if (distanceTo(box.chords, p) - box.bulge > bound()) {
         node = box.behind;
         continue;
       }
       if (box.isLeaf) {
-        for (std::size_t i = box.first; i < box.last; ++i)
-          if (distanceToChords(i, p) - places_[i].bulge <= bound()) visit(i);
+        for (std::size_t k = box.first; k < box.last; ++k) {
+          const double distance = sorted_[k].distanceToChords(p) - sorted_[k].bulge;
+          if (distance <= bound()) near.push_back({distance, sorted_[k].index});
+        }
       }
       ++node;
     }
+    std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.index < b.index; });
+    if (near.size() > kFew) {
+      const auto first = std::min_element(near.begin(), near.end(),
+                                          [](const Near& a, const Near& b) { return a.distance < b.distance; });
+      visit(first->index);
+      near.erase(first);
+    }
+    for (const Near& one : near)
+      if (one.distance <= bound()) visit(one.index);
   }
 
  private:
+  /// A place with its chords, which are looked at together.
+  struct Sorted {
+    Vec2 before, point, behind;  ///< At the ends of the line the place itself.
+    double bulge;
+    std::size_t index;
+
+    double distanceToChords(const Vec2& p) const;
+  };
+  struct Near {
+    double distance;  ///< The least that the curve may have there.
+    std::size_t index;
+  };
+  struct Box {
+    Vec2 low, high;
+    void add(const Vec2& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
+  };
   struct Node {
-    Vec2 low, high;           ///< Of its places and the chords to their neighbours.
+    Box places;               ///< Around its places.
+    Box chords;               ///< Around these and the chords to their neighbours.
     double bulge = 0.0;       ///< The largest inside.
-    std::size_t first, last;  ///< Places first..last - 1.
+    std::size_t first, last;  ///< Places sorted_[first..last - 1].
     std::size_t behind;       ///< The node behind this one and all below it.
     bool isLeaf = false;
   };
 
   void build(std::size_t first, std::size_t last);
   /// From the box, a little less than exact, so that rounding hides no place.
-  static double distanceTo(const Node& box, const Vec2& p);
-  double distanceToChords(std::size_t place, const Vec2& p) const;
+  static double distanceTo(const Box& box, const Vec2& p);
 
   std::vector<CurvePlace> places_;
-  std::vector<Node> nodes_;  ///< Each before those below it, the first half before the second.
+  std::vector<Sorted> sorted_;  ///< The places, box by box.
+  std::vector<Node> nodes_;     ///< Each before those below it, the first half before the second.
 };
 
 }  // namespace batten

@@ -18,7 +18,7 @@ constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;
 }  // namespace
 
 Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresholds, const ThresholdParams& params,
-                          const RunContext& context) {
+                          const RunContext& context, int pixelsPerPx) {
   if (const auto error = validate(params)) return fail(*error);
   try {
     if (image.width <= 0 || image.height <= 0) return BitImage();
@@ -34,7 +34,7 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
       ink = keepPieces(ink, {.minArea = params.speckArea, .minDiagonal = diagonal, .seeds = &*masks.certain}, context);
     }
     if (context.isCancelled()) return cancelled();
-    if (params.reach < 1.0) ink = addFaintLines({ink, *masks.certain, *masks.faint}, context);
+    if (params.reach < 1.0) ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
     if (context.isCancelled()) return cancelled();
     if (!thresholds.holesArePaper) fillHoles(ink, params.holeArea, context);
     if (context.isCancelled()) return cancelled();

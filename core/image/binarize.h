@@ -12,6 +12,9 @@ namespace batten {
 /// Ink = darker than the threshold at that place (000 II.B): 1 where grey < level, level being the region's (blocks) or
 /// the bilinear surface through the region centres, relative to the local paper where it was flattened. Specks and
 /// small holes are removed as the parameters say.
-Result<BitImage> binarize(const GreyImage&, const RegionThresholds&, const ThresholdParams&, const RunContext&);
+/// @param pixelsPerPx of the picture, along a pixel of the page (fine_page.h); the areas of the parameters are in
+/// pixels of the picture.
+Result<BitImage> binarize(const GreyImage&, const RegionThresholds&, const ThresholdParams&, const RunContext&,
+                          int pixelsPerPx = 1);
 
 }  // namespace batten

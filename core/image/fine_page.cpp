@@ -20,8 +20,9 @@ namespace {
 
 // Of strokes, twice the area of their ink by its border: the paper between them is as narrow.
 constexpr double kThinPx = 3.0;
-constexpr double kMayBeThinPx = 6.0;  // of ink in which thin strokes may have run together
-constexpr double kLargestPx = 16e6;   // of a fine page: its memory is that of a page of A4 at 400 dpi
+constexpr double kMayBeThinPx = 6.0;                  // of ink in which thin strokes may have run together
+constexpr double kLargestPx = 16e6;                   // of a fine page: its memory is that of a page of A4 at 400 dpi
+constexpr int kFineArea = kFineFactor * kFineFactor;  // pixels of a fine page in a pixel of the page
 constexpr int kBesideFinePx = 4;  // [fine px] of a stroke: paper that the page's smoothing filled lies no farther off
 
 // Catmull and Rom's cubic a quarter of a pixel from the second of four pixels.
@@ -46,14 +47,15 @@ bool isNarrower(const BitImage& ink, double limitPx, const RunContext& context) 
 }
 
 ThresholdParams finer(ThresholdParams params) {
-  constexpr int kArea = kFineFactor * kFineFactor;
-  params.speckArea *= kArea;
-  // A hole of the fine page that is as large in pixels is as clear there.
+  params.speckArea *= kFineArea;
+  // Holes that noise makes are as large in pixels of either page; what is asked for beyond them are pixels of the page.
+  const int noise = std::min(params.holeArea, ThresholdParams{}.holeArea);
+  params.holeArea = noise + kFineArea * (params.holeArea - noise);
   return params;
 }
 
 FilterParams finer(FilterParams params) {
-  params.maxChangePx = std::min(params.maxChangePx * kFineFactor * kFineFactor, 100000);
+  params.maxChangePx = std::min(params.maxChangePx * kFineArea, kMostChangePx);
   return params;
 }
 
@@ -77,7 +79,7 @@ Result<std::optional<FinePage>> makeFinePage(const GreyImage& grey, const BitIma
   const Result<RegionThresholds> thresholds = findThresholds(fine.grey, paper, params, context);
   if (!thresholds) return fail(thresholds.error());
   if (!thresholds->foundLine) return std::nullopt;
-  const Result<BitImage> binary = binarize(fine.grey, *thresholds, params, context);
+  const Result<BitImage> binary = binarize(fine.grey, *thresholds, params, context, kFineFactor);
   if (!binary) return fail(binary.error());
   Result<FilteredImage> filtered = neighbourhoodFilter(*binary, finer(settings.filter), context);
   if (!filtered) return fail(filtered.error());
@@ -132,10 +134,14 @@ BitImage enlarged(const BitImage& ink, const RunContext& context) {
   return fine;
 }
 
+FinePage onInk(FinePage fine, const BitImage& ink, const RunContext& context) {
+  fine.ink = both(std::move(fine.ink), grown(enlarged(ink, context), kFineFactor, context));
+  return fine;
+}
+
 Result<std::optional<FinePage>> finePage(const GreyImage& grey, const BitImage& ink, const InkSettings& settings,
                                          const RunContext& context) {
-  constexpr double kArea = kFineFactor * kFineFactor;
-  if (kArea * grey.width * grey.height > kLargestPx || ink.count() == 0) return std::nullopt;
+  if (double{kFineArea} * grey.width * grey.height > kLargestPx || ink.count() == 0) return std::nullopt;
   try {
     if (!isNarrower(ink, kMayBeThinPx, context)) return std::nullopt;
     if (context.isCancelled()) return cancelled();

@@ -32,6 +32,9 @@ struct InkSettings {
 GreyImage enlarged(const GreyImage&, const RunContext&);
 BitImage enlarged(const BitImage&, const RunContext&);
 
+/// The page with as much of its ink as lies on `ink`, a part of that of the page.
+FinePage onInk(FinePage, const BitImage& ink, const RunContext&);
+
 /// The fine page, where the strokes of `ink` are so thin that one is needed; absent where they are not, or where it
 /// would be too large. It has no ink beside that of the page; what only the smoother page shows of it, as faint lines,
 /// is in it as it was.

@@ -90,27 +90,6 @@ bool isBeside(const BorderPatch& patch, const cv::Size& size) {
   return std::max(across, down) >= kLeastAlongSide;
 }
 
-/// The largest even area of the picture, and the facing page where it is a page of an open book.
-cv::Mat1b sheetCells(const SheetCells& cells) {
-  const cv::Mat1i labels = joinCells(cells);
-  std::vector<int> areas;
-  for (const int label : labels) {
-    if (label >= std::ssize(areas)) areas.resize(label + 1, 0);
-    ++areas[label];
-  }
-  const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
-  cv::Mat1b sheet = filledSheet(labels == largest);
-  for (int label = 0; label < std::ssize(areas); ++label) {
-    if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
-    const cv::Mat1b page = filledSheet(labels == label);
-    // Within the sheet it is a shape that was drawn.
-    if (cv::countNonZero(page & sheet) > 0 || !isFacingPage(page, sheet, cells, ShadedPaper(sheet, cells))) continue;
-    sheet |= page;
-    break;
-  }
-  return sheet;
-}
-
 /// Cells beside the sheet: patches outside it that reach a corner of the picture and run along its border. The rest
 /// outside it is ink that runs off the page, and stays.
 cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
@@ -260,6 +239,51 @@ int grainAt(int x, int y) {
 }
 constexpr double kGrainMean = 510.0, kGrainSigma = 147.8;  // of four bytes added
 
+/// Beyond the picture the sheet goes on: only what lies beside it is cut.
+cv::Mat1b sheetWithoutNecks(const cv::Mat1b& beside) {
+  cv::Mat1b sheet = beside == 0;
+  cv::morphologyEx(sheet, sheet, cv::MORPH_OPEN, discOf(sheet.size(), kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  return sheet;
+}
+
+/// All cells beside a sheet; absent where it is doubtful that there is a sheet. `even`: its even area, filled.
+std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& cells) {
+  cv::Mat1b beside = besideTheSheet(even, cells);
+  addBeyondEdges(beside, cells);
+  if (cv::countNonZero(beside) == 0) return std::nullopt;
+  const cv::Mat1b sheet = sheetWithoutNecks(beside);
+  const double share = cv::countNonZero(sheet) / static_cast<double>(sheet.total());
+  if (share < kLeastSheet || share > kMostSheet) return std::nullopt;
+  std::vector<cv::Point> places, hull;
+  cv::findNonZero(sheet, places);
+  cv::convexHull(places, hull);
+  if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return std::nullopt;
+  return beside;
+}
+
+/// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book.
+std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
+  const cv::Mat1i labels = joinCells(cells);
+  std::vector<int> areas;
+  for (const int label : labels) {
+    if (label >= std::ssize(areas)) areas.resize(label + 1, 0);
+    ++areas[label];
+  }
+  const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+  const cv::Mat1b even = filledSheet(labels == largest);
+  std::optional<cv::Mat1b> beside = cellsBeside(even, cells);
+  if (!beside) return std::nullopt;
+  for (int label = 0; label < std::ssize(areas); ++label) {
+    if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
+    const cv::Mat1b page = filledSheet(labels == label);
+    // Within the sheet it is a shape that was drawn.
+    if (cv::countNonZero(page & even) > 0 || !isFacingPage(page, even, cells, ShadedPaper(even, cells))) continue;
+    if (auto besideBoth = cellsBeside(even | page, cells)) beside = std::move(besideBoth);
+    break;
+  }
+  return sheetWithoutNecks(withoutPockets(*beside));
+}
+
 }  // namespace
 
 std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
@@ -267,23 +291,13 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
   if (std::min(grey.width, grey.height) < kFewestCells * kLeastCellPx) return std::nullopt;
   const SheetCells cells = sheetCellsOf(grey, colour, context);
   if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
-  cv::Mat1b beside = withoutPockets(besideTheSheet(sheetCells(cells), cells));
-  addBeyondEdges(beside, cells);
-  if (cv::countNonZero(beside) == 0) return std::nullopt;
-  cv::Mat1b sheet = beside == 0;
-  // Beyond the picture the sheet goes on: only what lies beside it is cut.
-  cv::morphologyEx(sheet, sheet, cv::MORPH_OPEN, discOf(sheet.size(), kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
-  const double area = sheet.total(), share = cv::countNonZero(sheet) / area;
-  if (share < kLeastSheet || share > kMostSheet) return std::nullopt;
-  std::vector<cv::Point> places, hull;
-  cv::findNonZero(sheet, places);
-  cv::convexHull(places, hull);
-  if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return std::nullopt;
+  const std::optional<cv::Mat1b> sheet = sheetOf(cells);
+  if (!sheet) return std::nullopt;
   PaperSheet found;
   found.cellPx = cells.sizePx;
-  found.cornersPx = cornersOf(sheet, cells.sizePx);
+  found.cornersPx = cornersOf(*sheet, cells.sizePx);
   cv::Mat1b inside;
-  cv::erode(sheet, inside, discOf(sheet.size(), kSheetRimShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::erode(*sheet, inside, discOf(sheet->size(), kSheetRimShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
   found.outlinePx = outlineOf(inside, cells.sizePx);
   found.inside = BitImage(cells.columns, cells.rows);
   for (int j = 0; j < cells.rows; ++j) {
@@ -291,7 +305,7 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
       if (inside(j, i) != 0) found.inside.set(i, j, true);
     }
   }
-  found.outsideShare = 1.0 - static_cast<double>(found.inside.count()) / area;
+  found.outsideShare = 1.0 - static_cast<double>(found.inside.count()) / static_cast<double>(sheet->total());
   return found;
 }
 

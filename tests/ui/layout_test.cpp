@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/stages/fairing_figures.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
 

@@ -16,6 +16,7 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls/column_delegate.h"
 #include "ui/panels/stages/curves/curve_list.h"
+#include "ui/panels/stages/fairing_figures.h"
 
 namespace batten {
 namespace {

@@ -59,13 +59,13 @@ StrokeNet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, c
 }
 
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
-bool isMargin(const Contour& c, const GreyImage& grey) {
+bool isMargin(const Contour& c, const GreyImage& grey, double pixelsPerPx) {
   constexpr double kTouchPx = 2.0, kMostly = 0.7;
   int touching = 0;
   for (const ContourPoint& point : c.points) {
     const Vec2& p = point.at;
     const double toBorder = std::min({p.x(), p.y(), grey.width - p.x(), grey.height - p.y()});
-    if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx) ++touching;
+    if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx * pixelsPerPx) ++touching;
   }
   return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
 }
@@ -106,10 +106,16 @@ BitImage grainHoles(const BitImage& taken, const BitImage& rest, const BitImage&
   return mostlyInk(enclosed, strokes, kLeastInkShare, context);
 }
 
+// How grainy the strokes are is a matter of the scan, whatever page they are followed on.
+GraininessMap grainOf(const std::vector<StrokePath>& paths, const GreyImage& grey, const CentrelineOptions& options,
+                      const RunContext& context) {
+  return options.page != nullptr ? grainOnFinePage(paths, *options.page, context) : GraininessMap(paths, grey, context);
+}
+
 // The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
 // paper, beside pens too: there a threshold closes it as well.
 BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
-                  const GraininessMap& grain, const RunContext& context) {
+                  const GraininessMap& grain, int pixelsPerPx, const RunContext& context) {
   const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
   const double closing = grainClosing(width);
   BitImage body = closeInk(strokes, closing, context);
@@ -122,7 +128,7 @@ BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vec
     body = either(without(std::move(body), ownPens), strokes);
   }
   if (context.isCancelled()) return strokes;
-  const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context);
+  const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context, pixelsPerPx);
   const BitImage carved = either(without(body, found.gaps), without(found.lines, ownPens));
   return either(carved, grainHoles(without(std::move(body), carved), carved, strokes, width, context));
 }
@@ -153,28 +159,10 @@ RefinedStrokes placeStrokePaths(const std::vector<StrokePath>& paths, const Grai
   return all;
 }
 
-// A stroke path on the page of which the one it was found on is an enlargement.
-StrokePath onPage(const StrokePath& fine) {
-  StrokePath path;
-  path.closed = fine.closed;
-  path.tip = fine.tip;
-  const int n = static_cast<int>(fine.points.size());
-  const auto take = [&](int i) {
-    const StrokePathPoint& p = fine.points[i];
-    path.points.push_back({p.at / kFineFactor, p.radius / kFineFactor, p.part});
-  };
-  int i = 0;
-  for (; i < n; i += kFineFactor) take(i);
-  if (!fine.closed && n > 0 && i - kFineFactor != n - 1) take(n - 1);
-  return path;
-}
-
 // The lines on the enlarged page, placed on the page.
 RefinedStrokes placeOnPage(const std::vector<StrokePath>& paths, const GraininessMap* grain, const GreyImage& page,
                            bool subpixel, const RunContext& context) {
-  std::vector<StrokePath> reduced;
-  for (const StrokePath& path : paths) reduced.push_back(onPage(path));
-  RefinedStrokes placed = placeStrokePaths(reduced, grain, page, subpixel, context);
+  RefinedStrokes placed = placeStrokePaths(fromFinePage(paths), grain, page, subpixel, context);
   for (Contour& c : placed.contours) scaleContour(c, kFineFactor);
   for (Vec2& at : placed.faint) at *= kFineFactor;
   return placed;
@@ -203,7 +191,7 @@ double depthOf(const StrokePath& s, const GreyImage& grey) {
 // Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
 // of its own, which end free. Such are kept where they are as dark as the strokes around, or as ink must be by the
 // threshold if they look like strokes of the same pencil: no broader, as marks are, and long enough for its width.
-void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double minWidths, bool anyPencil,
+void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const CentrelineOptions& options, bool anyPencil,
                const RunContext& context) {
   constexpr double kGrainWidths = 2.5;               // times the shortest: longer ones are no grain
   constexpr double kSamePencil = 1.5;                // of its usual width: two strokes side by side are broader
@@ -214,8 +202,9 @@ void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double min
     return s.length() / s.widthPx() + ends;
   };
   std::vector<bool> isDropped;
+  const double minWidths = options.minWidths;
   const std::optional<GraininessMap> grain =
-      anyPencil ? std::optional<GraininessMap>(std::in_place, paths, grey, context) : std::nullopt;
+      anyPencil ? std::optional(grainOf(paths, grey, options, context)) : std::nullopt;
   if (context.isCancelled()) return;
   const double usualPx = grain ? medianWidth(paths, [&](int i) { return grain->isPencil(i); }) : 0.0;
   for (int i = 0; i < std::ssize(paths); ++i) {
@@ -277,27 +266,28 @@ struct PathsFound {
 PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                      const CentrelineOptions& options, const RunContext& context) {
   const BitImage* shapes = options.shapes;
+  const int pixelsPerPx = options.page != nullptr ? kFineFactor : 1;
   PathsFound found;
   found.net = centrelinesOf(strokes, options, params, context);
   std::vector<StrokePath>& paths = found.net.paths;
   if (context.isCancelled()) return found;
   found.widthPx = medianWidth(paths, [](int) { return true; });
   const bool isKnown = shapes == nullptr && options.known != nullptr && options.known->ink == strokes;
-  const GraininessMap grain = isKnown ? std::move(options.known->grain) : GraininessMap(paths, grey, context);
+  const GraininessMap grain = isKnown ? std::move(options.known->grain) : grainOf(paths, grey, options, context);
   if (options.known != nullptr) options.known->ink = options.known->skeleton = BitImage();
   const auto isPencil = [&](int i) { return grain.isPencil(i); };
   bool anyPencil = false;
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || isPencil(i);
   std::vector<bool> pencil;
   if (anyPencil) {
-    BitImage bodies = bodiesOf(strokes, grey, paths, grain, context);
+    BitImage bodies = bodiesOf(strokes, grey, paths, grain, pixelsPerPx, context);
     const BitImage all = shapes != nullptr ? either(bodies, *shapes) : bodies;
-    bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context));
+    bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context, pixelsPerPx));
     if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     if (context.isCancelled()) return found;
     found.net = centrelinesOf(bodies, options, params, context);
     found.bodies = std::move(bodies);
-    const GraininessMap ofBodies(paths, grey, context);
+    const GraininessMap ofBodies = grainOf(paths, grey, options, context);
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));
   }
   bridgeGaps(paths, pencil, found.bodies ? *found.bodies : strokes, grey, params, context);
@@ -320,14 +310,15 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   std::vector<StrokePath>& paths = found.net.paths;
   const bool anyPencil = found.bodies.has_value();
+  const double pixelsPerPx = options.page != nullptr ? kFineFactor : 1.0;
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
-  dropShort(paths, grey, options.minWidths, anyPencil, context);
+  dropShort(paths, grey, options, anyPencil, context);
   if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
   std::optional<GraininessMap> ofKept;
   if (anyPencil) {
-    ofKept.emplace(paths, grey, context);
+    ofKept = grainOf(paths, grey, options, context);
     askHidden(paths, *ofKept);
   }
   const GraininessMap* grain = ofKept ? &*ofKept : nullptr;
@@ -339,15 +330,15 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
       set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); }));
   const BitImage& ink = found.bodies ? *found.bodies : strokes;
   BitImage seen = options.shapes != nullptr ? either(ink, *options.shapes) : ink;
-  for (const Vec2& at : placed.faint) setDisc(seen, at, options.page != nullptr ? kFineFactor : 1.0);
-  set.contours = keepOnInk(std::move(set.contours), seen);
+  for (const Vec2& at : placed.faint) setDisc(seen, at, pixelsPerPx);
+  set.contours = keepOnInk(std::move(set.contours), seen, pixelsPerPx);
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);
   if (!params.intent && params.mergeWidths <= 0.0)
     set.junctions = junctionsOfLines(std::move(found.net.junctions), set.contours);
   if (context.isCancelled()) return cancelled();
   set.report.droppedMargins =
-      static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey); }));
+      static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey, pixelsPerPx); }));
   return set;
 }
 

@@ -47,15 +47,17 @@ struct PaperDepth {
 // Looks along strokes of one width.
 class StepMeter {
  public:
-  StepMeter(const GreyImage& grey, double widthPx)
+  StepMeter(const GreyImage& grey, double widthPx, double pixelsPerPx)
       : grey_(grey),
+        pixelsPerPx_(pixelsPerPx),
         beside_(kBesideWidths * widthPx),
-        core_(std::min(kMostTrailCorePx, kTrailCoreWidths * widthPx)),
-        step_(std::max(kLeastTrailStepPx, kStepWidths * widthPx)) {}
+        core_(std::min(kMostTrailCorePx * pixelsPerPx, kTrailCoreWidths * widthPx)),
+        step_(std::max(kLeastTrailStepPx * pixelsPerPx, kStepWidths * widthPx)) {}
 
   double stepPx() const { return step_; }
+  double softEndPx() const { return kSoftEndPx * pixelsPerPx_; }
   // [px] round the middle of a step that it looks at.
-  double reachPx() const { return std::hypot(0.5 * step_, beside_ + kBesidePx[2]) + 1.0; }
+  double reachPx() const { return std::hypot(0.5 * step_, beside_ + kBesidePx[2] * pixelsPerPx_) + 1.0; }
 
   // [grey] By which the way from a place along a direction is darker than both its sides, where that is the least.
   double depth(const Vec2& from, const Vec2& along) const {
@@ -66,8 +68,8 @@ class StepMeter {
       const Vec2 at = from + (k + 0.5) * along;
       for (const double off : {-core_, 0.0, core_}) ink += level(at + off * across);
       for (const double off : kBesidePx) {
-        left += level(at + (beside_ + off) * across);
-        right += level(at - (beside_ + off) * across);
+        left += level(at + (beside_ + off * pixelsPerPx_) * across);
+        right += level(at - (beside_ + off * pixelsPerPx_) * across);
       }
     }
     return (std::min(left, right) - ink) / (3.0 * count);
@@ -77,7 +79,7 @@ class StepMeter {
   double level(const Vec2& at) const { return static_cast<double>(sampleGrey(grey_, at.x(), at.y())); }
 
   const GreyImage& grey_;
-  double beside_, core_, step_;
+  double pixelsPerPx_, beside_, core_, step_;
 };
 
 // The depth of steps laid on paper, in four directions by turns.
@@ -138,7 +140,7 @@ class EndFollower {
       if (ahead > kMostAheadWidths * widthPx + 1.0) return std::nullopt;
       end.at += 0.5 * end.out;
     }
-    end.at += kSoftEndPx * end.out;
+    end.at += meter_.softEndPx() * end.out;
     return end;
   }
 
@@ -152,7 +154,7 @@ class EndFollower {
       const int toInk = pxToInk(at, step.along);
       if (toInk < static_cast<int>(meter_.stepPx())) {
         // What is darker there is other ink, which the trail reaches if it came as far as that ink's own soft side.
-        if (static_cast<double>(toInk) <= kSoftEndPx && kept == std::ssize(trail)) {
+        if (static_cast<double>(toInk) <= meter_.softEndPx() && kept == std::ssize(trail)) {
           append(trail, at, step.along, toInk);
           kept = std::ssize(trail);
         }
@@ -231,10 +233,10 @@ class EndFollower {
 }  // namespace
 
 BitImage followFaintEnds(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen,
-                         const BitImage& ink, const GreyImage& grey, const RunContext& context) {
+                         const BitImage& ink, const GreyImage& grey, const RunContext& context, double pixelsPerPx) {
   BitImage trails(ink.width, ink.height);
   const double width = medianWidth(paths, isChosen);
-  const StepMeter meter(grey, width);
+  const StepMeter meter(grey, width, pixelsPerPx);
   const PaperDepth paper = measurePaper(meter, ink, context);
   if (paper.mean.empty() || context.isCancelled()) return trails;
   const EndFollower follower(meter, paper, ink);

@@ -16,7 +16,9 @@ namespace batten {
 /// steps together are clearly darker than the best that such a search finds on the paper around, and no farther than
 /// its stroke is long. Nothing begins on weak ink.
 /// @param isChosen by index of the path.
+/// @param pixelsPerPx of ink and grey, along a pixel of the page (fine_page.h).
 BitImage followFaintEnds(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen,
-                         const BitImage& ink, const GreyImage& grey, const RunContext& context);
+                         const BitImage& ink, const GreyImage& grey, const RunContext& context,
+                         double pixelsPerPx = 1.0);
 
 }  // namespace batten

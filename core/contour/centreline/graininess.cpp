@@ -9,8 +9,10 @@
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
+#include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_profile.h"
+#include "core/image/fine_page.h"
 #include "core/image/push_pull.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -34,6 +36,7 @@ constexpr double kMostDeviation = 0.12;        // of the depth: what is farther 
 constexpr int kDepthPlaces = 12;               // along a stroke path without samples
 constexpr double kPenDepths = 2.0;             // of the pencil's depth: a stroke so dark may be a pen's
 constexpr double kPenGrain = 0.75;             // of the pencil's grain: that of a pen beside it is less
+constexpr double kLeastTold = 0.1;             // of all strokes: of letters alone too little is plain to tell
 constexpr double kSmallerOfTwo = 1.7;          // mean of |x| over that of the smaller of two, for normal deviates
 
 struct GrainSample {
@@ -95,7 +98,15 @@ float softGrey(const GreyImage& grey, const Vec2& at) {
   return isInside ? soft(sampleGreyInside) : soft(sampleGrey);
 }
 
-std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, int most) {
+// Whether the stroke runs alone and nearly straight so far to both sides of a place that its greys tell of its grain.
+bool isPlain(const StrokeCourse& course, int i) {
+  constexpr double kMostTurn = 0.7;  // cosine of the angle, from one end of the window to the other
+  for (int k = i - kWindow; k <= i + kWindow; ++k)
+    if (course.points[k].part != StrokePart::Ink) return false;
+  return course.points[i - kWindow].tangent.dot(course.points[i + kWindow].tangent) >= kMostTurn;
+}
+
+std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, int most, GrainPlaces places) {
   std::vector<GrainSample> samples;
   if (path.points.size() < kFewestPathPoints) return samples;
   const int stride = std::min(most, std::max(kLeastStride, static_cast<int>(path.points.size()) / kFewestSamples));
@@ -113,7 +124,7 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
     }
   }
   for (int i = kWindow + kEndPoints; i + kWindow + kEndPoints < n; i += stride) {
-    if (course.points[i].part != StrokePart::Ink) continue;
+    if (places == GrainPlaces::Plain ? !isPlain(course, i) : course.points[i].part != StrokePart::Ink) continue;
     Lanes median;
     medianOfLanes(lanes.data() + (i - kWindow), median.data());
     // Beside the stroke the brightest lane is paper; others may lie on the next line.
@@ -126,6 +137,14 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
                        depth, static_cast<double>(stride)});
   }
   return samples;
+}
+
+// How much of all strokes the samples stand for.
+double toldShare(const std::vector<std::vector<GrainSample>>& samples, double totalPx) {
+  double px = 0.0;
+  for (const std::vector<GrainSample>& ofPath : samples)
+    for (const GrainSample& s : ofPath) px += s.px;
+  return totalPx > 0.0 ? px / totalPx : 0.0;
 }
 
 // [grey] How much darker a stroke path is than the paper beside it: by its samples, or where it is too short for any,
@@ -218,7 +237,8 @@ double valueAt(const RegionValues& values, const Vec2& px, int width, int height
 
 }  // namespace
 
-GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyImage& grey, const RunContext& context)
+GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyImage& grey, const RunContext& context,
+                             GrainPlaces places)
     : grains_(paths.size(), 0.0), width_(std::max(1, grey.width)), height_(std::max(1, grey.height)) {
   double total = 0.0;
   for (const StrokePath& s : paths) total += static_cast<double>(s.points.size());
@@ -227,10 +247,11 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   std::vector<double> depths(paths.size(), 0.0);
   parallelFor(context, static_cast<int>(paths.size()), 4, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      samples[i] = samplesAlong(paths[i], grey, stride);
+      samples[i] = samplesAlong(paths[i], grey, stride, places);
       depths[i] = depthOf(paths[i], samples[i], grey);
     }
   });
+  if (places == GrainPlaces::Plain && toldShare(samples, total) < kLeastTold) return;
   const auto regionAt = [&](const Vec2& at) {
     return regionOf(std::clamp(static_cast<int>(at.x()), 0, width_ - 1),
                     std::clamp(static_cast<int>(at.y()), 0, height_ - 1), width_, height_);
@@ -271,6 +292,13 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   }
   deviation_ = filledRegions(regions, &GrainSum::deviation);
   depth_ = filledRegions(regions, &GrainSum::depth);
+}
+
+GraininessMap grainOnFinePage(const std::vector<StrokePath>& paths, const GreyImage& page, const RunContext& context) {
+  GraininessMap map(fromFinePage(paths), page, context, GrainPlaces::Plain);
+  map.width_ *= kFineFactor;
+  map.height_ *= kFineFactor;
+  return map;
 }
 
 double GraininessMap::deviationAt(const Vec2& px) const { return valueAt(deviation_, px, width_, height_); }

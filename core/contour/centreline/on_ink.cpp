@@ -14,10 +14,10 @@ constexpr int kFewestOnInk = 3;
 
 enum class Ground { Ink, Bridge, Paper };
 
-std::vector<Ground> groundUnder(const Contour& line, const BitImage& ink) {
+std::vector<Ground> groundUnder(const Contour& line, const BitImage& ink, double leastReachPx) {
   std::vector<Ground> ground;
   for (const ContourPoint& p : line.points) {
-    const double reach = std::max(kLeastReachPx, 0.5 * static_cast<double>(p.widthPx.value_or(0.0f)));
+    const double reach = std::max(leastReachPx, 0.5 * static_cast<double>(p.widthPx.value_or(0.0f)));
     ground.push_back(anyInDisc(ink, p.at, reach) ? Ground::Ink : Ground::Paper);
   }
   for (const auto& [first, last] : line.bridges)
@@ -56,10 +56,10 @@ void openAt(Contour& line, std::vector<Ground>& ground, int first) {
 
 }  // namespace
 
-std::vector<Contour> keepOnInk(std::vector<Contour> lines, const BitImage& ink) {
+std::vector<Contour> keepOnInk(std::vector<Contour> lines, const BitImage& ink, double pixelsPerPx) {
   std::vector<Contour> kept;
   for (Contour& line : lines) {
-    std::vector<Ground> ground = groundUnder(line, ink);
+    std::vector<Ground> ground = groundUnder(line, ink, kLeastReachPx * pixelsPerPx);
     const auto paper = std::find(ground.begin(), ground.end(), Ground::Paper);
     if (paper == ground.end()) {
       kept.push_back(std::move(line));

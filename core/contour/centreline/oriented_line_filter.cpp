@@ -49,6 +49,7 @@ struct LineFilter {
   std::vector<Direction> directions;
   int ridgeSides = 1;           // of the places at the sides: up to 1.5 widths
   int halfPx = 8, reachPx = 0;  // of a line, of the places at its sides
+  double grains = 1.0;          // along a line
   int margin() const { return halfPx + reachPx; }
   int side() const { return kTile + 2 * margin(); }  // of a tile and what lies round it
 };
@@ -59,11 +60,14 @@ std::vector<int> offsetsOf(const std::vector<Step>& steps, int side) {
   return offsets;
 }
 
-LineFilter filterFor(double widthPx) {
+LineFilter filterFor(double widthPx, int pixelsPerPx) {
   LineFilter filter;
-  filter.halfPx = static_cast<int>(std::lround(std::clamp(kHalfWidths * widthPx, kShortestHalfPx, kLongestHalfPx)));
-  const int count = static_cast<int>(kDirectionsPerPx * filter.halfPx);
-  const double stepPx = std::max(kLeastSideStepPx, kSideStepWidths * widthPx);
+  const double half = std::clamp(kHalfWidths * widthPx / pixelsPerPx, kShortestHalfPx, kLongestHalfPx);
+  const int steps = static_cast<int>(std::lround(half));
+  filter.halfPx = pixelsPerPx * steps;
+  filter.grains = std::max(1.0, (2.0 * steps + 1.0) / kGrainLengthPx);
+  const int count = static_cast<int>(kDirectionsPerPx * steps);
+  const double stepPx = std::max(kLeastSideStepPx * pixelsPerPx, kSideStepWidths * widthPx);
   std::vector<DirectionSteps> directions;
   for (int k = 0; k < count; ++k) {
     const double a = std::numbers::pi * k / count;
@@ -72,7 +76,7 @@ LineFilter filterFor(double widthPx) {
     const auto step = [](const Vec2& v) {
       return Step{static_cast<int>(std::lround(v.x())), static_cast<int>(std::lround(v.y()))};
     };
-    for (int i = 1; i <= filter.halfPx; ++i) {
+    for (int i = pixelsPerPx; i <= filter.halfPx; i += pixelsPerPx) {
       d.ahead.push_back(step(i * t));
       d.back.push_back(step(-i * t));
     }
@@ -224,8 +228,8 @@ std::vector<Pixel> bodyPixels(const BitImage& body, int x0, int y0) {
 // [grey] What is clear in a tile. The deviation is a mean of absolute values; over a line it shrinks with the number of
 // grains.
 float clearAt(const GraininessMap& grain, const LineFilter& filter, const Vec2& middle) {
-  const double grains = std::max(1.0, (2.0 * filter.halfPx + 1.0) / kGrainLengthPx);
-  const double share = std::max(kLeastShare, kClear * kAbsoluteToSigma * grain.deviationAt(middle) / std::sqrt(grains));
+  const double share =
+      std::max(kLeastShare, kClear * kAbsoluteToSigma * grain.deviationAt(middle) / std::sqrt(filter.grains));
   return static_cast<float>(share * grain.depthAt(middle));
 }
 
@@ -286,10 +290,10 @@ StepSums stepSums() {
 }
 
 OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
-                                  double widthPx, const RunContext& context) {
+                                  double widthPx, const RunContext& context, int pixelsPerPx) {
   OrientedLines found{BitImage(body.width, body.height), BitImage(body.width, body.height)};
-  if (widthPx > kWidestPx) return found;
-  const LineFilter filter = filterFor(widthPx);
+  if (widthPx > kWidestPx * pixelsPerPx) return found;
+  const LineFilter filter = filterFor(widthPx, pixelsPerPx);
   const LineSearch search{grey, grain, filter};
   const int columns = body.wordsPerRow, rows = (body.height + kTile - 1) / kTile;
   const auto overTiles = [&](const auto& visit) {

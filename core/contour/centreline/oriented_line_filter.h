@@ -17,9 +17,11 @@ struct OrientedLines {
   BitImage lines;
 };
 /// Searches `body` and its surroundings for lines about `widthPx` wide. The least contrast follows from grain and noise
-/// at the place. Finds nothing for strokes wider than 24 px. May throw std::bad_alloc. Not complete when cancelled.
+/// at the place. Finds nothing for strokes wider than 24 px of the page. May throw std::bad_alloc. Not complete when
+/// cancelled.
+/// @param pixelsPerPx of body and grey, along a pixel of the page (fine_page.h).
 OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
-                                  double widthPx, const RunContext& context);
+                                  double widthPx, const RunContext& context, int pixelsPerPx = 1);
 
 /// to[i] = the sum of grey[i + step] over the steps, in their order, for i < count.
 using StepSums = void (*)(const float* grey, const int* steps, int stepCount, int count, float* to);

@@ -1,7 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/centreline/page_scale.h"
 
+#include "core/image/fine_page.h"
+
 namespace batten {
+namespace {
+
+StrokePath pathOnPage(const StrokePath& fine) {
+  StrokePath path;
+  path.closed = fine.closed;
+  path.tip = fine.tip;
+  const int n = static_cast<int>(fine.points.size());
+  const auto take = [&](int i) {
+    const StrokePathPoint& p = fine.points[i];
+    path.points.push_back({p.at / kFineFactor, p.radius / kFineFactor, p.part});
+  };
+  int i = 0;
+  for (; i < n; i += kFineFactor) take(i);
+  if (!fine.closed && n > 0 && i - kFineFactor != n - 1) take(n - 1);
+  return path;
+}
+
+}  // namespace
 
 void scaleContour(Contour& c, double factor) {
   const auto by = static_cast<float>(factor);
@@ -26,6 +46,12 @@ void scaleContours(ContourSet& set, double factor) {
     for (Vec2& place : junction.branchesPx) place *= factor;
   }
   if (set.report.widthPx) *set.report.widthPx *= factor;
+}
+
+std::vector<StrokePath> fromFinePage(const std::vector<StrokePath>& paths) {
+  std::vector<StrokePath> reduced;
+  for (const StrokePath& path : paths) reduced.push_back(pathOnPage(path));
+  return reduced;
 }
 
 }  // namespace batten

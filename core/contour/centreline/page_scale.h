@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
+#include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/contour_set.h"
 
 namespace batten {
@@ -9,5 +12,8 @@ namespace batten {
 /// side.
 void scaleContour(Contour&, double factor);
 void scaleContours(ContourSet&, double factor);
+
+/// Stroke paths that were found on a fine page (fine_page.h), on the page: about one point a pixel.
+std::vector<StrokePath> fromFinePage(const std::vector<StrokePath>&);
 
 }  // namespace batten

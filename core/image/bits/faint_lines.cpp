@@ -27,7 +27,7 @@ struct Piece {
   std::int64_t area = 0, interior = 0, beside = 0, atWide = 0;
   int x0 = std::numeric_limits<int>::max(), x1 = 0, y0 = std::numeric_limits<int>::max(), y1 = 0;
 
-  bool isLine() const {
+  bool isLine(int pixelsPerPx) const {
     // A long strip of width w has two border pixels for every w of its area.
     const double border = std::max(1.0, static_cast<double>(area - interior));
     const double length = 0.5 * border, width = static_cast<double>(area) / length;
@@ -35,8 +35,8 @@ struct Piece {
     if (static_cast<double>(atWide) > kMostAtWide * static_cast<double>(area)) return false;
     if (static_cast<double>(beside) > kMostAlongside * static_cast<double>(area)) return false;
     if (diagonal * diagonal < kBoxPerArea * static_cast<double>(area) && beside == 0) return false;
-    if (beside > 0) return diagonal >= kMinJoinedPx && length >= kJoinedPerWidth * width;
-    return diagonal >= kMinLengthPx && length >= kLengthPerWidth * width;
+    if (beside > 0) return diagonal >= kMinJoinedPx * pixelsPerPx && length >= kJoinedPerWidth * width;
+    return diagonal >= kMinLengthPx * pixelsPerPx && length >= kLengthPerWidth * width;
   }
 };
 
@@ -60,22 +60,24 @@ std::vector<Piece> measure(const RunPieces& found, const BitImage& interior, con
 
 /// Where the faint places are wider than the drawing's own strokes, with all that hangs on to them. Noise tears holes
 /// into weak strokes, hence they are closed first.
-BitImage widePlaces(const FaintMasks& masks, const RunContext& context) {
+BitImage widePlaces(const FaintMasks& masks, int pixelsPerPx, const RunContext& context) {
   const std::int64_t area = masks.ink.count();
   const std::int64_t border = std::max<std::int64_t>(1, area - shrunken(masks.ink, 1, context).count());
   const double strokePx = 2.0 * static_cast<double>(area) / static_cast<double>(border);
-  const int steps = std::clamp(static_cast<int>(0.5 * strokePx + 0.5), kFewestThinSteps, kMostThinSteps);
+  const int steps =
+      std::clamp(static_cast<int>(0.5 * strokePx + 0.5), pixelsPerPx * kFewestThinSteps, pixelsPerPx * kMostThinSteps);
   const BitImage closed = grown(masks.faint, 1, context);
   return grown(shrunken(closed, steps + 1, context), steps + 3, context);
 }
 
 }  // namespace
 
-BitImage addFaintLines(const FaintMasks& masks, const RunContext& context) {
-  const BitImage softSide = grown(both(masks.certain, masks.ink), kSoftSidePx, context);
+BitImage addFaintLines(const FaintMasks& masks, const RunContext& context, int pixelsPerPx) {
+  const int softSidePx = pixelsPerPx * kSoftSidePx;
+  const BitImage softSide = grown(both(masks.certain, masks.ink), softSidePx, context);
   const BitImage open = without(masks.faint, softSide);
   if (context.isCancelled() || open.count() == 0) return masks.ink;
-  const BitImage wide = widePlaces(masks, context);
+  const BitImage wide = widePlaces(masks, pixelsPerPx, context);
   const BitImage beside = grown(softSide, 2, context);
   const BitImage interior = shrunken(open, 1, context);
   const RunPieces found = findPieces(open, Connectivity::Eight, context);
@@ -83,10 +85,10 @@ BitImage addFaintLines(const FaintMasks& masks, const RunContext& context) {
   const std::vector<Piece> pieces = measure(found, interior, beside, wide);
   BitImage lines(open.width, open.height);
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    if (pieces[found.piece[i]].isLine()) setBits(lines, found.runs[i]);
+    if (pieces[found.piece[i]].isLine(pixelsPerPx)) setBits(lines, found.runs[i]);
   }
   // The soft side was left out: where a line runs into ink, it is let through.
-  return either(either(masks.ink, lines), both(grown(lines, kSoftSidePx, context), masks.faint));
+  return either(either(masks.ink, lines), both(grown(lines, softSidePx, context), masks.faint));
 }
 
 }  // namespace batten

@@ -17,6 +17,7 @@ struct FaintMasks {
 /// already (the soft side of a stroke). A piece that continues ink may be shorter than one that stands alone. Wide
 /// faint strokes, shading and texture stay paper; strokes that are ink do not become wider, so that close parallel
 /// lines stay apart.
-BitImage addFaintLines(const FaintMasks& masks, const RunContext& context);
+/// @param pixelsPerPx of the masks, along a pixel of the page (fine_page.h).
+BitImage addFaintLines(const FaintMasks& masks, const RunContext& context, int pixelsPerPx = 1);
 
 }  // namespace batten

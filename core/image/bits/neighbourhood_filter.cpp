@@ -237,7 +237,7 @@ std::optional<Error> validate(const FilterParams& params) {
   if (params.iterations < 0 || params.iterations > 100) {
     return Error{ErrorCode::BadParameter, "The filter iterations must lie between 0 and 100.", {}};
   }
-  if (params.maxChangePx < 0 || params.maxChangePx > 100000) {
+  if (params.maxChangePx < 0 || params.maxChangePx > kMostChangePx) {
     return Error{ErrorCode::BadParameter, "The filter's largest change must lie between 0 and 100000 px.", {}};
   }
   return std::nullopt;

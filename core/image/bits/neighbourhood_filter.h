@@ -17,6 +17,8 @@ enum class FilterBorder {
   Replicate,  ///< The border row and column are repeated outside: for drawings that are cropped.
 };
 
+inline constexpr int kMostChangePx = 100000;  ///< That FilterParams::maxChangePx may be.
+
 struct FilterParams {
   int coefficient = 2;  ///< [-] 0..4. Neighbours that must disagree before a pixel changes: more than this many of 8. 0
                         ///< = ordinary erosion and dilation.

@@ -33,6 +33,9 @@ std::size_t bytesOf(const RegionThresholds& t) {
 }
 std::size_t bytesOf(const BitImage& image) { return sizeof(image) + vectorBytes(image.words); }
 std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
+std::size_t bytesOf(const std::optional<FinePage>& fine) {
+  return sizeof(fine) + (fine ? vectorBytes(fine->grey.pixels) + bytesOf(fine->ink) : 0);
+}
 std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
   for (const Contour& c : set.contours) bytes += sizeof(c) + vectorBytes(c.points);
@@ -185,11 +188,23 @@ class PipelineRun {
   }
 
   /// Of outlines and of lines that stand for several strokes no more is wanted than the page shows.
-  Result<std::optional<FinePage>> fineOf(const BitImage& ink, const GreyImage& grey) {
+  bool wantsFinePage() const {
     const EdgeParams& edges = recipe_.edges;
-    if (request_.isPreview || edges.mode == EdgeMode::Outline || edges.mergeWidths > 0.0 || edges.intent)
-      return std::nullopt;
-    return finePage(grey, ink, {recipe_.paper, recipe_.threshold, recipe_.filter}, context_);
+    return !request_.isPreview && edges.mode != EdgeMode::Outline && !(edges.mergeWidths > 0.0) && !edges.intent;
+  }
+
+  /// The fine page of all ink, or that there is none; kept for the runs that change how lines are followed.
+  Result<std::shared_ptr<const std::optional<FinePage>>> fineOf(const GreyImage& grey) {
+    using Fine = std::optional<FinePage>;
+    if (!wantsFinePage()) return std::make_shared<const Fine>();
+    auto fine = cache_.find<Fine>(keys_.fine);
+    if (fine) return fine;
+    auto made = finePage(grey, out_.filtered->ink, {recipe_.paper, recipe_.threshold, recipe_.filter}, context_);
+    if (!made) return fail(made.error());
+    if (context_.isCancelled()) return cancelled();
+    fine = std::make_shared<const Fine>(std::move(*made));
+    cache_.store(keys_.fine, fine, bytesOf(*fine));
+    return fine;
   }
 
   /// The lines of the page, or of the parts of it that the user wants.
@@ -197,13 +212,14 @@ class PipelineRun {
     if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty.");
     const GreyImage& grey = flattenedScan();
     if (context_.isCancelled()) return cancelled();
-    const auto trace = [&](const BitImage& ink) -> Result<ContourSet> {
-      const auto fine = fineOf(ink, grey);
-      if (!fine) return fail(fine.error());
-      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_, *fine ? &**fine : nullptr);
+    const auto found = fineOf(grey);
+    if (!found) return fail(found.error());
+    const std::optional<FinePage>& fine = **found;
+    const auto trace = [&](const BitImage& ink, const FinePage* page) {
+      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_, page);
     };
     if (recipe_.regions.empty()) {
-      auto set = trace(out_.filtered->ink);
+      auto set = trace(out_.filtered->ink, fine ? &*fine : nullptr);
       if (!set && set.error().code == ErrorCode::NoCurve && !out_.page->rulings.empty())
         return fail(ErrorCode::NoCurve,
                     "No line was found beside the ruled lines: if these are the drawing, keep them "
@@ -211,7 +227,9 @@ class PipelineRun {
                         set.error().message);
       return set;
     }
-    auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
+    const BitImage ink = inkTouching(out_.filtered->ink, recipe_.regions, context_);
+    const std::optional<FinePage> part = fine ? std::optional(onInk(*fine, ink, context_)) : std::nullopt;
+    auto set = trace(ink, part ? &*part : nullptr);
     if (set) {
       const double limit = recipe_.contours.minWidths * set->report.widthPx.value_or(0.0);
       set = keepInside(std::move(*set), recipe_.regions, std::max(limit, recipe_.contours.minLengthPx));

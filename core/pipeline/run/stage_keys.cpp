@@ -212,6 +212,7 @@ StageKeys stageKeys(const Scan& scan, const Recipe& recipe, const PageFrame& fra
     h.text(name(kStages[i])).hash(*input);
     addOwn(h, kStages[i], recipe, frame);
     result.keys[i] = h.finish();
+    if (kStages[i] == StageId::Filtered) result.fine = HashBuilder().text("fine page").hash(result.keys[i]).finish();
     if (kStages[i] == StageId::Contours) {
       result.traced = result.keys[i];
       if (!recipe.penStrokes.empty()) result.keys[i] = withStrokes(result.traced, recipe);

@@ -18,6 +18,7 @@ namespace batten {
 struct StageKeys {
   std::array<ContentHash, kStages.size()> keys;
   ContentHash page;    ///< The prepared page, an output of the first stage beside its thresholds.
+  ContentHash fine;    ///< The fine page of the filtered ink (fine_page.h), or that there is none.
   ContentHash traced;  ///< The lines of the scan alone, before the pen strokes: drawing one does not trace again.
   const ContentHash& operator[](StageId stage) const { return keys[indexOf(stage)]; }
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -149,6 +150,18 @@ TEST(PenStrokes, OfADrawingHaveALimitTogether) {
   EXPECT_FALSE(set->contours.back().points.empty()) << "a short stroke still has room";
   EXPECT_NE(set->report.note.find(std::to_string(leftOut) + " pen strokes are left out"), std::string::npos)
       << set->report.note;
+}
+
+TEST(PenStrokes, BeyondTheLargestNumberAreLeftOut) {
+  constexpr int kTooMany = 7;
+  std::vector<PenStroke> strokes(kMostPenStrokes + kTooMany, PenStroke{{{10.0, 10.0}, {13.0, 10.0}}, false});
+  strokes.front().points = {{-50.0, 10.0}, {-10.0, 10.0}};  // beside the page: takes no room
+  const ContourSet set = onPage(strokes);
+  ASSERT_EQ(set.contours.size(), strokes.size());
+  EXPECT_EQ(std::ranges::count_if(set.contours, [](const Contour& line) { return !line.points.empty(); }),
+            kMostPenStrokes);
+  EXPECT_NE(set.report.note.find(std::to_string(kTooMany - 1) + " pen strokes are left out"), std::string::npos)
+      << set.report.note;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/image/binarize.h"
@@ -98,6 +99,27 @@ TEST(FinePage, KeepsInkThatOnlyThePageShows) {
   const auto fine = finePage(grey, ink, {}, {});
   ASSERT_TRUE(fine && *fine);
   for (int x = 2 * 45; x < 2 * 195; ++x) EXPECT_TRUE((*fine)->ink.at(x, 2 * 120 + 1)) << x;
+}
+
+/// The size of a hole that is to be filled is one of the page.
+TEST(FinePage, FillsTheHolesThatThePageFills) {
+  GreyImage grey = pageWithLine(2.0, 120.0);
+  const double cx = 120.3, cy = 40.4, radius = 2.9;
+  for (int y = 30; y < 51; ++y) {
+    for (int x = 110; x < 131; ++x) {
+      const double off = std::abs(std::hypot(x + 0.5 - cx, y + 0.5 - cy) - radius);
+      grey.row(y)[x] =
+          static_cast<std::uint16_t>((230.0 - 120.0 * std::clamp(1.5 - off, 0.0, 1.0)) * GreyImage::kGreyUnit);
+    }
+  }
+  for (const int holeArea : {10, 30}) {
+    InkSettings settings;
+    settings.threshold.holeArea = holeArea;
+    const BitImage ink = *binarize(grey, *findThresholds(grey, {}, settings.threshold, {}), settings.threshold, {});
+    const auto fine = finePage(grey, ink, settings, {});
+    ASSERT_TRUE(fine && *fine);
+    EXPECT_EQ((*fine)->ink.at(240, 80), holeArea == 30) << holeArea;
+  }
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ TEST(PaperSheet, ShadingTowardsTheGutterIsTakenOut) {
 TEST(PaperSheet, AShapeDrawnUpToTheEdgeOfTheSheetEnclosesPaper) {
   const Scan scan = photo([](double x, double y) -> PhotoPixel {
     if (x < 40.0 || x > 780.0 || y < 40.0 || y > 600.0) return {90.0, 2.0};
-    const double toBox = std::max(std::fabs(x - 690.0) - 70.0, std::fabs(y - 320.0) - 120.0);
+    const double toBox = std::max(std::fabs(x - 700.0) - 60.0, std::fabs(y - 320.0) - 80.0);
     if (std::fabs(toBox) < 5.0) return {60.0, 1.5};
     const bool isBeside = x > 755.0 && std::fabs(y - 320.0) < 12.0;  // an accident: dark up to the table
     const bool isRing = std::fabs(std::hypot(x - 690.0, y - 320.0) - 30.0) < 2.5;

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <vector>
 
+#include "core/image/fine_page.h"
 #include "core/pipeline/run/pipeline.h"
+#include "core/pipeline/run/stage_keys.h"
 #include "tests/support/angles.h"
 #include "tests/support/render_page.h"
 
@@ -176,6 +179,112 @@ TEST(ThinStrokes, FollowATraceModeChosenBesideThem) {
     return line.traceMode.has_value() && line.kind == ContourKind::Outline;
   };
   EXPECT_TRUE(std::ranges::any_of(output.contours->contours, follows));
+}
+
+/// One stroke of 2 px on a page of a scanner.
+Scan pageOfStroke(const std::vector<Vec2>& middle, bool closed, std::uint32_t seed) {
+  test::PageStyle style = test::cleanPage();
+  style.paperLeft = 240.0;
+  style.paperRight = 215.0;
+  style.inkLevel = 70.0;
+  style.blurPx = 0.8;
+  style.noise = 4.0;
+  style.seed = seed;
+  return test::renderPage(test::strokeCoverage(middle, closed, 2.0, kPageWidth, kPageHeight), kPageWidth, kPageHeight,
+                          style);
+}
+
+PipelineOutput linesOf(const Scan& scan, const Recipe& recipe, StageCache& cache) {
+  PipelineOutput output = runPipeline(scan, recipe, cache, {StageId::Contours, {}, false}, {});
+  EXPECT_TRUE(output.contours);
+  return output;
+}
+
+/// They are found on an enlargement and measured on the scan itself: no lean to a side, widths and deviations in its
+/// pixels.
+TEST(ThinStrokes, ArePlacedOnTheScan) {
+  const Vec2 from(40.3, 60.7), to(590.2, 260.4), centre(320.4, 210.3);
+  const double radius = 130.0;
+  std::vector<Vec2> straight, round;
+  for (int i = 0; i <= 500; ++i) straight.emplace_back(from + (to - from) * (i / 500.0));
+  for (int i = 0; i < 720; ++i) {
+    const double angle = 2.0 * kPi * i / 720.0;
+    round.emplace_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  const Vec2 along = (to - from).normalized(), across(-along.y(), along.x());
+  for (const bool isRound : {false, true}) {
+    const Scan scan = pageOfStroke(isRound ? round : straight, isRound, 11);
+    StageCache cache;
+    const PipelineOutput output = linesOf(scan, {}, cache);
+    const auto fine = cache.find<std::optional<FinePage>>(stageKeys(scan, {}, output.frame).fine);
+    ASSERT_TRUE(fine && *fine) << "not traced on a fine page";
+    ASSERT_EQ(output.contours->contours.size(), 1u);
+    const Contour& line = output.contours->contours.front();
+    EXPECT_EQ(line.closed, isRound);
+    EXPECT_NEAR(line.lengthPx, isRound ? 2.0 * kPi * radius : (to - from).norm(), 3.0);
+    double sum = 0.0, squares = 0.0, width = 0.0, sigma = 0.0;
+    int count = 0;
+    for (const ContourPoint& p : line.points) {
+      if (!p.refined || !p.sigmaPx || !p.widthPx) continue;
+      const double off = isRound ? (p.at - centre).norm() - radius : (p.at - from).dot(across);
+      sum += off;
+      squares += off * off;
+      width += static_cast<double>(*p.widthPx);
+      sigma += static_cast<double>(*p.sigmaPx);
+      ++count;
+    }
+    ASSERT_GT(count, 0.9 * line.lengthPx);
+    EXPECT_LT(count, 1.3 * line.lengthPx);
+    const double rms = std::sqrt(squares / count);
+    EXPECT_LT(std::abs(sum / count), 0.05);
+    EXPECT_LT(rms, 0.15);
+    // Blur makes a line of 2 px look wider.
+    EXPECT_NEAR(width / count, 2.2, 0.35);
+    EXPECT_GT(sigma / count, 0.4 * rms);
+    EXPECT_LT(sigma / count, 2.5 * rms);
+  }
+}
+
+/// A junction is reported in pixels of the scan, and a choice beside it reaches as far as on any other page.
+TEST(ThinStrokes, AreLedThroughJunctionsAsChosen) {
+  const Vec2 crossing(320.5, 210.5);
+  std::vector<float> cover(static_cast<std::size_t>(kPageWidth) * kPageHeight, 0.0f);
+  for (const double angle : {0.3, 1.5}) {
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    const std::vector<Vec2> stroke = {crossing - 150.0 * along, crossing + 150.0 * along};
+    const std::vector<float> own = test::strokeCoverage(stroke, false, 2.0, kPageWidth, kPageHeight);
+    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], own[i]);
+  }
+  test::PageStyle style = test::cleanPage();
+  style.blurPx = 0.8;
+  style.noise = 4.0;
+  const Scan scan = test::renderPage(std::move(cover), kPageWidth, kPageHeight, style);
+  StageCache cache;
+  const PipelineOutput led = linesOf(scan, {}, cache);
+  EXPECT_EQ(led.contours->contours.size(), 2u);
+  ASSERT_EQ(led.contours->junctions.size(), 1u);
+  EXPECT_LT((led.contours->junctions.front().positionPx - crossing).norm(), 1.5);
+  Recipe recipe;
+  recipe.edges.junctions.push_back({crossing + Vec2(0.0, -0.75 * kInkReachPx), {}});
+  EXPECT_EQ(linesOf(scan, recipe, cache).contours->contours.size(), 4u);
+}
+
+/// What is changed of how lines are followed makes no new fine page.
+TEST(ThinStrokes, AreEnlargedOnce) {
+  const Scan scan = pageOfStroke({{40.3, 60.7}, {590.2, 260.4}}, false, 5);
+  StageCache cache;
+  const auto fineAfter = [&](const Recipe& recipe) {
+    const PipelineOutput output = linesOf(scan, recipe, cache);
+    return cache.find<std::optional<FinePage>>(stageKeys(scan, recipe, output.frame).fine);
+  };
+  const auto first = fineAfter({});
+  ASSERT_TRUE(first && *first);
+  Recipe recipe;
+  recipe.edges.gapFactor = 2.0;
+  recipe.contours.minWidths = 5.0;
+  EXPECT_EQ(fineAfter(recipe), first);
+  recipe.threshold.strength = 1.2;
+  EXPECT_NE(fineAfter(recipe), first);
 }
 
 }  // namespace

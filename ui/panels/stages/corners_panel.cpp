@@ -291,7 +291,7 @@ void CornersPanel::showFound() {
   QStringList lines;
   if (recipe.corners.automatic && pieces)
     lines += found == 0 ? recipe.cornerMarks.empty() ? tr("No certain corner was found.")
-                                                     : tr("No certain corner beside the marked ones.")
+                                                     : tr("No certain corner besides the marked ones.")
                         : counted(found, tr("1 certain corner was found (diamond). Click it to exclude it."),
                                   tr("%1 certain corners were found (diamonds). Click one to exclude it."));
   // A mark wins over an excluded corner within its reach.

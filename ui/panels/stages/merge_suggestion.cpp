@@ -26,7 +26,7 @@ MergeSuggestion::MergeSuggestion(EditorSession& session, QWidget* parent)
   note_->setObjectName(QStringLiteral("edges.suggestMerge.note"));
   ask_->setAccessibleName(tr("Suggest merge distance"));
   ask_->setToolTip(tr("Checks for overdrawn strokes and sets the merge distance if there are any."));
-  offer_->setToolTip(tr("Makes of lines drawn over more than once the curves that were meant."));
+  offer_->setToolTip(tr("Replaces lines that were drawn over more than once by the curves that were meant."));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);

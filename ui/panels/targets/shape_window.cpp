@@ -211,8 +211,9 @@ void ShapeWindow::refreshTable() {
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));
   recommendation_->setText(
-      isAdvised ? tr("✓ recommended: the lowest degree that is met within the tolerance without an extremum more. "
-                     "S alone cannot choose, as it mostly rises with the degree.")
+      isAdvised
+          ? tr("✓ recommended: the lowest degree that is met within the tolerance without an additional extremum. "
+               "S alone cannot choose, as it mostly rises with the degree.")
       : isFound ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
                      "tolerance, adds extrema, moves nothing or is too dissimilar.")
                       .arg(degreeName(nearest))

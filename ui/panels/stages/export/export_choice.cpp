@@ -54,7 +54,7 @@ void ExportChoice::build() {
   layout->setSpacing(6);
   auto* row = new QHBoxLayout;
   auto* name = new QLabel(tr("Which curves"), this);
-  const QString help = tr("All curves that count, the one that is selected, or those that are ticked in a list.");
+  const QString help = tr("All included curves, the selected one, or those that are ticked in a list.");
   name->setToolTip(help);
   way_->setToolTip(help);
   way_->setObjectName(QStringLiteral("export.choice"));
