@@ -64,9 +64,9 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   parts_->rail = new StageRail(session_, whole);
   parts_->rail->setObjectName(QStringLiteral("stageRail"));
   QList<QAction*> tools;
-  // Corners of the sheet have a button in the Scan panel, and are set once a drawing at most.
+  // Corners of the sheet and inks have a button in the Scan panel, and are set once a drawing at most.
   for (const Tool tool : kTools)
-    if (tool != Tool::Sheet) tools.append(action(toolAction(tool)));
+    if (tool != Tool::Sheet && tool != Tool::Ink) tools.append(action(toolAction(tool)));
   parts_->rail->layout()->addWidget(new ToolList(tools, parts_->rail));
   auto* row = new QHBoxLayout;
   row->setSpacing(0);

@@ -2,6 +2,7 @@
 #include "core/document/report.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/base/name_text.h"
 #include "core/document/report_contours.h"
@@ -12,14 +13,21 @@ namespace batten {
 namespace {
 
 ReportJson explanationToJson(const PipelineOutput& out, const Recipe& recipe, const Explanation& e) {
+  constexpr std::size_t kMostStretches = 20;
   ReportJson stretches = ReportJson::array();
-  for (const InventedStretch& s : e.inventions) {
+  for (const InventedStretch& s : std::span(e.inventions).first(std::min(kMostStretches, e.inventions.size()))) {
     const std::string name = nameOfCurve(out, recipe, out.faired->curves[s.curve]);
     stretches.push_back({{"curve", name}, {"from_px", pointToJson(s.fromPx)}, {"length_px", numberToJson(s.lengthPx)}});
   }
-  return {{"reference_ink_px", e.referencePx},    {"explained", numberToJson(e.explained)},
-          {"missed", numberToJson(e.missed)},     {"curves_px", numberToJson(e.curvesPx)},
-          {"invented", numberToJson(e.invented)}, {"inventions", stretches}};
+  return {{"reference_ink_px", e.referencePx},
+          {"explained", numberToJson(e.explained)},
+          {"missed", numberToJson(e.missed)},
+          {"curves_px", numberToJson(e.curvesPx)},
+          {"invented", numberToJson(e.invented)},
+          {"inventions", stretches},
+          {"least_explained", numberToJson(e.leastExplained)},
+          {"most_invented", numberToJson(kMostInvented)},
+          {"note", e.note}};
 }
 
 std::ptrdiff_t stationCount(const SegmentSet& set) {

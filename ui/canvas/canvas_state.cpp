@@ -19,6 +19,7 @@
 #include "ui/canvas/layers/sheet_layer.h"
 #include "ui/canvas/layers/span_layer.h"
 #include "ui/session/coarse_runner.h"
+#include "ui/session/explanation_source.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/suggestion_source.h"
@@ -32,12 +33,12 @@ constexpr int kFlashMs = 350;
 }  // namespace
 
 CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
-    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this),        makeThresholdTool(*this),
-                                              makeCornerTool(*this),        makePenTool(*this),
-                                              makeSegmentTool(*this),       makeLinesTool(*this),
-                                              makeRegionTool(*this, false), makeRegionTool(*this, true),
-                                              makeScaleTool(*this),         makeDirectionTool(*this),
-                                              makeJunctionTool(*this),      makeSheetTool(*this)} {
+    : CanvasScene(s, v),
+      canvas(owner),
+      tools{makeSelectTool(*this),  makeThresholdTool(*this), makeCornerTool(*this),        makePenTool(*this),
+            makeSegmentTool(*this), makeLinesTool(*this),     makeRegionTool(*this, false), makeRegionTool(*this, true),
+            makeScaleTool(*this),   makeDirectionTool(*this), makeJunctionTool(*this),      makeSheetTool(*this),
+            makeInkTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;
@@ -120,6 +121,7 @@ void CurveCanvas::State::refreshExtrema() { extrema = extremumMarks(session, ses
 
 void CurveCanvas::State::viewChanged() {
   session.setEdgesWanted(view.isVisible(Layer::Edges));
+  session.explanation().setWanted(view.isVisible(Layer::Explained));
   requestSuggestions();
   requestCombs();
   requestOverlay();

@@ -17,6 +17,7 @@
 
 #include "ui/canvas/canvas_state.h"
 #include "ui/session/edits/like_edits.h"
+#include "ui/session/explanation_source.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/suggestion_source.h"
 
@@ -84,6 +85,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   connect(&session, &EditorSession::hoverChanged, this, [state] { state->hoverChanged(); });
   connect(&session, &EditorSession::pinChanged, this, [state] { state->requestOverlay(); });
   connect(&session.suggestions(), &SuggestionSource::changed, this, qOverload<>(&QWidget::update));
+  connect(&session.explanation(), &ExplanationSource::changed, this, qOverload<>(&QWidget::update));
   connect(&session, &EditorSession::cornerSelectionChanged, this, qOverload<>(&QWidget::update));
   connect(&session.growing(), &GrowingPlayer::changed, this, [this] { update(); });
   connect(&session, &EditorSession::cursorChanged, this, qOverload<>(&QWidget::update));

@@ -7,10 +7,12 @@
 #include "ui/canvas/layers/deviation_layer.h"
 #include "ui/canvas/layers/faired_layer.h"
 #include "ui/canvas/layers/fallback_layer.h"
+#include "ui/canvas/layers/invented_layer.h"
 #include "ui/canvas/layers/segment_layer.h"
 #include "ui/canvas/layers/sketched_layer.h"
 #include "ui/canvas/layers/stroke_layer.h"
 #include "ui/session/coarse_runner.h"
+#include "ui/session/explanation_source.h"
 #include "ui/session/growing_player.h"
 
 namespace batten {
@@ -40,6 +42,10 @@ RasterContent rasterContent(const CanvasScene& scene) {
       content.mask = coarse ? coarse->binary : output.binary;
   }
   if (scene.view.isVisible(Layer::Edges)) content.edges = output.edges;
+  if (scene.view.isVisible(Layer::Explained)) {
+    if (const auto explanation = scene.session.explanation().found())
+      content.missed = std::shared_ptr<const BitImage>(explanation, &explanation->missedInk);
+  }
   return content;
 }
 
@@ -67,6 +73,7 @@ StillImage::LinesKey StillImage::linesKeyOf(const CanvasScene& scene) {
   if (scene.view.isVisible(Layer::Segments)) key.segments = scene.session.output().segments.get();
   if (scene.view.isVisible(Layer::Strokes) || scene.view.isVisible(Layer::Fallback))
     key.contours = scene.session.output().contours.get();
+  if (scene.view.isVisible(Layer::Explained)) key.explanation = scene.session.explanation().found().get();
   return key;
 }
 
@@ -88,6 +95,7 @@ void StillImage::refreshLines(const CanvasScene& scene, const LinesKey& key) {
   paintPinned(painter, scene);
   if (scene.areCombsShown()) paintCombs(painter, scene);
   if (scene.view.isVisible(Layer::Deviation)) paintDeviation(painter, scene);
+  if (scene.view.isVisible(Layer::Explained)) paintInvented(painter, scene);
 }
 
 void StillImage::refresh(const CanvasScene& scene) {

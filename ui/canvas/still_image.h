@@ -30,7 +30,8 @@ class StillImage {
     int combDensity = 0, layers = 0;
     std::optional<int> selected;
     bool isGrowing = false, isRadius = false;
-    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr, *contours = nullptr;
+    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr, *contours = nullptr,
+               *explanation = nullptr;
     bool operator==(const LinesKey&) const = default;
   };
   struct StillKey {

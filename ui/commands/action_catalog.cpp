@@ -106,6 +106,8 @@ std::vector<ActionInfo> viewActions() {
        tr("Show points that could not be located on the grey values of the scan."), true},
       {ShowJunctions, "show-junctions", menu, tr("Doubtful junctions"), keys({"Alt+J"}),
        tr("Show junctions whose strokes might also be paired otherwise, and those paired by hand."), true},
+      {ShowExplained, "show-explained", menu, tr("Missed and invented ink"), keys({"Alt+E"}),
+       tr("Show the ink that no curve explains, and stretches of curves that have no ink."), true},
   };
 }
 
@@ -135,6 +137,8 @@ std::vector<ActionInfo> toolActions() {
        tr("Drag along something of known length, then enter that length in stage Scan."), true},
       {ToolSheet, "tool-sheet", menu, tr("Corners of the sheet"), keys({"Shift+M"}),
        tr("Drag the corners onto those of the photographed sheet; Enter makes it a rectangle."), true},
+      {ToolInk, "tool-ink", menu, tr("Pick an ink"), keys({"I"}),
+       tr("Click an ink of a colour scan to exclude it, or to trace it again; Shift+click traces it alone."), true},
       {ToolDirection, "tool-direction", menu, tr("Directions"), keys({"F"}),
        tr("Click a curve to reverse its direction; drag the ring of a closed curve to its start "
           "point."),
@@ -224,7 +228,7 @@ QAction* makeAction(ActionId id, QObject* parent) {
 }
 
 std::optional<Layer> layerOf(ActionId id) {
-  const auto index = offset(id, ActionId::ShowScan, ActionId::ShowJunctions);
+  const auto index = offset(id, ActionId::ShowScan, ActionId::ShowExplained);
   if (!index) return std::nullopt;
   return kLayers[*index];
 }
@@ -255,6 +259,8 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Junctions;
     case ActionId::ToolSheet:
       return Tool::Sheet;
+    case ActionId::ToolInk:
+      return Tool::Ink;
     default:
       return std::nullopt;
   }
@@ -299,6 +305,8 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolJunctions;
     case Tool::Sheet:
       return ActionId::ToolSheet;
+    case Tool::Ink:
+      return ActionId::ToolInk;
   }
   return ActionId::ToolSelect;
 }

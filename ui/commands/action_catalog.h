@@ -50,6 +50,7 @@ enum class ActionId {
   ShowStrokes,
   ShowFallback,
   ShowJunctions,
+  ShowExplained,
   ToolSelect,
   ToolThresholds,
   ToolCorners,
@@ -77,6 +78,7 @@ enum class ActionId {
   ReverseCurve,
   ToolJunctions,
   ToolSheet,
+  ToolInk,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

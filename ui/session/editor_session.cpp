@@ -9,6 +9,7 @@
 #include "core/pipeline/run/piece_choices.h"
 #include "ui/session/change_recipe.h"
 #include "ui/session/curve_piece.h"
+#include "ui/session/explanation_source.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/session_runner.h"
 #include "ui/session/suggestion_source.h"
@@ -31,7 +32,8 @@ EditorSession::EditorSession(QObject* parent)
     : QObject(parent),
       runner_(std::make_unique<Runner>(*this)),
       growing_(new GrowingPlayer(*this)),
-      suggestions_(new SuggestionSource(*this)) {
+      suggestions_(new SuggestionSource(*this)),
+      explanation_(new ExplanationSource(*this)) {
   // A step holds two recipes; some hundred are a long afternoon.
   undo_.setUndoLimit(kMostUndoSteps);
 }

@@ -20,6 +20,7 @@
 namespace batten {
 
 struct CoarseResult;
+class ExplanationSource;
 class GrowingPlayer;
 class SuggestionSource;
 /// A result set aside to compare later ones with. All parts belong together.
@@ -156,6 +157,8 @@ class EditorSession : public QObject {
   GrowingPlayer& growing() const { return *growing_; }
   /// Places that could be corners; idle until someone looks.
   SuggestionSource& suggestions() const { return *suggestions_; }
+  /// How well the curves explain the ink; idle until someone looks.
+  ExplanationSource& explanation() const { return *explanation_; }
   void setCursor(std::optional<double> sMm);
 
  signals:
@@ -208,6 +211,7 @@ class EditorSession : public QObject {
   double lastRunMs_ = 0.0;
   GrowingPlayer* growing_ = nullptr;
   SuggestionSource* suggestions_ = nullptr;
+  ExplanationSource* explanation_ = nullptr;
 };
 
 }  // namespace batten

@@ -45,6 +45,8 @@ QString label(Layer layer) {
       return QObject::tr("Points not located");
     case Layer::Junctions:
       return QObject::tr("Junctions");
+    case Layer::Explained:
+      return QObject::tr("Missed and invented");
   }
   return {};
 }

@@ -30,12 +30,13 @@ enum class Layer {
   Band,
   Strokes,
   Fallback,
-  Junctions
+  Junctions,
+  Explained
 };
-inline constexpr std::array kLayers = {Layer::Scan,     Layer::LogImage,  Layer::Paper,   Layer::Mask, Layer::Edges,
-                                       Layer::Segments, Layer::Curve,     Layer::Faired,  Layer::Comb, Layer::Corners,
-                                       Layer::Regions,  Layer::Deviation, Layer::Extrema, Layer::Band, Layer::Strokes,
-                                       Layer::Fallback, Layer::Junctions};
+inline constexpr std::array kLayers = {Layer::Scan,     Layer::LogImage,  Layer::Paper,    Layer::Mask, Layer::Edges,
+                                       Layer::Segments, Layer::Curve,     Layer::Faired,   Layer::Comb, Layer::Corners,
+                                       Layer::Regions,  Layer::Deviation, Layer::Extrema,  Layer::Band, Layer::Strokes,
+                                       Layer::Fallback, Layer::Junctions, Layer::Explained};
 /// Its place in arrays with one entry a layer.
 constexpr std::size_t indexOf(Layer layer) { return static_cast<std::size_t>(layer); }
 QString label(Layer);  ///< "Scan", "Log picture", …
@@ -54,10 +55,11 @@ enum class Tool {
   Direction,   ///< Click turns the direction in which a curve is exported; drag of its ring moves the start.
   Junctions,   ///< Click on a junction pairs its strokes in the next way; click on two branches pairs these.
   Sheet,       ///< Drag moves the corners of the sheet by which the page is to be rectified.
+  Ink,         ///< Click on an ink leaves it out or traces it again.
 };
-inline constexpr std::array kTools = {Tool::Select,   Tool::Thresholds, Tool::Corners,   Tool::Pen,
-                                      Tool::Segments, Tool::Lines,      Tool::Rectangle, Tool::Lasso,
-                                      Tool::Scale,    Tool::Direction,  Tool::Junctions, Tool::Sheet};
+inline constexpr std::array kTools = {Tool::Select,    Tool::Thresholds, Tool::Corners, Tool::Pen,   Tool::Segments,
+                                      Tool::Lines,     Tool::Rectangle,  Tool::Lasso,   Tool::Scale, Tool::Direction,
+                                      Tool::Junctions, Tool::Sheet,      Tool::Ink};
 
 /// Its place in arrays with one entry a tool.
 constexpr std::size_t indexOf(Tool tool) { return static_cast<std::size_t>(tool); }

@@ -23,7 +23,6 @@ namespace {
 
 constexpr double kReferenceStrength = 0.6;  // of the contrast that is asked of ink by default
 constexpr double kPixelPx = 0.5;            // ink begins half a pixel before the centre of its first pixel
-constexpr double kLeastExplained = 0.92, kMostInvented = 0.005;
 
 // What curves are held against.
 struct Reference {
@@ -114,7 +113,9 @@ CurveOnPage findInventions(const RedrawnCurve& c, const Reference& reference) {
   double lengthPx = 0.0;
   const auto close = [&](std::size_t last) {
     if (first && !isFaintlySeen(c, *first, last, reference)) {
-      found.inventions.push_back({c.curve, c.points[*first].at, c.points[last].at, lengthPx});
+      InventedStretch& stretch = found.inventions.emplace_back();
+      stretch = {c.curve, c.points[*first].at, c.points[last].at, lengthPx, {}};
+      for (std::size_t i = *first; i <= last; ++i) stretch.linePx.push_back(c.points[i].at);
       found.inventedPx += lengthPx;
     }
     first.reset();
@@ -135,6 +136,18 @@ CurveOnPage findInventions(const RedrawnCurve& c, const Reference& reference) {
   return found;
 }
 
+// What is asked of the page, by what most of its strokes were drawn with. A pencil's points have no noise of their own
+// that could be told from its grain.
+double leastExplainedOf(const PipelineOutput& out) {
+  if (!out.contours) return kLeastExplainedPen;
+  double pen = 0.0, pencil = 0.0;
+  for (const Contour& line : out.contours->contours) {
+    if (line.kind != ContourKind::Centreline) continue;
+    for (const ContourPoint& p : line.points) (p.sigmaPx ? pen : pencil) += 1.0;
+  }
+  return pencil > pen ? kLeastExplainedPencil : kLeastExplainedPen;
+}
+
 std::string percent(double share) {
   const long tenths = std::lround(1000.0 * share);
   return std::to_string(tenths / 10) + '.' + std::to_string(tenths % 10) + " %";
@@ -142,20 +155,21 @@ std::string percent(double share) {
 
 std::string noteOn(const Explanation& e, const EdgeParams& edges) {
   std::string note;
-  if (edges.intent && ((e.referencePx > 0 && e.explained < kLeastExplained) || e.invented > kMostInvented)) {
+  if (edges.intent && (!e.isExplained() || e.isInvented())) {
     // One curve stands for several strokes: it leaves ink beside it and runs over paper between them, as it should.
     return "The curves explain " + percent(e.explained) + " of the ink on the page, and " + percent(e.invented) +
            " of their length has no ink under it: with edges.intent one curve stands for several strokes, which need "
            "not lie under it. To measure how completely the strokes are traced, set edges.intent=false.";
   }
-  if (e.referencePx > 0 && e.explained < kLeastExplained) {
-    note = "The curves explain " + percent(e.explained) +
-           " of the ink on the page. To trace more, lower threshold.strength (Minimum ink contrast) or the minimum "
-           "line length.";
+  if (!e.isExplained()) {
+    note = "The curves explain " + percent(e.explained) + " of the ink on the page, less than " +
+           percent(e.leastExplained) +
+           ". To trace more, lower threshold.strength (Minimum ink contrast) or the minimum line length.";
   }
-  if (e.invented > kMostInvented) {
+  if (e.isInvented()) {
     if (!note.empty()) note += ' ';
-    note += percent(e.invented) + " of the length of the curves has no ink under it.";
+    note += percent(e.invented) + " of the length of the curves has no ink under it, more than " +
+            percent(kMostInvented) + ".";
   }
   return note;
 }
@@ -185,7 +199,7 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   if (result.curvesPx > 0.0) result.invented = inventedPx / result.curvesPx;
   std::stable_sort(result.inventions.begin(), result.inventions.end(),
                    [](const InventedStretch& a, const InventedStretch& b) { return a.lengthPx > b.lengthPx; });
-  if (result.inventions.size() > kMostInventions) result.inventions.resize(kMostInventions);
+  result.leastExplained = leastExplainedOf(out);
   result.note = noteOn(result, recipe.edges);
   if (context.isCancelled()) return cancelled();
   return result;

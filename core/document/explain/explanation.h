@@ -18,7 +18,12 @@ struct InventedStretch {
   int curve = 0;  ///< Index into FairedSet::curves.
   Vec2 fromPx = Vec2::Zero(), toPx = Vec2::Zero();
   double lengthPx = 0.0;
+  std::vector<Vec2> linePx;  ///< Its course, a point about every pixel.
 };
+
+/// [0..1] What the shares of a page are held against: the ink explained, where most of it was drawn with a pen or with
+/// a pencil, whose grain fades into the paper; and the length of the curves that is invented.
+inline constexpr double kLeastExplainedPen = 0.97, kLeastExplainedPencil = 0.92, kMostInvented = 0.005;
 
 /// How well the curves of a run explain the ink of the page.
 struct Explanation {
@@ -31,11 +36,13 @@ struct Explanation {
   /// Share of that length out of reach of any reference ink, but for declared bridges and for stretches along which the
   /// page is clearly darker than at both sides, or, of borders, than at one. 0..1
   double invented = 0.0;
-  std::vector<InventedStretch> inventions;  ///< The longest, longest first, at most kMostInventions.
-  BitImage missedInk;                       ///< Reference ink that no curve explains.
-  std::string note;                         ///< What is below a limit, for the user; else empty.
+  std::vector<InventedStretch> inventions;     ///< Longest first.
+  BitImage missedInk;                          ///< Reference ink that no curve explains.
+  double leastExplained = kLeastExplainedPen;  ///< What is asked of this page.
+  std::string note;                            ///< What misses its limit, for the user; else empty.
+  bool isExplained() const { return referencePx == 0 || explained >= leastExplained; }
+  bool isInvented() const { return invented > kMostInvented; }  ///< Too much of it.
 };
-inline constexpr std::size_t kMostInventions = 20;
 
 /// Redraws the page from its curves and compares: centre lines with their widths, borders filled where what they
 /// enclose is ink. Reach: the larger of 2 px and half the width of the line. Lines drawn with the pen explain ink but

@@ -8,14 +8,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/parallel.h"
+#include "core/image/colour/ink_look.h"
 #include "core/image/colour/paper_colour.h"
 
 namespace batten {
 namespace {
 
-constexpr float kLeastDarkness = 0.12f;  // of the paper's light in the darkest channel: less is paper
-constexpr float kSureDarkness = 0.2f;    // for the list of inks, and for black beside colour
-constexpr float kColourful = 0.22f;      // share of the darkness that the channels differ by
 constexpr double kLeastShareOfInk = 0.02;
 constexpr int kHueBins = 72;
 constexpr double kApartDeg = 40.0;  // of two inks
@@ -24,60 +22,10 @@ constexpr double kLeastInkOfPage = 2e-4;
 constexpr int kInkRimPx = 2;  // of a stroke, fainter than ink
 constexpr int kLeastPiecePx = 8;
 
-enum InkKind : std::uint8_t { kPaper, kNeutral, kHued };
-
-struct InkLook {
-  InkKind kind = kPaper;
-  float hueDeg = 0.0f;
-  float darkness = 0.0f;  ///< 0..1
-};
-
-/// @param light what of the paper's light comes through, per channel.
-InkLook lookAt(const std::array<float, 3>& light) {
-  const float most = std::max({light[0], light[1], light[2]}), least = std::min({light[0], light[1], light[2]});
-  InkLook look;
-  look.darkness = 1.0f - least;
-  if (look.darkness < kLeastDarkness) return look;
-  look.kind = kNeutral;
-  const float spread = most - least;
-  if (spread < kColourful * look.darkness) return look;
-  look.kind = kHued;
-  float sixth;
-  if (most == light[0])
-    sixth = (light[1] - light[2]) / spread;
-  else if (most == light[1])
-    sixth = 2.0f + (light[2] - light[0]) / spread;
-  else
-    sixth = 4.0f + (light[0] - light[1]) / spread;
-  look.hueDeg = 60.0f * (sixth < 0.0f ? sixth + 6.0f : sixth);
-  return look;
-}
-
 double apartDeg(double a, double b) {
   const double away = std::fabs(std::fmod(a - b, 360.0));
   return std::min(away, 360.0 - away);
 }
-
-/// Reads the looks of a row of a colour picture.
-class LookReader {
- public:
-  LookReader(const PaperColour& paper, int width, int height) : paper_(paper), width_(width), height_(height) {}
-  void setRow(int y) {
-    y_ = y;
-    paper_.ratiosOfRow(y, width_, height_, ratios_);
-  }
-  InkLook at(int x, const Rgb8& c) const {
-    const float light = std::max(1.0f, paper_.levelAt(x, y_));
-    return lookAt({std::min(1.0f, static_cast<float>(c.red) / (ratios_[0][x] * light)),
-                   std::min(1.0f, static_cast<float>(c.green) / (ratios_[1][x] * light)),
-                   std::min(1.0f, static_cast<float>(c.blue) / (ratios_[2][x] * light))});
-  }
-
- private:
-  const PaperColour& paper_;
-  int width_, height_, y_ = 0;
-  std::array<std::vector<float>, 3> ratios_;
-};
 
 struct InkSums {
   double count = 0.0, red = 0.0, green = 0.0, blue = 0.0;
@@ -181,8 +129,8 @@ std::vector<FoundInk> findInks(const GreyImage& grey, const ColourImage& colour,
       ++seen;
       const Rgb8& c = colour.row(y)[x];
       const InkLook look = reader.at(x, c);
-      if (look.kind == kPaper || look.darkness < kSureDarkness) continue;
-      if (look.kind == kNeutral)
+      if (look.kind == InkKind::Paper || look.darkness < kSureDarkness) continue;
+      if (look.kind == InkKind::Neutral)
         neutral.add(c);
       else
         bins[std::min(kHueBins - 1, static_cast<int>(look.hueDeg * kHueBins / 360.0f))].add(c);
@@ -215,8 +163,8 @@ std::optional<DroppedInk> dropInks(const GreyImage& page, const GreyImage& scan,
       for (int x = 0; x < colour.width; ++x) {
         const cv::Vec3b& c = even(y, x);
         const InkLook look = reader.at(x, {c[0], c[1], c[2]});
-        const bool isInk = look.kind != kPaper;
-        const InkColour ink{look.kind == kHued ? std::optional(static_cast<double>(look.hueDeg)) : std::nullopt};
+        const bool isInk = look.kind != InkKind::Paper;
+        const InkColour ink = look.colour();
         const bool isWanted = !isInk || isTraced(ink, choice);
         dropped(y, x) = isInk && !isWanted ? 255 : 0;
         kept(y, x) = isInk && isWanted && look.darkness >= kSureDarkness ? 255 : 0;

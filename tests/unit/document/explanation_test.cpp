@@ -164,6 +164,28 @@ TEST(Explanation, ACurveBesideItsInkIsInvented) {
   EXPECT_FALSE(e.note.empty());
 }
 
+// A pencil's grain fades into the paper. Of its points no noise is known apart from the grain.
+TEST(Explanation, APencilIsHeldAgainstLessThanAPen) {
+  Drawing drawing;
+  EXPECT_EQ(drawing.explain().leastExplained, kLeastExplainedPen);
+  ContourSet lines = *drawing.out.contours;
+  for (Contour& c : lines.contours) {
+    for (ContourPoint& p : c.points) p.sigmaPx.reset();
+  }
+  drawing.out.contours = std::make_shared<ContourSet>(lines);
+  EXPECT_EQ(drawing.explain().leastExplained, kLeastExplainedPencil);
+  // What misses its limit says which; the report holds the same.
+  drawing.exclude(true);
+  const Explanation e = drawing.explain();
+  EXPECT_FALSE(e.isExplained());
+  EXPECT_NE(e.note.find("less than 92.0 %"), std::string::npos) << e.note;
+  ReportExtras extras;
+  extras.explanation = e;
+  const auto json = nlohmann::json::parse(reportToJson(drawing.scan, {}, drawing.out, extras));
+  EXPECT_EQ(json["explanation"]["note"], e.note);
+  EXPECT_EQ(json["explanation"]["least_explained"], kLeastExplainedPencil);
+}
+
 TEST(Explanation, ADeclaredBridgeIsNotInvented) {
   Drawing drawing;
   drawing.shiftTopLine(14.0);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/image/binarize.h"
+#include "core/image/colour/ink_picker.h"
 #include "core/image/page_preparation.h"
 #include "tests/support/colour_page.h"
 
@@ -62,6 +65,27 @@ TEST(Inks, AreFoundByTheirHue) {
   EXPECT_FALSE(inks[0].colour.hueDeg.has_value());
   EXPECT_NEAR(*inks[1].colour.hueDeg, 224.0, 8.0);
   EXPECT_TRUE(isSameInk(inks[2].colour, {355.0}, 8.0));
+}
+
+TEST(Inks, ArePickedWhereTheyLie) {
+  const InkPage page;
+  const InkPicker picker(page.scan.grey, page.scan.colour, {});
+  const auto all = findInks(page.scan.grey, page.scan.colour, {});
+  ASSERT_EQ(all.size(), 3u);
+  constexpr double kReachPx = 8.0, kRangeDeg = 20.0;
+  const auto picks = [&](const Vec2& px, const FoundInk& ink) {
+    const auto found = picker.inkAt(px, kReachPx);
+    return found && isSameInk(found->colour, ink.colour, kRangeDeg);
+  };
+  EXPECT_TRUE(picks({150, 245}, all[1])) << "beside a blue stroke";
+  EXPECT_TRUE(picks({100, 97}, all[2])) << "on the red one";
+  EXPECT_TRUE(picks({90, 298}, all[0])) << "on the black one";
+  EXPECT_FALSE(picker.inkAt({440, 180}, kReachPx)) << "paper";
+  EXPECT_FALSE(picker.inkAt({-500, 180}, kReachPx));
+  EXPECT_FALSE(picker.inkAt({1e9, 1e9}, kReachPx));
+  EXPECT_FALSE(picker.inkAt({std::nan(""), 3.0}, kReachPx));
+  const GreyImage grey(40, 30);
+  EXPECT_FALSE(InkPicker(grey, {}, {}).inkAt({20, 15}, kReachPx));
 }
 
 TEST(Inks, OfAGreyScanAreNone) {

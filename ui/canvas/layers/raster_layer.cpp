@@ -108,7 +108,9 @@ void renderRaster(const RasterContent& content, double zoom, const QRect& device
   if (content.mask)
     renderBits(*content.mask, zoom * content.maskFactor, device,
                overPicture ? BitInk{colors::kMask, 0.72} : BitInk{qRgb(24, 24, 24)}, out);
-  if (content.edges) renderBits(*content.edges, zoom, device, {colors::kEdges, 0.9, std::max(1.0, 0.7 / zoom)}, out);
+  const double thinGain = std::max(1.0, 0.7 / zoom);
+  if (content.missed) renderBits(*content.missed, zoom, device, {colors::kMissed, 0.95, thinGain}, out);
+  if (content.edges) renderBits(*content.edges, zoom, device, {colors::kEdges, 0.9, thinGain}, out);
 }
 
 }  // namespace batten

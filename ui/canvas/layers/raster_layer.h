@@ -15,10 +15,10 @@ namespace batten {
 
 /// The pixel layers: what one screen tile is rendered from. Shared and constant, so tiles render on any thread.
 struct RasterContent {
-  std::shared_ptr<const TilePyramid> pyramid;          ///< Null: no picture of the page.
-  std::shared_ptr<const PaperBackground> paper;        ///< Not null: divided out, so that the paper is white.
-  std::optional<std::array<std::uint8_t, 256>> tones;  ///< The log image instead of the scan.
-  std::shared_ptr<const BitImage> mask, edges;         ///< Null: not shown.
+  std::shared_ptr<const TilePyramid> pyramid;           ///< Null: no picture of the page.
+  std::shared_ptr<const PaperBackground> paper;         ///< Not null: divided out, so that the paper is white.
+  std::optional<std::array<std::uint8_t, 256>> tones;   ///< The log image instead of the scan.
+  std::shared_ptr<const BitImage> mask, edges, missed;  ///< Null: not shown.
   bool showsPicture = false;
   bool isDark = false;  ///< The theme, for what surrounds the page.
   int maskFactor = 1;   ///< One px of the mask covers so many of the page, along both sides.

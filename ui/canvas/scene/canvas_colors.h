@@ -12,6 +12,7 @@ inline QRgb desk(bool isDark) { return isDark ? qRgb(46, 48, 51) : qRgb(218, 216
 inline constexpr QRgb kPaper = qRgb(252, 251, 248);  ///< The page where no picture of it is shown.
 inline constexpr QRgb kMask = qRgb(0, 110, 116);
 inline constexpr QRgb kEdges = qRgb(176, 36, 142);
+inline constexpr QRgb kMissed = qRgb(236, 112, 0);  ///< Ink that no curve explains.
 
 inline QColor sketched() { return {88, 88, 88, 210}; }
 inline QColor sketchedFaint() { return {96, 96, 96, 150}; }
@@ -25,6 +26,7 @@ inline QColor pinned() { return {132, 58, 186}; }  ///< A result set aside.
 inline QColor uniform() { return {200, 112, 0}; }  ///< A control polygon without repeated knots.
 inline QColor pen() { return {60, 60, 72, 150}; }  ///< What was drawn by hand.
 inline QColor segment() { return {20, 130, 80}; }
+inline QColor invented() { return {190, 0, 140}; }     ///< A stretch of a curve without ink.
 inline QColor ruling() { return {70, 150, 210, 70}; }  ///< A printed line that was left out.
 inline QColor grid() { return {40, 40, 40, 70}; }
 

@@ -60,5 +60,6 @@ std::unique_ptr<CanvasTool> makeScaleTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeDirectionTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeJunctionTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeSheetTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makeInkTool(CanvasScene&);
 
 }  // namespace batten

@@ -8,7 +8,6 @@
 #include <QPainter>
 #include <QPushButton>
 #include <QVBoxLayout>
-#include <array>
 #include <cmath>
 
 #include "core/base/conventions.h"
@@ -20,6 +19,7 @@
 #include "ui/panels/stages/import_units.h"
 #include "ui/panels/stages/rectify_controls.h"
 #include "ui/panels/stages/scale_controls.h"
+#include "ui/session/edits/ink_edits.h"
 #include "ui/session/page_text.h"
 #include "ui/theme/theme.h"
 
@@ -72,7 +72,8 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
       fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
       swatch_(new ToneSwatch(this)),
       paperNote_(note({}, this)),
-      inkBox_(new QWidget(this)) {
+      inkBox_(new QWidget(this)),
+      pickInk_(plainButton(tr("Pick an ink"), QStringLiteral("scan.pickInk"), this)) {
   auto* column = panelColumn(this, tr("Scan"));
   column->addWidget(facts_);
   buildPages();
@@ -82,7 +83,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   column->addWidget(caption(tr("Tones"), this));
   column->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   column->addWidget(swatch_);
-  buildPaper();
+  buildPaper(view);
   column->addStretch();
   connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
@@ -157,7 +158,7 @@ void ScanPanel::buildScale(ViewSettings& view) {
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
 }
 
-void ScanPanel::buildPaper() {
+void ScanPanel::buildPaper(ViewSettings& view) {
   column()->addWidget(caption(tr("Paper"), this));
   column()->addWidget(new ParameterEditor(
       session_, {"paper.colour", "paper.rulings", "paper.sheet", "paper.flatten", "paper.folds"}, this));
@@ -167,6 +168,12 @@ void ScanPanel::buildPaper() {
   inkBox_->layout()->setContentsMargins(0, 0, 0, 0);
   inkBox_->setObjectName(QStringLiteral("scan.inks"));
   column()->addWidget(inkBox_);
+  pickInk_->setCheckable(true);
+  pickInk_->setToolTip(
+      tr("Click an ink on the drawing to exclude it, or to trace it again; Shift+click traces it alone  (I)"));
+  column()->addWidget(pickInk_, 0, Qt::AlignLeft);
+  connect(pickInk_, &QPushButton::clicked, this, [&view](bool on) { view.setTool(on ? Tool::Ink : Tool::Select); });
+  connect(&view, &ViewSettings::toolChanged, pickInk_, [this](Tool tool) { pickInk_->setChecked(tool == Tool::Ink); });
   column()->addWidget(new ParameterEditor(session_, {"inks.keep", "inks.drop", "inks.range"}, this));
 }
 
@@ -216,20 +223,6 @@ void ScanPanel::refreshPaper() {
 
 namespace {
 
-QString inkName(const InkColour& ink) {
-  if (!ink.hueDeg) return ScanPanel::tr("Black and grey");
-  constexpr std::array kNames = {
-      QT_TRANSLATE_NOOP("batten::ScanPanel", "Red"),     QT_TRANSLATE_NOOP("batten::ScanPanel", "Orange"),
-      QT_TRANSLATE_NOOP("batten::ScanPanel", "Yellow"),  QT_TRANSLATE_NOOP("batten::ScanPanel", "Green"),
-      QT_TRANSLATE_NOOP("batten::ScanPanel", "Green"),   QT_TRANSLATE_NOOP("batten::ScanPanel", "Turquoise"),
-      QT_TRANSLATE_NOOP("batten::ScanPanel", "Blue"),    QT_TRANSLATE_NOOP("batten::ScanPanel", "Blue"),
-      QT_TRANSLATE_NOOP("batten::ScanPanel", "Violet"),  QT_TRANSLATE_NOOP("batten::ScanPanel", "Violet"),
-      QT_TRANSLATE_NOOP("batten::ScanPanel", "Magenta"), QT_TRANSLATE_NOOP("batten::ScanPanel", "Red")};
-  constexpr double kStepDeg = 360.0 / static_cast<double>(kNames.size());
-  const std::size_t at = std::lround(*ink.hueDeg / kStepDeg) % kNames.size();
-  return ScanPanel::tr(kNames[at]);
-}
-
 QIcon inkIcon(const Rgb8& colour) {
   QPixmap swatch(14, 14);
   swatch.fill(QColor(colour.red, colour.green, colour.blue));
@@ -237,17 +230,6 @@ QIcon inkIcon(const Rgb8& colour) {
 }
 
 }  // namespace
-
-void ScanPanel::setInkDropped(const InkColour& ink, bool isDropped) {
-  Recipe after = session_.recipe();
-  InkChoice& inks = after.preparation.inks;
-  std::erase_if(inks.drop, [&](const InkColour& c) { return isSameInk(c, ink, inks.rangeDeg); });
-  if (isDropped)
-    inks.drop.push_back(ink);
-  else if (!inks.keep.empty() && !isTraced(ink, inks))
-    inks.keep.push_back(ink);
-  session_.change(isDropped ? tr("Drop ink") : tr("Trace ink"), std::move(after));
-}
 
 /// One button for every ink of the page; pressed in is traced. Made anew only for other inks, so that the focus stays.
 void ScanPanel::refreshInks() {
@@ -265,7 +247,7 @@ void ScanPanel::refreshInks() {
       button->setToolTip(tr("%1 % of the ink on the page. Press to exclude this ink; press again to trace it.")
                              .arg(100.0 * ink.share, 0, 'f', 0));
       connect(button, &QPushButton::clicked, this,
-              [this, colour = ink.colour](bool isTraced) { setInkDropped(colour, !isTraced); });
+              [this, colour = ink.colour](bool isTraced) { setInkDropped(session_, colour, !isTraced); });
       grid->addWidget(button, static_cast<int>(i) / 2, static_cast<int>(i) % 2);
     }
   }
@@ -275,6 +257,7 @@ void ScanPanel::refreshInks() {
     if (i < std::ssize(inks)) button->setChecked(isTraced(inks[i].colour, session_.recipe().preparation.inks));
   }
   inkBox_->setVisible(!inks.empty());
+  pickInk_->setVisible(session_.hasScan() && !session_.scan()->colour.isEmpty());
 }
 
 void ScanPanel::refresh() {

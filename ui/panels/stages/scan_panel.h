@@ -51,12 +51,11 @@ class ScanPanel : public QWidget {
   QVBoxLayout* column() const;
   void buildPages();
   void buildScale(ViewSettings& view);
-  void buildPaper();
+  void buildPaper(ViewSettings& view);
   void setDpi(std::optional<double> dpi);
   void refreshPage(const Scan* scan);
   void refreshPaper();
   void refreshInks();
-  void setInkDropped(const InkColour& ink, bool isDropped);
   EditorSession& session_;
   FigureTable* facts_;
   QLabel* pageName_;
@@ -70,6 +69,7 @@ class ScanPanel : public QWidget {
   QLabel* paperNote_;
   QWidget* inkBox_;                  ///< A button for every ink of the page.
   std::vector<FoundInk> shownInks_;  ///< What its buttons were made for.
+  QPushButton* pickInk_;
 };
 
 }  // namespace batten

@@ -15,6 +15,7 @@
 #include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/curves/comb_controls.h"
 #include "ui/panels/stages/curves/curve_list.h"
+#include "ui/panels/stages/curves/explained_panel.h"
 #include "ui/panels/stages/curves/growing_controls.h"
 #include "ui/panels/stages/curves/knot_panel.h"
 #include "ui/panels/stages/curves/method_table.h"
@@ -77,6 +78,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(new CurveList(session, Judged::Sketched, this), 1);
   bindDetail();
   addWaitingRow();
+  layout->addWidget(new ExplainedPanel(session, view, this));
   layout->addWidget(caption(tr("Selected curve"), this));
   layout->addWidget(figures_);
   layout->addWidget(note_);
