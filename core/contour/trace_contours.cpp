@@ -66,8 +66,8 @@ void tellDropped(ContourSet& set, const EdgeParams& edges) {
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
-  const auto most = static_cast<std::size_t>(params.maxCount);
-  if (most == 0 || set.contours.size() <= most) return;
+  const int most = params.maxCount;
+  if (most == 0 || std::ssize(set.contours) <= most) return;
   addNote(set, "Only the " + (most == 1 ? std::string() : std::to_string(most) + ' ') + "longest of " +
                    std::to_string(set.contours.size()) + (most == 1 ? " lines is" : " lines are") +
                    " kept: raise contours.max_count to keep more.");

@@ -54,11 +54,11 @@ std::optional<Error> validateLine(const ImportedLine& line) {
     return std::nullopt;
   }
   if (std::ssize(line.points) < (line.closed ? 3 : 2)) return bad("An imported line needs at least two points.");
-  int before = -1;
+  int least = 0;  // of the next corner: they ascend
   for (const int corner : line.corners) {
-    if (corner <= before || corner >= std::ssize(line.points))
+    if (corner < least || corner >= std::ssize(line.points))
       return bad("A corner of an imported line is not one of its points.");
-    before = corner;
+    least = corner + 1;
   }
   return std::nullopt;
 }

@@ -155,16 +155,16 @@ class EdgeLengthFairing {
     for (int i = 0; i <= kBisections && !context_.isCancelled(); ++i) {
       const double share = i == 0 ? 1.0 : 0.5 * (inside + outside);
       auto curve = attempt(share, pin);
-      const double away = curve ? moved(*curve) : 1e300;
-      if (i == 0 && curve) needed = away;
-      if (!(away <= kToleranceShare * params_.toleranceMm)) {
+      const std::optional<double> away = curve ? std::optional(moved(*curve)) : std::nullopt;
+      if (i == 0) needed = away;
+      if (!away || !(*away <= kToleranceShare * params_.toleranceMm)) {
         outside = share;
         continue;
       }
       inside = share;
       best = FairedCurve{std::move(*curve), {}};
-      best->report.maxDeviationMm = away;
-      if (i == 0 || away > kUsedShare * params_.toleranceMm) break;
+      best->report.maxDeviationMm = *away;
+      if (i == 0 || *away > kUsedShare * params_.toleranceMm) break;
     }
     if (!best) return std::nullopt;
     best->report.neededMm = needed;

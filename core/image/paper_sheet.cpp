@@ -21,14 +21,18 @@ namespace {
 constexpr double kMostRoughness = 9.0;                   // [grey] between neighbours within a cell: carpet, wood, cloth
 constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
 constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
-constexpr double kLeastPatch = 0.004;      // of the picture: smaller patches at the border are ink that runs off it
-constexpr double kLeastAlongSide = 0.2;    // of a side of the picture that a patch beside the sheet takes
-constexpr double kSheetContrast = 12.0;    // [grey] of the patch against the sheet beside it
-constexpr double kMostKnown = 0.5;         // of a side of the picture
-constexpr int kBesideEdgeCells = 61;       // 30 to either side
-constexpr double kSheetRimShare = 0.006;   // of the diagonal: the sheet's edge and its shadow
-constexpr double kNeckShare = 0.01;        // of the diagonal: narrower parts of the sheet are torn edges and ring holes
-constexpr double kPocketNeckShare = 0.02;  // of the diagonal: what hangs on the table by narrower parts is paper
+constexpr double kLeastPatch = 0.004;     // of the picture: smaller patches at the border are ink that runs off it
+constexpr double kLeastAlongSide = 0.2;   // of a side of the picture that a patch beside the sheet takes
+constexpr double kSheetContrast = 12.0;   // [grey] of the patch against the sheet beside it
+constexpr double kMostKnown = 0.5;        // of a side of the picture
+constexpr int kBesideEdgeCells = 61;      // 30 to either side
+constexpr double kSheetRimShare = 0.006;  // of the diagonal: the sheet's edge and its shadow
+constexpr double kNeckShare = 0.01;       // of the diagonal: narrower parts of the sheet are torn edges and ring holes
+constexpr double kOutlineCells = 1.5;     // [cells] of the outline of the sheet: steps of its cells are none of it
+// Of the hull's length: what its simplification to four corners may leave out, tried from the finest on.
+constexpr double kFinestQuadrilateral = 0.005, kCoarsestQuadrilateral = 0.08, kQuadrilateralStep = 0.0025;
+constexpr double kLeastQuadrilateral = 0.93;  // of the hull's area: else the sheet has other corners than these four
+constexpr double kPocketNeckShare = 0.02;     // of the diagonal: what hangs on the table by narrower parts is paper
 
 bool isOneSheet(const cv::Vec3f& a, const cv::Vec3f& b) {
   return std::fabs(a[0] - b[0]) <= kMostSheetStep && std::fabs(a[1] - b[1]) <= kMostSheetStep &&
@@ -197,7 +201,7 @@ std::vector<Vec2> outlineOf(const cv::Mat1b& inside, double cellPx) {
   });
   if (largest == outlines.end()) return polygon;
   std::vector<cv::Point> rough;
-  cv::approxPolyDP(*largest, rough, 1.5, true);
+  cv::approxPolyDP(*largest, rough, kOutlineCells, true);
   for (const cv::Point& p : rough) polygon.emplace_back((p.x + 0.5) * cellPx, (p.y + 0.5) * cellPx);
   return polygon;
 }
@@ -209,9 +213,10 @@ std::vector<Vec2> cornersOf(const cv::Mat1b& sheet, double cellPx) {
   if (places.size() < 4) return {};
   cv::convexHull(places, hull);
   const double length = cv::arcLength(hull, true);
-  for (double share = 0.005; share < 0.08 && four.size() != 4; share += 0.0025)
+  for (double share = kFinestQuadrilateral; share < kCoarsestQuadrilateral && four.size() != 4;
+       share += kQuadrilateralStep)
     cv::approxPolyDP(hull, four, share * length, true);
-  if (four.size() != 4 || cv::contourArea(four) < 0.93 * cv::contourArea(hull)) return {};
+  if (four.size() != 4 || cv::contourArea(four) < kLeastQuadrilateral * cv::contourArea(hull)) return {};
   const auto first = std::min_element(four.begin(), four.end(),
                                       [](const cv::Point& a, const cv::Point& b) { return a.x + a.y < b.x + b.y; });
   std::rotate(four.begin(), first, four.end());
@@ -261,7 +266,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
   const cv::Mat1i labels = joinCells(cells);
   std::vector<int> areas;
   for (const int label : labels) {
-    if (label >= std::ssize(areas)) areas.resize(static_cast<std::size_t>(label) + 1, 0);
+    if (label >= std::ssize(areas)) areas.resize(label + 1, 0);
     ++areas[label];
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());

@@ -64,7 +64,7 @@ void meansOf(const std::uint32_t* sums, float* out, int count, int shrink) {
 /// The blocks of one row that are whole. Sums of whole numbers are exact, in whatever order they are added.
 void shrinkRow(const GreyImage& image, int y, int shrink, std::vector<std::uint32_t>& sums, float* out) {
   const int count = image.width / shrink, first = y * shrink;
-  sums.resize(static_cast<std::size_t>(image.width));
+  sums.resize(image.width);
   if (shrink == 3) {
     addThreeRows(image.row(first), image.row(first + 1), image.row(first + 2), sums.data(), count * shrink);
     return meansByThrees(sums.data(), out, count);
@@ -148,7 +148,7 @@ void smoothWholeRow(const float* in, float* out, int width, const std::vector<fl
   const auto radius = static_cast<int>(kernel.size()) - 1;
   // Some pixels, from a copy that goes on beyond the ends.
   const auto smoothPart = [&](int begin, int end) {
-    padded.resize(static_cast<std::size_t>(end - begin + 2 * radius));
+    padded.resize(end - begin + 2 * radius);
     for (int i = 0; i < std::ssize(padded); ++i) padded[i] = in[std::clamp(begin - radius + i, 0, width - 1)];
     smoothAlong(padded.data() + radius, out + begin, end - begin, kernel);
   };
@@ -163,13 +163,13 @@ void smoothWholeRow(const float* in, float* out, int width, const std::vector<fl
 Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context) {
   Plane out(in.width, in.height);
   const auto radius = static_cast<int>(kernel.size()) - 1;
-  const auto width = static_cast<std::size_t>(in.width);
+  const std::ptrdiff_t width = in.width;
   parallelFor(context, in.height, kRowsPerBlock, [&](int begin, int end) {
     // The rows that one smoothed row is made of, each at its number modulo theirs.
     const int count = 2 * radius + 1;
-    std::vector<float> padded, ring(width * static_cast<std::size_t>(count));
-    std::vector<const float*> rows(static_cast<std::size_t>(count));
-    const auto lineAt = [&](int y) { return ring.data() + width * static_cast<std::size_t>((y + count) % count); };
+    std::vector<float> padded, ring(width * count);
+    std::vector<const float*> rows(count);
+    const auto lineAt = [&](int y) { return ring.data() + width * ((y + count) % count); };
     const auto load = [&](int y) {
       smoothWholeRow(in.row(std::clamp(y, 0, in.height - 1)), lineAt(y), in.width, kernel, padded);
     };

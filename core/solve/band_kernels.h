@@ -12,7 +12,7 @@ struct RowFour {
 
 /// Rows of a program, in order, by fours.
 struct RowFours {
-  static constexpr int kWidth = 6;        ///< Numbers of a row.
+  static constexpr int kWidth = 6;        ///< Numbers of a row: those of BandRow.
   static constexpr int kLanes = 4;        ///< Most rows of a four.
   static constexpr int kRowStride = 10;   ///< From row to row: behind its numbers zeros, to read four from each on.
   static constexpr int kLaneStride = 24;  ///< From four to four: the first numbers of its rows, then the second ...
@@ -22,8 +22,9 @@ struct RowFours {
   const double* lanes = nullptr;  ///< Of fours[0] on.
 };
 
-/// Products with such rows. All versions give the same bits: sums are made in the order of the rows, multiplied and
-/// added apart.
+/// Products with such rows. All versions give the same bits where the weights are finite: sums are made in the order of
+/// the rows, multiplied and added apart. addOuter() may add the zeros behind the numbers of a row, too, and zero times
+/// infinity is no number.
 struct BandKernels {
   /// out[i] = row i . x.
   void (*times)(const RowFours&, const double* x, double* out);

@@ -15,13 +15,13 @@ namespace {
 constexpr int kOpenSpline = BandRow::kHalfWidth, kCyclicSpline = 2 * BandRow::kHalfWidth;
 
 template <int kKnown>
-using BandBuffer = std::conditional_t<kKnown == Eigen::Dynamic, std::vector<double>,
-                                      std::array<double, static_cast<std::size_t>(std::max(kKnown, 0)) + 1>>;
+using BandBuffer =
+    std::conditional_t<kKnown == Eigen::Dynamic, std::vector<double>, std::array<double, std::max(kKnown, 0) + 1>>;
 
 template <int kKnown>
 BandBuffer<kKnown> bandBuffer(int band) {
   BandBuffer<kKnown> buffer{};
-  if constexpr (kKnown == Eigen::Dynamic) buffer.resize(static_cast<std::size_t>(band) + 1);
+  if constexpr (kKnown == Eigen::Dynamic) buffer.resize(band + 1);
   return buffer;
 }
 

@@ -2,12 +2,14 @@
 #include "core/solve/packed_rows.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
 namespace batten {
+
 PackedRows::PackedRows(std::span<const BandRow> rows, int unknowns) : source_(rows) {
   const std::ptrdiff_t count = std::ssize(rows);
-  rows_.assign(static_cast<std::size_t>(count * RowFours::kRowStride), 0.0);
+  rows_.assign(count * RowFours::kRowStride, 0.0);
   fours_.reserve(rows.size());
   std::vector<std::ptrdiff_t> begins;  // of sections, in fours
   for (int i = 0; i < count; ++i) {
@@ -59,6 +61,7 @@ void PackedRows::addTransposed(const Eigen::VectorXd& weight, Eigen::VectorXd& x
 }
 
 void PackedRows::addOuter(const Eigen::VectorXd& weight, BandedMatrix& m) const {
+  assert(m.halfWidth() == BandRow::kHalfWidth);
   for (const Section& section : sections_) {
     if (section.across) {
       m.addOuter(*section.across, weight[section.row]);

@@ -22,7 +22,7 @@ class PackedRows {
   void times(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
   /// x += the sum of weight[i] * row i'.
   void addTransposed(const Eigen::VectorXd& weight, Eigen::VectorXd& x) const;
-  /// m += the sum of weight[i] * row i' row i.
+  /// m += the sum of weight[i] * row i' row i. @pre m has the half width of such rows, BandRow::kHalfWidth.
   void addOuter(const Eigen::VectorXd& weight, BandedMatrix& m) const;
 
  private:

@@ -29,14 +29,14 @@ std::vector<std::optional<int>> groupsOf(const StrokePieceSet& set, const Learni
   for (const StrokePiece& piece : set.pieces) {
     std::map<int, int> votes;
     for (int k = 0; k < piece.strip.count(); ++k) {
-      const Vec2 at = page.widthPx * piece.strip.at[k];
+      const Vec2 at = page.widthPx * piece.strip.samples[k].at;
       std::optional<int> best;
       double nearest = kReachWidths * page.widthPx;
       for (const StrokeDrawing::Stroke& s : page.drawing->strokes)
         for (std::size_t i = 0; i + 1 < s.points.size(); ++i) {
           const Vec2 along = s.points[i + 1] - s.points[i];
           const double length = along.norm();
-          if (length <= 0.0 || std::abs(along.dot(piece.strip.tangent[k])) < kAlongCos * length) continue;
+          if (length <= 0.0 || std::abs(along.dot(piece.strip.samples[k].tangent)) < kAlongCos * length) continue;
           const double f = std::clamp((at - s.points[i]).dot(along) / (length * length), 0.0, 1.0);
           const double d = (at - s.points[i] - f * along).norm();
           if (d >= nearest) continue;

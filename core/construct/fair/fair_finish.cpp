@@ -257,7 +257,7 @@ class FinishedFit {
     const int steps = kFineChecksPerSpan * knots.spans, count = steps + (knots.closed ? 0 : 1);
     Vec2 low = curve.at(0.0, 0)[0], high = low;
     std::vector<double> kappa;
-    kappa.reserve(static_cast<std::size_t>(count));
+    kappa.reserve(count);
     for (int j = 0; j < count && !context_.isCancelled(); ++j) {
       const PlaneDerivatives d = curve.at(j * knots.length / steps, 2);
       low = low.cwiseMin(d[0]);

@@ -27,6 +27,7 @@ ConstructContour inPixels(const ConstructContour& contour) {
   const auto toPx = [&](const Vec2& p) { return Vec2(p / contour.pixelMm); };
   for (const ConstructPiece& piece : contour.pieces) {
     ConstructPiece& made = px.pieces.emplace_back(ConstructPiece{inFrame(piece, toPx)});
+    made.isDrawn = piece.isDrawn;
     made.constraints = piece.constraints;
     for (ExtremumConstraint& constraint : made.constraints) constraint.point = toPx(constraint.point);
   }

@@ -25,6 +25,9 @@ constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorte
 constexpr double kSeamShare = 1e-3;        // of a closed curve: what is nearer to its seam begins or ends there
 /// Of a piece that is taken apart at them: nobody draws a line that turns sharply so often from corner to corner.
 constexpr int kMostSharpFeatures = 1000;
+/// Of a drawn line that becomes a curve at all: scattered points cross the page so often that every place of the curve
+/// has hundreds of stretches beside it, which takes minutes.
+constexpr int kMostDrawnTurns = 10'000;
 
 /// What lies between two parameters of a fit; of a closed one through its seam where `to` comes before `from`.
 Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, double to, bool closed) {
@@ -56,6 +59,14 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   if (std::optional<int>& full = part.report.fullControlPoints) full = static_cast<int>(std::lround(share * *full));
   part.curve = std::move(*curve);
   return part;
+}
+
+Error tooScattered(std::size_t places) {
+  return {
+      ErrorCode::NoCurve,
+      "it turns sharply at " + std::to_string(places) + " places, at most " + std::to_string(kMostDrawnTurns) +
+          " are allowed. Put scattered points in the order in which the line runs, or divide it into several lines.",
+      {}};
 }
 
 std::string scatteredNote(std::size_t places) {
@@ -205,6 +216,8 @@ void SmoothSections::noteUnmet(ConstructReport& report) const {
 
 Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const {
   if (sharp_.empty()) return fits_.front();
+  if (scattered_ && piece_.isDrawn && std::cmp_greater(*scattered_, kMostDrawnTurns))
+    return fail(tooScattered(*scattered_));
   auto whole = joinedParts(context);
   if (whole) noteUnmet(whole->report);
   return whole;

@@ -61,11 +61,12 @@ class Removal {
   bool takeCheapest() {
     if (left_ == 0 || (closed_ && left_ <= kKeptWhereClosed)) return false;
     double best = std::numeric_limits<double>::infinity();
-    std::ptrdiff_t at = -1, second = -1;
+    std::optional<std::ptrdiff_t> at;
+    bool isPair = false;
     if (!pairs_.empty() && pairs_.begin()->first < best) {
       best = pairs_.begin()->first;
       at = pairs_.begin()->second;
-      second = behind_[at];
+      isPair = true;
     }
     if (!closed_) {
       for (const bool last : {false, true}) {
@@ -73,13 +74,14 @@ class Removal {
         if (cost >= best) continue;
         best = cost;
         at = last ? last_ : first_;
-        second = -1;
+        isPair = false;
       }
     }
-    if (at < 0) return false;
+    if (!at) return false;
     dearest_ = std::max(dearest_, best);
-    take(at);
-    if (second >= 0) take(second);
+    const std::ptrdiff_t behind = behind_[*at];
+    take(*at);
+    if (isPair) take(behind);
     return true;
   }
 

@@ -171,7 +171,7 @@ EndModel darkOfCut(const PenModel& pen, const EndPlaces& places, const CutShares
   std::vector<double> whole(places.columns());
   for (int k = 0; k < places.columns(); ++k) whole[k] = pen.dark * pen.across(places.across(k));
   EndModel dark;
-  dark.reserve(static_cast<std::size_t>(places.rows()) * whole.size());
+  dark.reserve(std::ptrdiff_t{places.rows()} * places.columns());
   for (int k = 0; k < places.columns(); ++k) {
     for (int i = 0; i < places.rows(); ++i)
       dark.push_back(whole[k] * shares.at(slope * places.across(k) - places.along(i)));
@@ -204,7 +204,7 @@ class RoundLanes {
   }
   EndModel dark(const EndPlaces& places) const {
     const int rows = places.rows(), columns = places.columns();
-    EndModel all(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    EndModel all(std::ptrdiff_t{rows} * columns);
     std::vector<double> reached(count_), sums(columns);
     for (int i = 0; i < rows; ++i) {
       for (int j = 0; j < count_; ++j) reached[j] = edgeShare((tipOf(j) - places.along(i)) / pen_.blur);

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/contour/centreline/border_sums.h"
+#include "core/contour/subpixel/blur_search.h"
 #include "core/contour/subpixel/curvature_shift.h"
 #include "core/contour/subpixel/pixel_edge.h"
 #include "core/polyline/polyline_tools.h"
@@ -45,10 +46,6 @@ struct StrokeModel {
   double paper, slope, contrast;
   ResponseRow response;
 };
-
-int blurIndex(double blur) {
-  return std::clamp(static_cast<int>(std::lround(blur / PixelResponse::kStepPx)) - 1, 0, PixelResponse::kBlurs - 1);
-}
 
 /// How pixels see the borders of strokes, and how the middle of a profile does, which has seen more blur.
 struct PageResponse {
@@ -108,7 +105,7 @@ struct PlacedStroke {
 std::optional<PlacedStroke> mostLikely(PointPixels& at, const StrokeModel& m, double width) {
   const int count = at.window.fullCount();
   for (std::vector<double>* values : {&at.left, &at.byLow, &at.byHigh}) {
-    if (std::ssize(*values) < count) values->resize(static_cast<std::size_t>(count));
+    if (std::ssize(*values) < count) values->resize(count);
   }
   const StrokePixels pixels{at.window.distance(), at.window.weight(), at.window.grey(), count};
   const BorderResiduals residuals{at.left.data(), at.byLow.data(), at.byHigh.data()};
@@ -252,24 +249,11 @@ int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>
     for (const auto& sum : squares)
       if (sum) known.push_back(*sum);
     // Discard a blur that does not fit at least half of the strokes.
-    if (known.size() < some.size() / 2 || known.empty()) return std::numeric_limits<double>::max();
+    if (known.size() < some.size() / 2 || known.empty()) return std::numeric_limits<double>::infinity();
     return upperMedian(known);
   };
-  int best = kStartBlur;
-  makeTables({best - kBlurStrides[0], best, best + kBlurStrides[0]}, context);
-  double least = left(best);
-  // Downhill in ever shorter strides: what is left has one minimum.
-  for (const int far : kBlurStrides) {
-    for (const int step : {-far, far}) {
-      for (int next = best + step; next >= 0 && next < PixelResponse::kBlurs; next += step) {
-        const double sum = left(next);
-        if (!(sum < least)) break;
-        least = sum;
-        best = next;
-      }
-    }
-  }
-  return best;
+  makeTables({kStartBlur - kBlurStrides[0], kStartBlur, kStartBlur + kBlurStrides[0]}, context);
+  return leastBlur(kStartBlur, kBlurStrides, left);
 }
 
 void placePoint(CoursePoint& p, const PlacedStroke& placed) {

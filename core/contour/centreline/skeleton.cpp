@@ -31,7 +31,7 @@ constexpr int kBlockRows = 4;
 struct BlocksOfInk {
   explicit BlocksOfInk(const BitImage& ink)
       : down((ink.height + kBlockRows - 1) / kBlockRows + 2),
-        words(static_cast<std::size_t>(ink.wordsPerRow + 2) * static_cast<std::size_t>(down) * kBlockRows, 0),
+        words(std::ptrdiff_t{ink.wordsPerRow + 2} * down * kBlockRows, 0),
         touched(words.size() / kBlockRows, 0) {}
   std::uint64_t& word(int y, int i) { return words[std::ptrdiff_t{i + 1} * down * kBlockRows + kBlockRows + y]; }
   int block(int y, int i) const { return (i + 1) * down + 1 + y / kBlockRows; }

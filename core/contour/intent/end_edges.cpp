@@ -145,17 +145,19 @@ std::vector<double> laterEndFeatures(const EndPair& p, const EndView& v, bool is
 
 }  // namespace
 
-const Vec2& tipOf(const Strip& strip, int side) { return side == 0 ? strip.at.front() : strip.at.back(); }
+const Vec2& tipOf(const Strip& strip, int side) {
+  return side == 0 ? strip.samples.front().at : strip.samples.back().at;
+}
 
 Vec2 directionOut(const Strip& strip, int side, double fromInside, double toInside) {
   const int last = strip.count() - 1;
   const int from = std::min(last, static_cast<int>(std::lround(fromInside)));
   const int to = std::min(std::max(0, from - 1), static_cast<int>(std::lround(toInside)));
-  const auto at = [&](int inside) { return strip.at[side == 0 ? inside : last - inside]; };
+  const auto at = [&](int inside) { return strip.samples[side == 0 ? inside : last - inside].at; };
   const Vec2 way = at(to) - at(from);
   const double length = way.norm();
   if (length > 0.0) return way / length;
-  return side == 0 ? Vec2(-strip.tangent.front()) : strip.tangent.back();
+  return side == 0 ? Vec2(-strip.samples.front().tangent) : strip.samples.back().tangent;
 }
 
 std::vector<EndPair> findEndPairs(const EndView& v, const RunContext& context) {

@@ -91,7 +91,8 @@ class MeanDrawer {
       for (int k = 0; k < strip.count(); ++k) {
         const int i = std::clamp(static_cast<int>(std::lround(p.direction * k + p.offset - mean.from)), 0,
                                  mean.strip.count() - 1);
-        across.push_back(std::abs(cross(mean.strip.tangent[i], Vec2(strip.at[k] - mean.strip.at[i]))));
+        const StripSample& on = mean.strip.samples[i];
+        across.push_back(std::abs(cross(on.tangent, Vec2(strip.samples[k].at - on.at))));
       }
     }
     return lowerQuantile(across, kReachShare);
@@ -101,15 +102,16 @@ class MeanDrawer {
   MeanLine meanLine(const PieceMean& mean, const std::vector<Contour>& parts) const {
     MeanLine line;
     const Strip& strip = mean.strip;
+    const std::vector<Vec2> positions = positionsOf(strip.samples);
     const int points = std::max(2, static_cast<int>(std::lround((strip.count() - 1) * width_)) + 1);
     MeanPoint::Source last;
     for (int i = 0; i < points; ++i) {
       const double place = static_cast<double>(i) * (strip.count() - 1) / (points - 1);
       MeanPoint p;
-      p.at = width_ * pointBetween(strip.at, false, place);
-      const int sample = static_cast<int>(std::lround(place));
-      p.tangent = strip.tangent[sample];
-      p.weight = static_cast<float>(std::max(1, mean.strokes[sample]));
+      p.at = width_ * pointBetween(positions, false, place);
+      const StripSample& sample = strip.samples[std::lround(place)];
+      p.tangent = sample.tangent;
+      p.weight = static_cast<float>(std::max(1, sample.strokes));
       p.source = sourceAt(mean, place + mean.from, p.at, parts).value_or(last);
       last = p.source;
       line.points.push_back(p);
@@ -171,11 +173,10 @@ std::vector<Contour> withoutExplained(std::vector<GroupLine> found, const Stroke
   for (int l = 0; l < std::ssize(found); ++l) {
     double unexplained = 0.0, all = 0.0;
     for (const int piece : found[l].mean.strip.members) {
-      const Strip& strip = set.pieces[piece].strip;
-      for (int k = 0; k < strip.count(); ++k) {
+      for (const StripSample& sample : set.pieces[piece].strip.samples) {
         bool explained = false;
-        ink.around(strip.at[k], [&](const Explaining& e) {
-          const double d = (e.at - strip.at[k]).norm(), way = std::abs(e.tangent.dot(strip.tangent[k]));
+        ink.around(sample.at, [&](const Explaining& e) {
+          const double d = (e.at - sample.at).norm(), way = std::abs(e.tangent.dot(sample.tangent));
           explained =
               explained || (d <= kExplainedNear && way > kExplainedNearCos) || (d <= e.reach && way > kExplainedCos);
         });
@@ -190,8 +191,8 @@ std::vector<Contour> withoutExplained(std::vector<GroupLine> found, const Stroke
     }
     const double reach = std::min(kExplainedAlong, kExplainedNear + kExplainedSpreads * found[l].mean.strip.spread);
     for (const int piece : found[l].mean.strip.members) {
-      const Strip& strip = set.pieces[piece].strip;
-      for (int k = 0; k < strip.count(); ++k) ink.add(strip.at[k], {strip.at[k], strip.tangent[k], reach});
+      for (const StripSample& sample : set.pieces[piece].strip.samples)
+        ink.add(sample.at, {sample.at, sample.tangent, reach});
     }
     kept.push_back(std::move(found[l].contour));
   }

@@ -28,12 +28,12 @@ std::vector<MergeShares> mergeSharesOf(const std::vector<Strip>& strips, const s
   }
   std::vector<MergeShares> shares(strips.size());
   for (int s = 0; s < std::ssize(strips) && !context.isCancelled(); ++s)
-    for (int k = 0; k < strips[s].count(); ++k) {
+    for (const StripSample& sample : strips[s].samples) {
       std::optional<int> line;
       double nearest = reach;
-      grid.around(strips[s].at[k], [&](const MergedPlace& p) {
-        const double d = (p.at - strips[s].at[k]).norm();
-        if (d >= nearest || std::abs(p.tangent.dot(strips[s].tangent[k])) < kSameWayCos) return;
+      grid.around(sample.at, [&](const MergedPlace& p) {
+        const double d = (p.at - sample.at).norm();
+        if (d >= nearest || std::abs(p.tangent.dot(sample.tangent)) < kSameWayCos) return;
         nearest = d;
         line = p.line;
       });

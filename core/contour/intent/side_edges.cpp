@@ -41,7 +41,7 @@ class PairFinder {
  public:
   PairFinder(const std::vector<Strip>& strips, double reach) : strips_(strips), reach_(reach), grid_(reach) {
     for (int s = 0; s < std::ssize(strips); ++s)
-      for (int k = 0; k < strips[s].count(); ++k) grid_.add(strips[s].at[k], {s, k});
+      for (int k = 0; k < strips[s].count(); ++k) grid_.add(strips[s].samples[k].at, {s, k});
   }
 
   // By the other strip: the crossings of one.
@@ -67,15 +67,15 @@ class PairFinder {
 
  private:
   void collect(int s, int k, std::map<int, StripCrossing>& here) const {
-    const Strip& strip = strips_[s];
-    const Vec2 &at = strip.at[k], &tangent = strip.tangent[k];
-    grid_.around(at, [&](const StripPlace& p) {
+    const StripSample& own = strips_[s].samples[k];
+    grid_.around(own.at, [&](const StripPlace& p) {
       if (p.strip == s) return;
-      const Vec2 way = strips_[p.strip].at[p.sample] - at;
-      if (std::abs(way.dot(tangent)) > kAlongStep) return;
-      const double across = leftNormal(tangent).dot(way);
+      const StripSample& beside = strips_[p.strip].samples[p.sample];
+      const Vec2 way = beside.at - own.at;
+      if (std::abs(way.dot(own.tangent)) > kAlongStep) return;
+      const double across = leftNormal(own.tangent).dot(way);
       if (std::abs(across) > reach_) return;
-      const double c = strips_[p.strip].tangent[p.sample].dot(tangent);
+      const double c = beside.tangent.dot(own.tangent);
       if (std::abs(c) <= kSideCos) return;
       const auto [place, isNew] = here.try_emplace(p.strip, StripCrossing{k, p.sample, across, false, c > 0.0});
       if (!isNew && std::abs(across) < std::abs(place->second.across))
@@ -180,7 +180,8 @@ SideMeasures measureSide(const StripPair& pair, const PairView& view) {
     bool left = false, right = false;
     for (const StripCrossing& c : *list) {
       apart.push_back(std::abs(c.across));
-      angles.push_back(std::acos(std::min(1.0, std::abs(own.tangent[c.sample].dot(other.tangent[c.other])))));
+      angles.push_back(
+          std::acos(std::min(1.0, std::abs(own.samples[c.sample].tangent.dot(other.samples[c.other].tangent)))));
       left = left || c.across > kCrossingSide;
       right = right || c.across < -kCrossingSide;
       seen += c.isSeen ? 1 : 0;

@@ -91,7 +91,7 @@ std::optional<double> sampleAt(const Strip& strip, const PlacedPiece& placed, do
 Vec2 pointAtSample(const Strip& strip, double k) {
   const int i = std::min(static_cast<int>(k), std::max(0, strip.count() - 2));
   const int next = std::min(i + 1, strip.count() - 1);
-  return strip.at[i] + (k - i) * (strip.at[next] - strip.at[i]);
+  return strip.samples[i].at + (k - i) * (strip.samples[next].at - strip.samples[i].at);
 }
 
 double lowEnd(const Strip& strip, const PlacedPiece& p) {
@@ -154,7 +154,7 @@ class CommonLength {
         int far = 0;
         for (int sample = 0; sample < strips_[k]->count(); ++sample) {
           const auto at = sampleAt(*strips_[i], placed_[i], moved.direction * sample + moved.offset);
-          if (at && (pointAtSample(*strips_[i], *at) - strips_[k]->at[sample]).norm() > farthest_) ++far;
+          if (at && (pointAtSample(*strips_[i], *at) - strips_[k]->samples[sample].at).norm() > farthest_) ++far;
         }
         if (far > kMostFar) return true;
       }
@@ -203,21 +203,21 @@ double shareAt(const Member& m, double k) {
 
 // Places where nothing was drawn lie on the way from one side to the other.
 void layOverGaps(PieceMean& mean) {
-  std::vector<Vec2>& at = mean.strip.at;
-  for (int i = 0; i < std::ssize(at); ++i) {
-    if (mean.strokes[i] > 0) continue;
+  std::vector<StripSample>& samples = mean.strip.samples;
+  for (int i = 0; i < std::ssize(samples); ++i) {
+    if (samples[i].strokes > 0) continue;
     int end = i;
-    while (mean.strokes[end] == 0) ++end;
-    const Vec2 from = at[i - 1], to = at[end];
-    for (int k = i; k < end; ++k) at[k] = from + (to - from) * (static_cast<double>(k - i + 1) / (end - i + 1));
+    while (samples[end].strokes == 0) ++end;
+    const Vec2 from = samples[i - 1].at, to = samples[end].at;
+    for (int k = i; k < end; ++k) samples[k].at = from + (to - from) * (static_cast<double>(k - i + 1) / (end - i + 1));
     i = end;
   }
 }
 
 // Smooths what is the mean of several, or laid over a gap; what was drawn once stays.
 void smoothMean(PieceMean& mean) {
-  std::vector<Vec2>& at = mean.strip.at;
-  const int n = static_cast<int>(at.size());
+  std::vector<StripSample>& samples = mean.strip.samples;
+  const int n = mean.strip.count();
   const auto hann = [&](auto values) {
     auto smooth = values;
     for (int i = 0; i < n; ++i) {
@@ -235,10 +235,10 @@ void smoothMean(PieceMean& mean) {
     return smooth;
   };
   std::vector<double> share;
-  for (const int strokes : mean.strokes) share.push_back(strokes == 1 ? 0.0 : 1.0);
+  for (const StripSample& sample : samples) share.push_back(sample.strokes == 1 ? 0.0 : 1.0);
   share = hann(share);
-  const std::vector<Vec2> smooth = hann(hann(at));
-  for (int i = 0; i < n; ++i) at[i] += std::min(1.0, 2.0 * share[i]) * (smooth[i] - at[i]);
+  const std::vector<Vec2> smooth = hann(hann(positionsOf(samples)));
+  for (int i = 0; i < n; ++i) samples[i].at += std::min(1.0, 2.0 * share[i]) * (smooth[i] - samples[i].at);
 }
 
 void measureMean(PieceMean& mean, const std::vector<Member>& members) {
@@ -247,8 +247,8 @@ void measureMean(PieceMean& mean, const std::vector<Member>& members) {
     for (int k = 0; k < m.strip->count(); ++k) {
       const double s = m.placed.direction * k + m.placed.offset - mean.from;
       const int i = std::clamp(static_cast<int>(std::lround(s)), 0, mean.strip.count() - 1);
-      const Vec2 way = m.strip->at[k] - mean.strip.at[i];
-      const double across = cross(mean.strip.tangent[i], way);
+      const StripSample& on = mean.strip.samples[i];
+      const double across = cross(on.tangent, Vec2(m.strip->samples[k].at - on.at));
       squares += across * across;
       samples += 1.0;
     }
@@ -281,8 +281,7 @@ PieceMean meanOf(const std::vector<Member>& members) {
       shares += share;
       ++strokes;
     }
-    mean.strip.at.push_back(strokes > 0 ? Vec2(sum / shares) : Vec2::Zero());
-    mean.strokes.push_back(strokes);
+    mean.strip.samples.push_back({.at = strokes > 0 ? Vec2(sum / shares) : Vec2::Zero(), .strokes = strokes});
   }
   layOverGaps(mean);
   if (members.size() > 1) smoothMean(mean);
@@ -342,7 +341,6 @@ std::vector<PieceMean> PieceMeans::of(const std::vector<int>& group) const {
     PieceMean mean;
     mean.strip = set_.pieces[group[0]].strip;
     mean.placed = {{.piece = group[0]}};
-    mean.strokes.assign(mean.strip.at.size(), 1);
     return {mean};
   }
   std::vector<Relation> relations = relationsOf(group, set_, pairs_, pairsOf_, areOne_);

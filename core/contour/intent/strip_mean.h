@@ -21,7 +21,6 @@ struct PieceMean {
   Strip strip;                      ///< Its members are `placed`, ascending.
   std::vector<PlacedPiece> placed;  ///< Those that the mean is of.
   double from = 0.0;                ///< Common arc length of the first sample.
-  std::vector<int> strokes;         ///< Pieces that each sample is the mean of; 0: laid over a gap.
 };
 
 /// Makes means of pieces. Keeps references.

@@ -83,7 +83,7 @@ void setFreeBundleEnds(std::vector<Strip>& strips, const StrokePieceSet& set) {
   for (const Strip& s : strips) widest = std::max(widest, s.spread);
   PointGrid<InkPlace> ink(kFreeBundleEnd + widest);
   for (int p = 0; p < std::ssize(set.pieces); ++p)
-    for (const Vec2& at : set.pieces[p].strip.at) ink.add(at, {p, at});
+    for (const StripSample& sample : set.pieces[p].strip.samples) ink.add(sample.at, {p, sample.at});
   for (Strip& s : strips)
     for (const int side : {0, 1}) {
       bool isFree = !s.closed;

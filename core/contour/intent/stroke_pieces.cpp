@@ -27,11 +27,14 @@ struct StrokeCut {
 };
 
 // A line in steps of one width.
+struct LineSample {
+  Vec2 at;        // [stroke widths]
+  int point = 0;  // of the line, nearest to the sample
+};
 struct SampledLine {
-  std::vector<Vec2> at;    // [stroke widths]
-  std::vector<int> point;  // of the line, nearest to the sample
+  std::vector<LineSample> samples;
   bool closed = false;
-  int count() const { return static_cast<int>(at.size()); }
+  int count() const { return static_cast<int>(samples.size()); }
   // Samples between two of them, the short way round.
   int apart(int a, int b) const {
     const int d = std::abs(a - b);
@@ -55,8 +58,8 @@ SampledLine sampledLine(const Contour& line, double widthPx) {
     const double f = end > arc[i] ? std::clamp((wanted - arc[i]) / (end - arc[i]), 0.0, 1.0) : 0.0;
     const bool isEnd = i == last && !line.closed;
     const Vec2& next = isEnd ? points[i] : points[wrapIndex(i + 1, last + 1)];
-    sampled.at.push_back((points[i] + f * (next - points[i])) / widthPx);
-    sampled.point.push_back(f < 0.5 || isEnd ? i : wrapIndex(i + 1, last + 1));
+    sampled.samples.push_back(
+        {(points[i] + f * (next - points[i])) / widthPx, f < 0.5 || isEnd ? i : wrapIndex(i + 1, last + 1)});
   }
   return sampled;
 }
@@ -66,7 +69,7 @@ class PieceCutter {
   PieceCutter(const std::vector<Contour>& lines, double widthPx) : contours_(lines), width_(widthPx) {
     for (int l = 0; l < std::ssize(lines); ++l) {
       lines_.push_back(sampledLine(lines[l], widthPx));
-      for (int k = 0; k < lines_.back().count(); ++k) grid_.add(lines_.back().at[k], {l, k});
+      for (int k = 0; k < lines_.back().count(); ++k) grid_.add(lines_.back().samples[k].at, {l, k});
     }
   }
 
@@ -90,14 +93,16 @@ class PieceCutter {
     int line, sample;
   };
 
+  const Vec2& atPlace(const Place& p) const { return lines_[p.line].samples[p.sample].at; }
+
   void findAttachments(int l) {
     const SampledLine& line = lines_[l];
     if (line.closed) return;
     for (const int end : {0, line.count() - 1}) {
       std::map<int, Place> nearest;  // by line
-      grid_.around(line.at[end], [&](const Place& p) {
+      grid_.around(line.samples[end].at, [&](const Place& p) {
         if (p.line == l && line.apart(p.sample, end) <= kOwnAttached) return;
-        const auto distance = [&](const Place& q) { return (lines_[q.line].at[q.sample] - line.at[end]).norm(); };
+        const auto distance = [&](const Place& q) { return (atPlace(q) - line.samples[end].at).norm(); };
         if (distance(p) > kAttached) return;
         const auto [known, isNew] = nearest.try_emplace(p.line, p);
         if (!isNew && distance(p) < distance(known->second)) known->second = p;
@@ -109,9 +114,9 @@ class PieceCutter {
   bool isCrossed(int l, int sample) const {
     bool found = false;
     const SampledLine& line = lines_[l];
-    grid_.around(line.at[sample], [&](const Place& p) {
+    grid_.around(line.samples[sample].at, [&](const Place& p) {
       if (p.line == l && line.apart(p.sample, sample) <= kOwnCrossed) return;
-      found = found || (lines_[p.line].at[p.sample] - line.at[sample]).norm() <= kCrossed;
+      found = found || (atPlace(p) - line.samples[sample].at).norm() <= kCrossed;
     });
     return found;
   }
@@ -135,9 +140,9 @@ class PieceCutter {
     const SampledLine& line = lines_[l];
     std::vector<StrokeCut> cuts;
     for (const int point : sharpPlacesOf(contours_[l], width_)) {
-      const auto at = std::min_element(line.point.begin(), line.point.end(),
-                                       [&](int a, int b) { return std::abs(a - point) < std::abs(b - point); });
-      cuts.push_back({static_cast<int>(at - line.point.begin()), CutKind::Corner});
+      const auto at = std::ranges::min_element(
+          line.samples, {}, [&](const LineSample& sample) { return std::abs(sample.point - point); });
+      cuts.push_back({static_cast<int>(at - line.samples.begin()), CutKind::Corner});
     }
     for (const int sample : attached_[l]) cuts.push_back({sample, CutKind::Attachment});
     addCrossings(l, cuts);
@@ -178,8 +183,8 @@ class PieceCutter {
     const SampledLine& line = lines_[l];
     StrokePiece piece;
     piece.line = l;
-    piece.firstPoint = line.point[wrapIndex(from, line.count())];
-    piece.lastPoint = line.point[wrapIndex(to, line.count())];
+    piece.firstPoint = line.samples[wrapIndex(from, line.count())].point;
+    piece.lastPoint = line.samples[wrapIndex(to, line.count())].point;
     const int points = static_cast<int>(contours_[l].points.size());
     if (closed) {
       piece.firstPoint = 0;
@@ -187,7 +192,7 @@ class PieceCutter {
     } else if (piece.lastPoint <= piece.firstPoint) {
       piece.lastPoint += points;
     }
-    for (int k = from; k <= to; ++k) piece.strip.at.push_back(line.at[wrapIndex(k, line.count())]);
+    for (int k = from; k <= to; ++k) piece.strip.samples.push_back({.at = line.samples[wrapIndex(k, line.count())].at});
     piece.strip.closed = closed;
     setTangents(piece.strip);
     piece.strip.members = {static_cast<int>(set.pieces.size())};
@@ -221,14 +226,15 @@ class PieceCutter {
     const SampledLine& line = lines_[piece.line];
     if (piece.strip.closed) return;
     for (const int side : {0, 1}) {
-      const Vec2& tip = side == 0 ? piece.strip.at.front() : piece.strip.at.back();
-      const bool isLineEnd = !line.closed && (tip == line.at.front() || tip == line.at.back());
+      const Vec2& tip = side == 0 ? piece.strip.samples.front().at : piece.strip.samples.back().at;
+      const Vec2 &first = line.samples.front().at, &last = line.samples.back().at;
+      const bool isLineEnd = !line.closed && (tip == first || tip == last);
       if (!isLineEnd) continue;
-      const int end = tip == line.at.front() ? 0 : line.count() - 1;
+      const int end = tip == first ? 0 : line.count() - 1;
       bool alone = true;
       grid_.around(tip, [&](const Place& p) {
         if (p.line == piece.line && line.apart(p.sample, end) <= kOwnAttached) return;
-        alone = alone && (lines_[p.line].at[p.sample] - tip).norm() > kFreeEnd;
+        alone = alone && (atPlace(p) - tip).norm() > kFreeEnd;
       });
       piece.strip.isFree[side] = alone;
     }

@@ -26,17 +26,19 @@ class DiscPainter {
   explicit DiscPainter(BitImage& image) : image_(image) {}
   void paint(const InkPixel& p) {
     const double radius = static_cast<double>(p.radius);
-    if ((p.centre() - last_).norm() + radius <= lastRadius_) return;
+    if (last_ && (p.centre() - last_->centre).norm() + radius <= last_->radius) return;
     constexpr double kLess = 1e-3;  // [px] the nearest centre of paper lies on the circle
     setDisc(image_, p.centre(), radius - kLess);
-    last_ = p.centre();
-    lastRadius_ = radius;
+    last_ = {p.centre(), radius};
   }
 
  private:
+  struct Disc {
+    Vec2 centre;
+    double radius;
+  };
   BitImage& image_;
-  Vec2 last_ = Vec2::Zero();
-  double lastRadius_ = -1.0;
+  std::optional<Disc> last_;
 };
 
 void paintLabels(const InkGraph& graph, InkLabels& labels, const RunContext& context) {

@@ -2,10 +2,12 @@
 #include "core/contour/outline/subpixel_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "core/base/parallel.h"
+#include "core/contour/subpixel/blur_search.h"
 #include "core/contour/subpixel/curvature_shift.h"
 #include "core/contour/subpixel/edge_profile.h"
 #include "core/contour/subpixel/matched_edges.h"
@@ -16,16 +18,17 @@
 namespace batten {
 namespace {
 
-constexpr int kSmallestSide = 4;        // px of a page: a cubic interpolation takes as many
-constexpr int kSmallestRing = 12;       // points; below that no direction can be trusted
-constexpr double kChainSigma = 3.0;     // points: takes the staircase out of the crack chain
-constexpr double kBaseSigma = 2.0;      // points: the base of the second pass keeps more of the corners
-constexpr double kLargestMovePx = 2.0;  // from the base of the second pass
-constexpr double kFallbackSigma = 1.5;  // points: of points without an edge, which stay near their crack
-constexpr int kNormalReachPoints = 2;   // to either side
-constexpr int kPixelBlurPoints = 300;   // that vote for the blur of the pixel pass
-constexpr double kPixelGatePx = 0.5;    // as far as the pixels may move what the profiles found
-constexpr double kMostSquares = 1e9;    // [grey^2] of one point: no vote counts for more
+constexpr int kSmallestSide = 4;                 // px of a page: a cubic interpolation takes as many
+constexpr int kSmallestRing = 12;                // points; below that no direction can be trusted
+constexpr double kChainSigma = 3.0;              // points: takes the staircase out of the crack chain
+constexpr double kBaseSigma = 2.0;               // points: the base of the second pass keeps more of the corners
+constexpr double kLargestMovePx = 2.0;           // from the base of the second pass
+constexpr double kFallbackSigma = 1.5;           // points: of points without an edge, which stay near their crack
+constexpr int kNormalReachPoints = 2;            // to either side
+constexpr int kPixelBlurPoints = 300;            // that vote for the blur of the pixel pass
+constexpr std::array kOutlineBlurStrides = {1};  // of its search, which begins near the end
+constexpr double kPixelGatePx = 0.5;             // as far as the pixels may move what the profiles found
+constexpr double kMostSquares = 1e9;             // [grey^2] of one point: no vote counts for more
 constexpr int kReversalRounds = 3;
 constexpr double kLeastVariance = 1e-6;  // [px^2] of the light's blur
 
@@ -98,18 +101,7 @@ int pixelBlur(const GreyImage& grey, const OutlineFrame& frame, const MatchedEdg
     return sum;
   };
   const double start = std::sqrt(std::max(0.0, m.blur * m.blur - kPixelVariance));
-  int best =
-      std::clamp(static_cast<int>(std::lround(start / PixelResponse::kStepPx)) - 1, 0, PixelResponse::kBlurs - 1);
-  double least = left(best);
-  for (const int step : {-1, 1}) {
-    for (int next = best + step; next >= 0 && next < PixelResponse::kBlurs; next += step) {
-      const double sum = left(next);
-      if (!(sum < least)) break;
-      least = sum;
-      best = next;
-    }
-  }
-  return best;
+  return leastBlur(blurIndex(start), kOutlineBlurStrides, left);
 }
 
 // Last pass, on the raw pixels, which know nothing of the phase between profile and grid; it also finds how well each

@@ -81,7 +81,7 @@ PixelResponse::PixelResponse(double blur) : blur_(blur) {
   range_ = 1.0 + kRangeBlurs * blur;
   columns_ = 2 * static_cast<int>(std::ceil(range_ * kPerPx)) + 2;
   range_ = 0.5 * (columns_ - 2) / kPerPx;
-  values_.reserve(std::size_t{2} * kDirections * static_cast<std::size_t>(columns_));
+  values_.reserve(std::ptrdiff_t{2} * kDirections * columns_);
   for (int row = 0; row < kDirections; ++row) {
     const double angle = 0.25 * std::numbers::pi * row / (kDirections - 1);
     const double a = std::cos(angle), b = std::sin(angle);

@@ -95,16 +95,15 @@ void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& norm
   if (rows <= 0) return;
   const WindowCut cut{normal.x(), normal.y(), along.x(),          along.y(), half,
                       centre.x(), centre.y(), double(grey.width), top};
-  const auto rowCount = static_cast<std::size_t>(rows);
-  if (from_.size() < rowCount) {
-    from_.resize(rowCount);
-    to_.resize(rowCount);
+  if (std::ssize(from_) < rows) {
+    from_.resize(rows);
+    to_.resize(rows);
   }
   const bool isParallel = std::abs(normal.x()) < kParallel || std::abs(along.x()) < kParallel;
   (isParallel ? cutParallelRows : cutRows)(cut, rows, from_.data(), to_.data());
-  std::size_t most = kLanes;
-  for (std::size_t r = 0; r < rowCount; ++r) most += static_cast<std::size_t>(std::max(0.0, to_[r] - from_[r] + 1.0));
-  if (distance_.size() < most) {
+  std::ptrdiff_t most = kLanes;
+  for (int r = 0; r < rows; ++r) most += static_cast<std::ptrdiff_t>(std::max(0.0, to_[r] - from_[r] + 1.0));
+  if (std::ssize(distance_) < most) {
     for (std::vector<double>* values : {&distance_, &weight_, &grey_}) values->resize(most);
   }
   double *dx = distance_.data(), *dy = weight_.data(), *level = grey_.data();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/angle.h"
 #include "core/base/conventions.h"
@@ -101,7 +102,7 @@ Result<double> checkCsv(std::string_view text, const ExportDocument& document, c
       const NurbsCurve curve = inFile(line.pieces[i].curve, settings);
       const ArcLength length(curve);
       const std::string name = entityName(line, i);
-      double last = -1.0;
+      std::optional<double> last;
       while (at < lines.size()) {
         constexpr std::size_t kRowsBetweenLooks = 1024;
         if (at % kRowsBetweenLooks == 0 && context.isCancelled()) return cancelled();
@@ -113,12 +114,12 @@ Result<double> checkCsv(std::string_view text, const ExportDocument& document, c
           if (!value) return readsBackOtherwise("a field that is no number");
           values[k] = *value;
         }
-        if (fields[1] != name || values[0] <= last) break;
+        if (fields[1] != name || (last && values[0] <= *last)) break;
         last = values[0];
-        most = std::max(most, (curve.point(length.parameter(last)) - Vec2(values[1], values[2])).norm());
+        most = std::max(most, (curve.point(length.parameter(values[0])) - Vec2(values[1], values[2])).norm());
         ++at;
       }
-      if (std::abs(last - length.total()) > 1e-9 * length.total())
+      if (!last || std::abs(*last - length.total()) > 1e-9 * length.total())
         return readsBackOtherwise("rows are missing of " + name);
     }
   }

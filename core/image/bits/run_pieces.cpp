@@ -30,7 +30,7 @@ struct RowsOfDifference {
   int height() const { return from.height; }
   int wordsPerRow() const { return from.wordsPerRow; }
   const std::uint64_t* row(int y, std::vector<std::uint64_t>& own) const {
-    own.resize(static_cast<std::size_t>(from.wordsPerRow));
+    own.resize(from.wordsPerRow);
     const std::uint64_t *a = from.row(y), *b = without.row(y);
     for (int i = 0; i < from.wordsPerRow; ++i) own[i] = a[i] & ~b[i];
     return own.data();

@@ -70,6 +70,12 @@ std::optional<double> plausibleDpi(double xDpi, double yDpi) {
   return xDpi;
 }
 
+std::optional<double> plausibleDpiOfMetres(double xPerMetre, double yPerMetre) {
+  constexpr double kMostOff = 0.02;  // [dpi] half a dot per metre is .013
+  const auto dpi = plausibleDpi(xPerMetre * kMetresPerInch, yPerMetre * kMetresPerInch);
+  return dpi && std::fabs(*dpi - std::round(*dpi)) < kMostOff ? std::optional(std::round(*dpi)) : dpi;
+}
+
 ScanHeader readPngHeader(const ByteReader& file) {
   ScanHeader header;
   header.info.format = "PNG";
@@ -87,11 +93,7 @@ ScanHeader readPngHeader(const ByteReader& file) {
       break;
     }
     if (file.matches(at + 4, "pHYs") && file.u8(at + 16) == 1) {
-      header.info.dpi = plausibleDpi(file.u32(at + 8) * kMetresPerInch, file.u32(at + 12) * kMetresPerInch);
-      // Dots a metre are whole numbers: 300 dpi is written as 11811 and comes back as 299.9994.
-      if (header.info.dpi && std::fabs(*header.info.dpi - std::round(*header.info.dpi)) < 0.02) {
-        header.info.dpi = std::round(*header.info.dpi);
-      }
+      header.info.dpi = plausibleDpiOfMetres(file.u32(at + 8), file.u32(at + 12));
     } else if (file.matches(at + 4, "tRNS") && (colour == 2 || colour == 3)) {
       header.info.channels = 4;  // the decoder makes alpha of it
     } else if (file.matches(at + 4, "tRNS") && colour == 0 && length >= 2) {
@@ -122,10 +124,7 @@ ScanHeader readBmpHeader(const ByteReader& bytes) {
   header.info.channels = bits == 32 ? 4 : 3;
   header.info.bitsPerChannel = bits >= 16 ? 8 : static_cast<int>(bits);
   if (!old) {
-    header.info.dpi = plausibleDpi(file.u32(38) * kMetresPerInch, file.u32(42) * kMetresPerInch);
-    if (header.info.dpi && std::fabs(*header.info.dpi - std::round(*header.info.dpi)) < 0.02) {
-      header.info.dpi = std::round(*header.info.dpi);
-    }
+    header.info.dpi = plausibleDpiOfMetres(file.u32(38), file.u32(42));
   }
   const std::uint64_t stride = (static_cast<std::uint64_t>(std::max(header.info.width, 0)) * bits + 31) / 32 * 4;
   const bool plain = compression == 0 || compression == 3;

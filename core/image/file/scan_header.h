@@ -39,5 +39,8 @@ ScanHeader readPnmHeader(const ByteReader& file);
 
 /// Dots per inch if both axes agree and the number is one that scanners and cameras write.
 std::optional<double> plausibleDpi(double xDpi, double yDpi);
+/// The same of dots per metre, which files have as whole numbers or fractions: 300 dpi is written as 11811 and comes
+/// back as 299.9994.
+std::optional<double> plausibleDpiOfMetres(double xPerMetre, double yPerMetre);
 
 }  // namespace batten

@@ -46,10 +46,7 @@ std::optional<double> resolutionOf(const ByteReader& file, std::uint64_t at) {
     const int power = static_cast<int>(file.u8(at + exponent));
     return below > 0.0 ? file.u16(at + ratio) / below * std::pow(10.0, power < 128 ? power : power - 256) : 0.0;
   };
-  auto dpi = plausibleDpi(perMetre(4, 9) * kMetresPerInch, perMetre(0, 8) * kMetresPerInch);
-  // 300 dpi is written as a fraction that comes back as 299.9994.
-  if (dpi && std::fabs(*dpi - std::round(*dpi)) < 0.02) dpi = std::round(*dpi);
-  return dpi;
+  return plausibleDpiOfMetres(perMetre(4, 9), perMetre(0, 8));
 }
 
 /// The resolution in the header box, that of the scanner before that of a display.

@@ -159,10 +159,11 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   family.widthPx = found.look.width * shrink;
   family.depth = found.look.depth;
   // Lines go on to the borders of the page, where they may be hidden.
+  constexpr int kPlacesAcross = 8;
   const double least = -1.0, most = grey.height + 1.0;
   const auto isOnPage = [&](int k) {
-    for (int i = 0; i <= 8; ++i) {
-      const double y = lattice.at(k, i * grey.width / 8.0);
+    for (int i = 0; i <= kPlacesAcross; ++i) {
+      const double y = lattice.at(k, static_cast<double>(i) * grey.width / kPlacesAcross);
       if (y > least && y < most) return true;
     }
     return false;

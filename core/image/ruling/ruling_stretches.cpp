@@ -17,6 +17,7 @@ namespace {
 constexpr int kStrips = 8;
 constexpr int kLeastStretchSide = 160;         // [grid] smaller pictures hold no ruled page
 constexpr double kSteepest = 0.2;              // of the lines
+constexpr double kShiftPerStep = 1.5;          // [grid] of the end of a strip, from one slope that is tried to the next
 constexpr double kLeastOfStrip = 0.35;         // of the columns of a strip that must hold the line
 constexpr std::array<int, 2> kSides = {2, 5};  // [grid] where the paper beside a thin line is looked for
 constexpr int kAlong = 2;                      // [grid] half the length over which grey is averaged along the lines
@@ -224,7 +225,7 @@ RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& con
   if (context.isCancelled()) return out;
   const double offset = kSteepest * out.width + 2.0;
   const double least = kLeastOfStrip * out.stripWidth;
-  const int steps = static_cast<int>(std::ceil(kSteepest * out.stripWidth / 1.5));
+  const int steps = static_cast<int>(std::ceil(kSteepest * out.stripWidth / kShiftPerStep));
   const int binCount = static_cast<int>(out.height + 2.0 * offset) + 2;
   std::vector<double> scores(2 * steps + 1, 0.0);
   const auto slopeOf = [&](int step) { return kSteepest * (step - steps) / steps; };

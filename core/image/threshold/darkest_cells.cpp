@@ -33,7 +33,7 @@ BATTEN_HOT_LOOP void takeLesser(const std::uint16_t* in, std::uint16_t* out, int
 DarkestCells::DarkestCells(const GreyImage& image, const RunContext& context)
     : columns_((image.width + kAcross - 1) / kAcross),
       rows_((image.height + kDown - 1) / kDown),
-      lowest_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
+      lowest_(std::ptrdiff_t{columns_} * rows_) {
   parallelFor(context, rows_, kRowsPerBlock / kDown, [&](int begin, int end) {
     // What lies beyond the page is white.
     const int padded = columns_ * kAcross;

@@ -12,9 +12,10 @@
 namespace batten {
 namespace {
 
-constexpr int kAngles = 720;      // of half a degree: the side of the bright paper counts
-constexpr int kAngleSpread = 8;   // [bins] uncertainty of a gradient's direction
-constexpr double kRhoStep = 3.0;  // [px of the plane]
+constexpr int kAngles = 720;          // of half a degree: the side of the bright paper counts
+constexpr int kAngleSpread = 8;       // [bins] uncertainty of a gradient's direction
+constexpr double kRhoStep = 3.0;      // [px of the plane]
+constexpr double kBesideSteps = 8.0;  // two peaks nearer than this are of one course, which bends a little
 constexpr std::size_t kMostVoters = 8000;
 constexpr int kMostLines = 12;
 constexpr double kLeastShare = 0.2;  // of the crests that a line from border to border would have
@@ -104,7 +105,8 @@ class Accumulator {
   }
   bool isBeside(const Peak& p, const Peak& q) const {
     const int apart = std::abs(p.angle - q.angle);
-    return std::min(apart, kAngles - apart) <= 2 * kAngleSpread && std::fabs(rhoOf(p) - rhoOf(q)) < 8.0 * kRhoStep;
+    return std::min(apart, kAngles - apart) <= 2 * kAngleSpread &&
+           std::fabs(rhoOf(p) - rhoOf(q)) < kBesideSteps * kRhoStep;
   }
   static double angleOf(int a) { return 2.0 * std::numbers::pi * a / kAngles; }
   double rhoOf(const Peak& p) const { return (p.column - half_ + 1) * kRhoStep; }

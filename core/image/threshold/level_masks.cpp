@@ -113,8 +113,7 @@ class GroupOfRows {
       : c_(c),
         paper_(c.paper, c.image.width),
         lowest_(c.darkest.columns()),
-        border_(static_cast<std::size_t>(kBlockDown + 2 * c.radius()),
-                std::vector<std::uint16_t>(static_cast<std::size_t>(LevelBlock::pastRow(c.radius())))),
+        border_(kBlockDown + 2 * c.radius(), std::vector<std::uint16_t>(LevelBlock::pastRow(c.radius()))),
         rows_(border_.size()) {
     for (int x = 0; x < c.image.width; x += kBlockAcross) stretches_.push_back(c.contrast.stretchAt(x));
   }

@@ -22,6 +22,7 @@ namespace {
 constexpr int kSampleStep = 3;  // the smoothed picture has no more to say than every third pixel
 constexpr float kWeak = 3.0f;
 constexpr float kCertain = 6.0f;
+constexpr float kFloorShare = 0.06f;  // of the strong edges, where the paper has no noise to measure edges by
 constexpr int kStrengthBins = 2048;
 constexpr float kBinsPerGrey = 8.0f;
 
@@ -185,7 +186,7 @@ PageEdges findPageEdges(const Plane& u, const RunContext& context) {
   const auto [squares, strong] = measureGradients(u, noise, spread, context);
   if (context.isCancelled()) return edges;
   // On white-balanced scans the paper is clipped and has no noise: then the drawing's own edges set the scale.
-  const float floor = 0.06f * strong / kCertain;
+  const float floor = kFloorShare * strong / kCertain;
   BitImage weak(u.width, u.height), certain(u.width, u.height);
   parallelFor(context, u.height, kRowsPerBlock, [&, &squares = squares](int begin, int end) {
     std::vector<float> s(u.width);

@@ -128,7 +128,7 @@ std::vector<float> halfLevels(const Plane& grey, const PageEdges& edges, const P
   std::array<double, kRegions> sum{}, weight{};
   std::array<int, kRegions> votes{};
   for (const EdgePoint& p : edges.crests) {
-    const auto r = static_cast<std::size_t>(regionOf(p.x, p.y, grey.width, grey.height));
+    const int r = regionOf(p.x, p.y, grey.width, grey.height);
     const double depth = static_cast<double>(grey.row(p.y)[p.x]) - paper.at((p.x + 0.5) * shrink, (p.y + 0.5) * shrink);
     sum[r] += static_cast<double>(p.strength) * depth;
     weight[r] += static_cast<double>(p.strength);

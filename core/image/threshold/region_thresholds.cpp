@@ -31,6 +31,8 @@ constexpr double kEdgeVariance = 1.5 * 1.5;                     // [px^2] of the
 constexpr std::array<double, 3> kSmoothings = {1.0, 1.4, 2.0};  // [px]
 constexpr double kContrastPerNoise = 5.5;
 constexpr double kLeastContrastPerNoise = 4.0;
+constexpr double kLinePerNoise = 2.5;   // of the mean over all crests, which is far less noisy than one pixel
+constexpr double kLeastVariance = 0.1;  // [px^2 of the shrunk page] below, nothing is smoothed
 constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;
@@ -41,7 +43,7 @@ constexpr double kTornShare = 0.75;          // of the half level: grains are da
 constexpr double kMorePieces = 1.25;         // of those with more smoothing: it closed gaps
 constexpr double kNever = -1000.0;           // [grey] darker than anything
 constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";
-constexpr std::size_t kNoiseSamples = 20000;
+constexpr int kNoiseSamples = 20000;
 constexpr int kDepthsPerBlock = 1024;
 
 int shrinkFor(const GreyImage& image) {
@@ -56,7 +58,7 @@ int shrinkFor(const GreyImage& image) {
 /// Variance on the shrunk grid that makes a smoothing of `variancePx` together with the means over the blocks.
 double remainingVariance(double variancePx, int shrink) {
   const double block = (shrink * shrink - 1.0) / 12.0;
-  return std::max(0.1, (variancePx - block) / (shrink * shrink));
+  return std::max(kLeastVariance, (variancePx - block) / (shrink * shrink));
 }
 
 /// The plane smoothed at one place only.
@@ -88,13 +90,13 @@ Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstim
     out.assign(count, 0.0f);
     parallelFor(context, count, kDepthsPerBlock, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) {
-        const auto [x, y] = placeOf(static_cast<std::size_t>(i));
+        const auto [x, y] = placeOf(i);
         out[i] = smoothedAt(grey, x, y, kernel) - static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
       }
     });
   };
   measure(static_cast<int>(edges.crests.size()), depths.atCrests,
-          [&](std::size_t i) { return std::pair(edges.crests[i].x, edges.crests[i].y); });
+          [&](int i) { return std::pair(edges.crests[i].x, edges.crests[i].y); });
   double sum = 0.0, weight = 0.0;
   for (std::size_t i = 0; i < edges.crests.size(); ++i) {
     sum += static_cast<double>(edges.crests[i].strength * depths.atCrests[i]);
@@ -102,19 +104,18 @@ Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstim
   }
   depths.mean = weight > 0.0 ? sum / weight : 0.0;
   const int cell = paper.cellPx / shrink;
-  const std::size_t stride = estimate.isPaper.size() / kNoiseSamples + 1;
+  const auto cells = static_cast<int>(estimate.isPaper.size()), stride = cells / kNoiseSamples + 1;
   std::vector<std::pair<int, int>> places;
-  for (std::size_t i = 0; i < estimate.isPaper.size(); i += stride) {
+  for (int i = 0; i < cells; i += stride) {
     if (estimate.isPaper[i] == 0) continue;
-    const auto column = static_cast<int>(i % static_cast<std::size_t>(paper.columns));
-    const auto row = static_cast<int>(i / static_cast<std::size_t>(paper.columns));
+    const int column = i % paper.columns, row = i / paper.columns;
     // A pixel of the cell that changes from cell to cell, so that no grid of the scanner is met in step.
-    const int x = column * cell + static_cast<int>((i * 5) % static_cast<std::size_t>(cell));
-    const int y = row * cell + static_cast<int>((i * 3) % static_cast<std::size_t>(cell));
+    const int x = column * cell + i % cell * 5 % cell;
+    const int y = row * cell + i % cell * 3 % cell;
     if (x < grey.width && y < grey.height) places.emplace_back(x, y);
   }
   std::vector<float> samples;
-  measure(static_cast<int>(places.size()), samples, [&](std::size_t i) { return places[i]; });
+  measure(static_cast<int>(places.size()), samples, [&](int i) { return places[i]; });
   if (!samples.empty()) depths.noise = robustSigma(samples);
   return depths;
 }
@@ -131,7 +132,7 @@ Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& d
   std::array<int, kRegions> votes{};
   for (std::size_t i = 0; i < edges.crests.size(); ++i) {
     const EdgePoint& p = edges.crests[i];
-    const auto r = static_cast<std::size_t>(regionOf(p.x, p.y, grey.width, grey.height));
+    const int r = regionOf(p.x, p.y, grey.width, grey.height);
     sum[r] += static_cast<double>(p.strength * depths.atCrests[i]);
     weight[r] += static_cast<double>(p.strength);
     ++votes[r];
@@ -178,7 +179,7 @@ RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, 
   out.faintLimit = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
   out.paper = std::move(estimate.paper);
   const bool enough = edges.crests.size() >= kMinVotes;
-  out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, 2.5 * depths.noise);
+  out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, kLinePerNoise * depths.noise);
   if (out.foundLine) {
     found = contrastsOf(grey, edges, depths, strength * out.halfLevelShare);
   } else {

@@ -176,5 +176,19 @@ TEST(SharpFeatures, ALineOfMoreThanAThousandIsNotTakenApart) {
   EXPECT_LT(deviation(fit->front().curve, points, true).max, 1.5);
 }
 
+TEST(SharpFeatures, ADrawnLineOfMoreThanTenThousandIsRefused) {
+  std::vector<Vec2> zigzag;
+  for (int i = 0; i < 10'100; ++i) zigzag.emplace_back(20.0 * i, i % 2 == 0 ? 0.0 : 30.0);
+  ConstructContour drawn;
+  drawn.pixelMm = 1.0;
+  drawn.pieces.resize(1);
+  drawn.pieces[0].points = piecePoints(alongPolygon(zigzag, false, 0.0));
+  drawn.pieces[0].isDrawn = true;
+  const auto fit = fairFit(drawn, {}, {});
+  ASSERT_FALSE(fit.has_value());
+  EXPECT_EQ(fit.error().code, ErrorCode::NoCurve);
+  EXPECT_NE(fit.error().message.find("at 10098 places, at most 10000"), std::string::npos) << fit.error().message;
+}
+
 }  // namespace
 }  // namespace batten

@@ -52,7 +52,7 @@ TEST_F(SpanKernels, DerivativesAtAPlaceAreSummedPointByPoint) {
     sumPoints(place.columns, bezier, degree + 1, sums);
     for (std::size_t order = 0; order < 4; ++order) {
       Vec2 sum = Vec2::Zero();
-      for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) sum += place.rows[order][k] * bezier[k];
+      for (int k = 0; k <= degree; ++k) sum += place.rows[order][k] * bezier[k];
       EXPECT_EQ(Vec2(sums[2 * order], sums[2 * order + 1]), sum) << degree << " " << order;
     }
   }

@@ -115,7 +115,9 @@ TEST(Intent, PiecesFollowEachOtherRoundARing) {
   EXPECT_EQ(set.links.size(), 4u);
   for (const TraceLink& link : set.links) {
     EXPECT_TRUE(link.isCorner);
-    EXPECT_LT((set.pieces[link.from / 2].strip.at.back() - set.pieces[link.to / 2].strip.at.front()).norm(), 1e-9);
+    EXPECT_LT(
+        (set.pieces[link.from / 2].strip.samples.back().at - set.pieces[link.to / 2].strip.samples.front().at).norm(),
+        1e-9);
   }
   for (const StrokePiece& p : set.pieces) EXPECT_NEAR(p.strip.length(), 50.0, 2.0);
 }
@@ -157,7 +159,7 @@ std::vector<PieceMean> meanOfAll(const std::vector<Contour>& lines) {
 
 Contour contourOf(const PieceMean& mean) {
   std::vector<Vec2> points;
-  for (const Vec2& p : mean.strip.at) points.push_back(kIntentPenPx * p);
+  for (const StripSample& sample : mean.strip.samples) points.push_back(kIntentPenPx * sample.at);
   Contour c;
   c.points = contourPoints(points, false);
   measureContour(c);

@@ -80,7 +80,7 @@ TEST(PixelWindow, HoldsThePixelsOfTheOblongToTheLastBit) {
     ASSERT_EQ(window.fullCount() % PixelWindow::kLanes, 0);
     for (int i = 0; i < window.count(); ++i) {
       const WindowPixel pixel{window.distance()[i], window.weight()[i], window.grey()[i]};
-      ASSERT_EQ(pixel, expected[static_cast<std::size_t>(i)]) << trial << ' ' << i;
+      ASSERT_EQ(pixel, expected[i]) << trial << ' ' << i;
     }
     for (int i = window.count(); i < window.fullCount(); ++i) EXPECT_EQ(window.weight()[i], 0.0);
     seen += window.count();
@@ -94,7 +94,7 @@ struct BorderResults {
 };
 
 BorderResults resultsOf(const BorderKernels& kernels, const PixelWindow& window, const StrokeBorders& borders) {
-  const auto room = static_cast<std::size_t>(window.fullCount());
+  const int room = window.fullCount();
   BorderResults results{{}, std::vector<double>(room), std::vector<double>(room), std::vector<double>(room)};
   const StrokePixels pixels{window.distance(), window.weight(), window.grey(), window.fullCount()};
   const BorderResiduals residuals{results.left.data(), results.byLow.data(), results.byHigh.data()};

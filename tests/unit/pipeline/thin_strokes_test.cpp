@@ -55,7 +55,7 @@ struct LetteredPage {
 /// Rows of words of one height, as captions stand on a page.
 LetteredPage lettered(double height, double penPx, const test::PageStyle& style) {
   LetteredPage page;
-  std::vector<float> cover(static_cast<std::size_t>(kPageWidth) * kPageHeight, 0.0f);
+  std::vector<float> cover(std::ptrdiff_t{kPageWidth} * kPageHeight, 0.0f);
   const std::vector<Strokes> shapes = alphabet();
   std::size_t next = 0;
   for (double y = 30.0; y + height < kPageHeight - 30.0; y += 5.0 * height) {

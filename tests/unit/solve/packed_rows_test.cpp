@@ -96,9 +96,8 @@ KernelRows kernelRows(RandomRows& random, int spans) {
         const BandRow values = random.row(span);
         made.rows.resize(made.rows.size() + RowFours::kRowStride, 0.0);
         for (int k = 0; k < RowFours::kWidth; ++k) {
-          made.rows[static_cast<std::size_t>(row * RowFours::kRowStride + k)] = values.v[static_cast<std::size_t>(k)];
-          made.lanes[made.lanes.size() - static_cast<std::size_t>(RowFours::kLaneStride - RowFours::kLanes * k - i)] =
-              values.v[static_cast<std::size_t>(k)];
+          made.rows[row * RowFours::kRowStride + k] = values.v[k];
+          made.lanes[made.lanes.size() - (RowFours::kLaneStride - RowFours::kLanes * k - i)] = values.v[k];
         }
       }
     }

@@ -73,7 +73,7 @@ class SheetTool final : public CanvasTool {
       painter.drawPolygon(polygon);
     }
     for (int i = 0; i < polygon.size(); ++i) {
-      const bool isHeld = (held_ ? held_ : over_) == static_cast<std::size_t>(i);
+      const bool isHeld = (held_ ? held_ : over_) == i;
       painter.setPen(QPen(colors::accent(), 1.6));
       painter.setBrush(isHeld ? colors::accent() : QColor(Qt::white));
       painter.drawEllipse(polygon[i], kHandlePx, kHandlePx);
@@ -84,14 +84,14 @@ class SheetTool final : public CanvasTool {
 
  private:
   SheetCorners corners() const { return scene_.view.sheetCorners().value_or(shownSheetCorners(scene_.session)); }
-  std::optional<std::size_t> cornerAt(const Vec2& px) const {
+  std::optional<int> cornerAt(const Vec2& px) const {
     const SheetCorners all = corners();
     const auto nearest = std::ranges::min_element(all, {}, [&](const Vec2& c) { return (c - px).squaredNorm(); });
     if ((*nearest - px).norm() > 2.0 * kHandlePx * scene_.transform.imagePerWidget()) return std::nullopt;
-    return static_cast<std::size_t>(nearest - all.begin());
+    return static_cast<int>(nearest - all.begin());
   }
 
-  std::optional<std::size_t> held_, over_;
+  std::optional<int> held_, over_;
   SheetCorners before_{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
   Vec2 grip_ = Vec2::Zero();
 };

@@ -53,8 +53,8 @@ void ColumnDelegate::measure() {
 QRect ColumnDelegate::columnRect(const QRect& row, int column) const {
   int left = row.left() + kBeforePx;
   for (int c = 0; c < column; ++c) left += widths_[c] + (widths_[c] > 0 ? kBetweenPx : 0);
-  const bool goesOn = column + 1 == std::ssize(widths_) && alignments_[column] == Qt::AlignLeft;
-  return {left, row.top(), goesOn ? row.right() - left : widths_[column], row.height()};
+  const bool isLastOfRow = column + 1 == std::ssize(widths_) && alignments_[column] == Qt::AlignLeft;
+  return {left, row.top(), isLastOfRow ? row.right() - left : widths_[column], row.height()};
 }
 
 void ColumnDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const {
@@ -70,9 +70,10 @@ void ColumnDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option
   const QStringList parts = index.data(Qt::DisplayRole).toString().split(kTab);
   for (int c = 0; c < std::ssize(alignments_) && c < parts.size(); ++c) {
     const QRect box = columnRect(option.rect, c);
-    const bool goesOn = c + 1 == std::ssize(alignments_);
-    painter->drawText(box, Qt::AlignVCenter | alignments_[c],
-                      goesOn ? painter->fontMetrics().elidedText(parts[c], Qt::ElideRight, box.width()) : parts[c]);
+    const bool isLastOfRow = c + 1 == std::ssize(alignments_);
+    painter->drawText(
+        box, Qt::AlignVCenter | alignments_[c],
+        isLastOfRow ? painter->fontMetrics().elidedText(parts[c], Qt::ElideRight, box.width()) : parts[c]);
   }
   painter->restore();
 }

@@ -65,7 +65,7 @@ void KnotStrip::paintEvent(QPaintEvent*) {
   }
   painter.setFont(uiFont(11));
   painter.setPen(theme.mute);
-  double free = -1.0;
+  double free = 0.0;  // left of this, numbers stand already
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (columns_[i].times < 2) continue;
     const QString text = QString::number(columns_[i].value, 'g', 6);
