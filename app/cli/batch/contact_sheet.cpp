@@ -83,7 +83,7 @@ std::optional<Rectification> rectificationIn(const std::optional<PageRecord>& re
 
 /// Whether a page of this size can have been made of a picture: the record is a file that anyone may have changed.
 bool isPageOf(const GreyImage& picture, const Rectification& page) {
-  constexpr double kMostPagePixels = 3.0;  // for one of the picture; rectifying makes fewer
+  constexpr double kMostPagePixels = 4.0;  // for one of the picture; rectifying makes fewer, with corners outside, too
   const auto pixels = [](double width, double height) { return width * height; };
   return page.widthPx > 0 && page.heightPx > 0 &&
          pixels(page.widthPx, page.heightPx) <= kMostPagePixels * pixels(picture.width, picture.height);

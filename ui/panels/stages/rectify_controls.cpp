@@ -94,7 +94,7 @@ void RectifyControls::rectify() {
   const auto corners = moved ? moved : knownSheetCorners(session_);
   const bool isDoneAlready = !moved && session_.scan()->rectification.has_value();
   if (!corners) {
-    say(fail(ErrorCode::BadParameter, "Drag the corners onto those of the sheet; none were found on the picture."));
+    say(fail(ErrorCode::BadParameter, "Drag the corners onto those of the sheet first."));
     return;
   }
   const auto done = isDoneAlready ? Result<void>() : rectifyBy(session_, *corners);
@@ -117,7 +117,8 @@ QString RectifyControls::state() const {
     QString text = tr("Rectified from the corners of the sheet; %1 % of the picture was cut off.")
                        .arg(100.0 * made->outsideShare, 0, 'f', 0);
     if (page && page->sheet)
-      text += tr(" So was a rim of %1 px along its border.").arg(page->sheet->outlinePx.front().x(), 0, 'f', 0);
+      text +=
+          tr(" A rim of %1 px along its border was cut off, too.").arg(page->sheet->outlinePx.front().x(), 0, 'f', 0);
     if (made->aspectError > kDoubtfulAspect)
       text += tr(" The aspect ratio is uncertain by %1 %: choose the paper if you know it.")
                   .arg(100.0 * made->aspectError, 0, 'f', 1);

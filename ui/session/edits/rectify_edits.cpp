@@ -26,10 +26,11 @@ std::optional<Rectification> pageOfRecipe(const EditorSession& session) {
   return session.scan()->rectification;
 }
 
-// Which page the places lie on is known only when the sheet has been looked for.
+// Which page the places lie on is known only when the sheet has been looked for. If that was stopped or failed the page
+// is the one shown.
 bool isPageAwaited(const EditorSession& session) {
   const RectifyParams& params = session.recipe().preparation.rectify;
-  return params.use == RectifyUse::Automatic && !isRectifiedAs(*session.scan(), params);
+  return params.use == RectifyUse::Automatic && session.isBusy() && !isRectifiedAs(*session.scan(), params);
 }
 
 // Whether a side of the rectangle is an edge of paper, to which the corners were led by hand.
@@ -40,16 +41,23 @@ bool hasPaperEdge(const Scan& picture, const Rectification& made) {
   return std::ranges::find(isEdge, true) != isEdge.end();
 }
 
-Result<void> change(EditorSession& session, const QString& what, const RectifyParams& params) {
+// @param sheet whether what lies beside the sheet is cut off; absent: as before.
+Result<void> change(EditorSession& session, const QString& what, const RectifyParams& params,
+                    std::optional<SheetUse> sheet) {
   if (isPageAwaited(session))
     return fail(ErrorCode::BadParameter, "The sheet is still being looked for; try again when the page is shown.");
   const auto made = rectificationOf(*session.picture(), params.cornersPx, params.format);
   if (!made) return fail(made.error());
   Recipe after = rectifiedRecipe(session.recipe(), pageOfRecipe(session), *made, params);
-  // Of another rectangle than a sheet, as a frame that was drawn, nothing is cut off.
-  if (!hasPaperEdge(*session.picture(), *made)) after.preparation.sheet = SheetUse::Off;
+  if (sheet) after.preparation.sheet = *sheet;
   session.change(what, std::move(after));
   return {};
+}
+
+// Of another rectangle than a sheet, as a frame that was drawn, nothing is cut off; that ends with it.
+bool isKeptForFrame(const EditorSession& session) {
+  const auto now = pageOfRecipe(session);
+  return session.recipe().preparation.sheet == SheetUse::Off && now && !hasPaperEdge(*session.picture(), *now);
 }
 
 }  // namespace
@@ -77,21 +85,30 @@ Result<void> rectifyBy(EditorSession& session, const SheetCorners& cornersPx) {
     const SheetMap map(*now);
     for (Vec2& corner : params.cornersPx) corner = map.toPicture(corner);
   }
-  return change(session, QObject::tr("Rectify"), params);
+  std::optional<SheetUse> sheet;
+  if (const auto made = rectificationOf(*session.picture(), params.cornersPx, params.format)) {
+    if (!hasPaperEdge(*session.picture(), *made))
+      sheet = SheetUse::Off;
+    else if (isKeptForFrame(session))
+      sheet = SheetUse::CutOff;
+  }
+  return change(session, QObject::tr("Rectify"), params, sheet);
 }
 
 Result<void> setSheetFormat(EditorSession& session, PaperFormat format) {
   const auto now = pageOfRecipe(session);
   if (!now) return {};
-  return change(session, QObject::tr("Format of the sheet"), {RectifyUse::Corners, now->cornersPx, format});
+  return change(session, QObject::tr("Format of the sheet"), {RectifyUse::Corners, now->cornersPx, format},
+                std::nullopt);
 }
 
 void stopRectifying(EditorSession& session) {
   if (isPageAwaited(session)) return;
   RectifyParams params;
   params.format = session.recipe().preparation.rectify.format;
-  session.change(QObject::tr("Whole picture"),
-                 rectifiedRecipe(session.recipe(), pageOfRecipe(session), std::nullopt, params));
+  Recipe after = rectifiedRecipe(session.recipe(), pageOfRecipe(session), std::nullopt, params);
+  if (isKeptForFrame(session)) after.preparation.sheet = SheetUse::CutOff;
+  session.change(QObject::tr("Whole picture"), std::move(after));
 }
 
 }  // namespace batten
