@@ -260,6 +260,12 @@ TEST_F(RectifyWindow, NothingIsCutOffAlongADrawnFrameThatIsChosenAsTheRectangle)
   EXPECT_FALSE(session().output().page->sheet);
   const GreyImage& grey = tracedGrey(*session().scan(), session().output());
   EXPECT_LT(grey.level(grey.width / 2, 0), 160.0) << "half the line of the frame";
+  find<QAbstractButton>("scan.wholePicture")->click();
+  ASSERT_TRUE(waitUntil([&] { return !isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().recipe().preparation.sheet, SheetUse::CutOff) << "the frame is no longer the rectangle";
+  session().undoStack()->undo();
+  ASSERT_TRUE(waitUntil([&] { return isRectified() && !session().isBusy(); }));
+  EXPECT_EQ(session().recipe().preparation.sheet, SheetUse::Off);
   session().undoStack()->undo();
   ASSERT_TRUE(waitUntil([&] { return !isRectified() && !session().isBusy(); }));
   EXPECT_EQ(session().recipe().preparation.sheet, SheetUse::CutOff);

@@ -137,9 +137,9 @@ CurveOnPage findInventions(const RedrawnCurve& c, const Reference& reference) {
 }
 
 // What is asked of the page, by what most of its strokes were drawn with. A pencil's points have no noise of their own
-// that could be told from its grain.
-double leastExplainedOf(const PipelineOutput& out) {
-  if (!out.contours) return kLeastExplainedPen;
+// that could be told from its grain; nor have points that were not refined.
+double leastExplainedOf(const PipelineOutput& out, const EdgeParams& edges) {
+  if (!out.contours || !edges.subpixel || edges.intent) return kLeastExplainedPen;
   double pen = 0.0, pencil = 0.0;
   for (const Contour& line : out.contours->contours) {
     if (line.kind != ContourKind::Centreline) continue;
@@ -148,28 +148,34 @@ double leastExplainedOf(const PipelineOutput& out) {
   return pencil > pen ? kLeastExplainedPencil : kLeastExplainedPen;
 }
 
-std::string percent(double share) {
-  const long tenths = std::lround(1000.0 * share);
-  return std::to_string(tenths / 10) + '.' + std::to_string(tenths % 10) + " %";
+std::string tenthsText(double tenths) {
+  const auto whole = static_cast<long>(tenths);
+  return std::to_string(whole / 10) + '.' + std::to_string(whole % 10) + " %";
 }
+
+// Rounded towards the worse: what is beyond a limit must not read as the limit itself.
+constexpr double kExactTenths = 1e-6;  // of the limits, as numbers with a rounding error
+std::string percentAtLeast(double share) { return tenthsText(std::floor(1000.0 * share + kExactTenths)); }
+std::string percentAtMost(double share) { return tenthsText(std::ceil(1000.0 * share - kExactTenths)); }
 
 std::string noteOn(const Explanation& e, const EdgeParams& edges) {
   std::string note;
   if (edges.intent && (!e.isExplained() || e.isInvented())) {
     // One curve stands for several strokes: it leaves ink beside it and runs over paper between them, as it should.
-    return "The curves explain " + percent(e.explained) + " of the ink on the page, and " + percent(e.invented) +
+    return "The curves explain " + percentAtLeast(e.explained) + " of the ink on the page, and " +
+           percentAtMost(e.invented) +
            " of their length has no ink under it: with edges.intent one curve stands for several strokes, which need "
            "not lie under it. To measure how completely the strokes are traced, set edges.intent=false.";
   }
   if (!e.isExplained()) {
-    note = "The curves explain " + percent(e.explained) + " of the ink on the page, less than " +
-           percent(e.leastExplained) +
+    note = "The curves explain " + percentAtLeast(e.explained) + " of the ink on the page, less than " +
+           percentAtLeast(e.leastExplained) +
            ". To trace more, lower threshold.strength (Minimum ink contrast) or the minimum line length.";
   }
   if (e.isInvented()) {
     if (!note.empty()) note += ' ';
-    note += percent(e.invented) + " of the length of the curves has no ink under it, more than " +
-            percent(kMostInvented) + ".";
+    note += percentAtMost(e.invented) + " of the length of the curves has no ink under it, more than " +
+            percentAtMost(kMostInvented) + ".";
   }
   return note;
 }
@@ -199,7 +205,7 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   if (result.curvesPx > 0.0) result.invented = inventedPx / result.curvesPx;
   std::stable_sort(result.inventions.begin(), result.inventions.end(),
                    [](const InventedStretch& a, const InventedStretch& b) { return a.lengthPx > b.lengthPx; });
-  result.leastExplained = leastExplainedOf(out);
+  result.leastExplained = leastExplainedOf(out, recipe.edges);
   result.note = noteOn(result, recipe.edges);
   if (context.isCancelled()) return cancelled();
   return result;

@@ -104,6 +104,10 @@ bool isSameInk(const InkColour& a, const InkColour& b, double rangeDeg) {
   return apartDeg(*a.hueDeg, *b.hueDeg) <= rangeDeg;
 }
 
+double hueApartDeg(const InkColour& a, const InkColour& b) {
+  return a.hueDeg && b.hueDeg ? apartDeg(*a.hueDeg, *b.hueDeg) : 0.0;
+}
+
 bool isTraced(const InkColour& ink, const InkChoice& choice) {
   const auto holds = [&](const std::vector<InkColour>& list) {
     return std::any_of(list.begin(), list.end(),

@@ -31,6 +31,9 @@ std::optional<Error> validate(const InkChoice&);
 
 /// Whether two inks lie within a range of hues of one another.
 bool isSameInk(const InkColour& a, const InkColour& b, double rangeDeg);
+
+/// [degrees, 0..180] Between two hues; 0 if either ink has none.
+double hueApartDeg(const InkColour& a, const InkColour& b);
 /// Whether a choice traces an ink.
 bool isTraced(const InkColour& ink, const InkChoice& choice);
 

@@ -96,8 +96,11 @@ class InkTool final : public CanvasTool {
         context.cancel = token;
         return std::make_shared<const Paper>(Paper{scan, InkPicker(scan->grey, scan->colour, context)});
       });
-      if (token.isCancelled() || !paper) return;
-      inbox_.post([this, paper = *paper] { take(paper); });
+      if (token.isCancelled()) return;
+      if (paper)
+        inbox_.post([this, paper = *paper] { take(paper); });
+      else
+        inbox_.post([this, scan] { giveUp(scan); });
     });
   }
 
@@ -108,16 +111,26 @@ class InkTool final : public CanvasTool {
     if (at_) show(*at_);
   }
 
-  /// As the inks of the page are listed, where one of them is meant.
+  // For want of memory: the next movement of the mouse tries again.
+  void giveUp(const std::shared_ptr<const Scan>& scan) {
+    if (of_ == scan) of_.reset();
+    if (const auto event = std::exchange(pending_, std::nullopt)) scene_.flash(event->px);
+  }
+
+  /// As the inks of the page are listed, where one of them is meant: the one nearest by hue.
   std::optional<FoundInk> inkAt(const Vec2& px) const {
     if (!isReady()) return std::nullopt;
     auto ink = paper_->picker.inkAt(px, kInkReachWidgetPx * scene_.transform.imagePerWidget());
     const auto& page = scene_.session.output().page;
     if (!ink || !page) return ink;
     const double range = scene_.session.recipe().preparation.inks.rangeDeg;
-    for (const FoundInk& listed : page->inks)
-      if (isSameInk(listed.colour, ink->colour, range)) return listed;
-    return ink;
+    const FoundInk* nearest = nullptr;
+    for (const FoundInk& listed : page->inks) {
+      if (!isSameInk(listed.colour, ink->colour, range)) continue;
+      if (!nearest || hueApartDeg(listed.colour, ink->colour) < hueApartDeg(nearest->colour, ink->colour))
+        nearest = &listed;
+    }
+    return nearest ? std::optional(*nearest) : ink;
   }
 
   void show(const ToolEvent& event) {
@@ -137,7 +150,7 @@ class InkTool final : public CanvasTool {
     if (!isTraced(ink.colour, scene_.session.recipe().preparation.inks))
       return inkToolText("%1, excluded: click to trace it again").arg(name);
     if (isOnlyInk(scene_.session, ink.colour))
-      return inkToolText("%1, traced alone: Shift+click to trace all inks").arg(name);
+      return inkToolText("%1, traced alone: Shift+click to trace the others, too").arg(name);
     return inkToolText("%1: click to exclude it, Shift+click to trace it alone").arg(name);
   }
 

@@ -50,10 +50,11 @@ void keepOnlyInk(EditorSession& session, const InkColour& ink) {
   Recipe after = session.recipe();
   InkChoice& inks = after.preparation.inks;
   const bool isUndone = isOnlyInk(session, ink);
-  inks.drop.clear();
+  // What was left out before stays out when the others come back.
+  std::erase_if(inks.drop, [&](const InkColour& c) { return isSameInk(c, ink, inks.rangeDeg); });
   inks.keep.clear();
   if (!isUndone) inks.keep.push_back(ink);
-  session.change(isUndone ? inkText("Trace all inks") : inkText("Trace one ink alone"), std::move(after));
+  session.change(isUndone ? inkText("Trace the other inks, too") : inkText("Trace one ink alone"), std::move(after));
 }
 
 }  // namespace batten

@@ -45,13 +45,14 @@ void ExplainedPanel::refresh() {
            : session_.explanation().isComputing() ? QStringLiteral("…")
                                                   : QStringLiteral("–");
   };
-  const Explanation e = found ? *found : Explanation{};
+  static const Explanation none;
+  const Explanation& e = found ? *found : none;
   if (isShown)
     figures_->setRows(
         {{tr("Ink explained"),
           {{percent(e.explained, 1), !e.isExplained()}},
           tr("Share of the ink, found at a fixed low contrast, that lies within reach of the curves drawn with the "
-             "widths of their strokes. Expected: %1 % of pen, %2 % of pencil.")
+             "widths of their strokes. Expected: at least %1 % of pen, %2 % of pencil.")
               .arg(100.0 * kLeastExplainedPen)
               .arg(100.0 * kLeastExplainedPencil)},
          {tr("Missed (orange)"), {{percent(e.missed, 1), !e.isExplained()}}, tr("The rest of the ink.")},
