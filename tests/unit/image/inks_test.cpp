@@ -77,7 +77,8 @@ TEST(Inks, ArePickedWhereTheyLie) {
     const auto found = picker.inkAt(px, kReachPx);
     return found && isSameInk(found->colour, ink.colour, kRangeDeg);
   };
-  EXPECT_TRUE(picks({150, 245}, all[1])) << "beside a blue stroke";
+  EXPECT_TRUE(picks({200, 245}, all[1])) << "beside a blue stroke";
+  EXPECT_TRUE(picks({150, 245}, all[0])) << "between a blue and a black stroke, nearer to the black one";
   EXPECT_TRUE(picks({100, 97}, all[2])) << "on the red one";
   EXPECT_TRUE(picks({90, 298}, all[0])) << "on the black one";
   EXPECT_FALSE(picker.inkAt({440, 180}, kReachPx)) << "paper";
