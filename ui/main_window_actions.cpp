@@ -274,7 +274,7 @@ void MainWindow::connectLayers() {
     connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] {
       // What the pen draws, and which line is meant, can only be seen where curves are shown.
       if (tool == Tool::Pen && !view_.isVisible(Layer::Curve)) setStage(PanelStage::Edges);
-      if (tool == Tool::Junctions) setStage(PanelStage::Edges);
+      if (tool == Tool::Junctions || tool == Tool::Paint) setStage(PanelStage::Edges);
       if (tool == Tool::Scale || tool == Tool::Sheet || tool == Tool::Ink) setStage(PanelStage::Scan);
       if (tool == Tool::Direction && !view_.isVisible(Layer::Curve) && !view_.isVisible(Layer::Faired))
         setStage(PanelStage::Export);

@@ -29,6 +29,20 @@ struct EdgeChoice {
 };
 std::optional<Error> validate(const EdgeChoice&);
 
+/// Ink that the user has painted as strokes or as a shape, whatever it is told to be: all of it within a distance of a
+/// course. It is tied to places so that it survives changes of the mask. Where several overlap the last one counts.
+struct PaintedInk {
+  std::vector<Vec2> coursePx;         ///< At least one place.
+  double radiusPx = 12.0;             ///< [px] 0.5..1000
+  EdgeMode mode = EdgeMode::Outline;  ///< Automatic: as the page again.
+  bool operator==(const PaintedInk& o) const {
+    return coursePx == o.coursePx && radiusPx == o.radiusPx && mode == o.mode;
+  }
+};
+std::optional<Error> validate(const PaintedInk&);
+/// [px] Its radius on a page of another scale, as far as it is allowed.
+double scaledRadius(const PaintedInk&, double scale);
+
 /// Two branches of a junction that are one stroke, each by a place on it. [px]
 struct BranchPair {
   Vec2 firstPx = Vec2::Zero(), secondPx = Vec2::Zero();

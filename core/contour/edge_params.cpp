@@ -13,6 +13,9 @@ std::optional<Error> validate(const EdgeParams& p) {
   for (const EdgeChoice& choice : p.choices) {
     if (auto error = validate(choice)) return error;
   }
+  for (const PaintedInk& painted : p.painted) {
+    if (auto error = validate(painted)) return error;
+  }
   for (const JunctionChoice& choice : p.junctions) {
     if (auto error = validate(choice)) return error;
   }

@@ -35,6 +35,10 @@ EdgeParams onFinePage(EdgeParams edges) {
     choice.positionPx *= kFineFactor;
     choice.reachPx *= kFineFactor;
   }
+  for (PaintedInk& painted : edges.painted) {
+    painted.radiusPx *= kFineFactor;
+    for (Vec2& place : painted.coursePx) place *= kFineFactor;
+  }
   for (JunctionChoice& choice : edges.junctions) {
     choice.positionPx *= kFineFactor;
     choice.reachPx *= kFineFactor;

@@ -13,6 +13,7 @@
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/label/ink_labels.h"
+#include "core/contour/painted_ink.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/fine_page.h"
 
@@ -63,23 +64,30 @@ void move(const BitImage& ink, const InkRun& run, bool isShape, InkSplit& split)
   copyBits(ink, run, isShape ? split.shapes : split.strokes);
 }
 
-RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunContext& context) {
+RunPieces regionsOf(const InkSplit& split, const RunContext& context) {
   struct Marked {
     InkRun run;
-    std::pair<bool, int> region;
+    std::pair<int, int> region;  // of which picture, and its piece there
   };
   std::vector<Marked> marked;
-  for (const bool isShape : {false, true}) {
-    const RunPieces pieces = findPieces(isShape ? shapes : strokes, Connectivity::Eight, context);
+  std::vector<BitImage> kinds = {split.strokes, split.shapes};
+  if (split.painted.width > 0) {
+    for (int i = 0; i < 2; ++i) {
+      kinds.push_back(both(kinds[i], split.painted));
+      kinds[i] = without(std::move(kinds[i]), split.painted);
+    }
+  }
+  for (int kind = 0; kind < std::ssize(kinds); ++kind) {
+    const RunPieces pieces = findPieces(kinds[kind], Connectivity::Eight, context);
     if (context.isCancelled()) return {};
-    for (std::size_t i = 0; i < pieces.runs.size(); ++i) marked.push_back({pieces.runs[i], {isShape, pieces.piece[i]}});
+    for (std::size_t i = 0; i < pieces.runs.size(); ++i) marked.push_back({pieces.runs[i], {kind, pieces.piece[i]}});
   }
   std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {
     return a.run.y != b.run.y ? a.run.y < b.run.y : a.run.x0 < b.run.x0;
   });
   RunPieces regions;
   if (context.isCancelled()) return regions;
-  std::map<std::pair<bool, int>, int> first;
+  std::map<std::pair<int, int>, int> first;
   for (const Marked& m : marked) {
     regions.piece.push_back(first.try_emplace(m.region, static_cast<int>(regions.runs.size())).first->second);
     regions.runs.push_back(m.run);
@@ -168,8 +176,9 @@ Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const Edge
   } else if (auto done = splitByLabel(ink, grey, params, page, split, context); !done) {
     return fail(done.error());
   }
+  if (!params.painted.empty()) split.painted = applyPaint(params.painted, split.strokes, split.shapes, context);
   if (params.choices.empty()) return split;
-  split.regions = regionsOf(split.strokes, split.shapes, context);
+  split.regions = regionsOf(split, context);
   if (context.isCancelled()) return cancelled();
   const ChosenInk chosen(split.regions, params.choices);
   for (std::size_t i = 0; i < split.regions.runs.size(); ++i) {

@@ -194,8 +194,9 @@ BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgePar
   return chosenBlots;
 }
 
-// What the user turned over to be followed along its middle is.
-BitImage notChosen(BitImage fillings, const RunPieces& regions, const EdgeParams& edges) {
+// What the user turned over or painted to be followed along its middle is.
+BitImage notChosen(BitImage fillings, const RunPieces& regions, const BitImage& painted, const EdgeParams& edges) {
+  if (painted.width > 0) fillings = without(std::move(fillings), painted);
   const ChosenInk chosen(regions, edges.choices);
   for (std::size_t i = 0; i < regions.runs.size(); ++i) {
     if (chosen.choiceOf(regions.piece[i])) clearBits(fillings, regions.runs[i]);
@@ -207,7 +208,7 @@ BitImage notChosen(BitImage fillings, const RunPieces& regions, const EdgeParams
 Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page, const EdgeParams& edges,
                              const ContourParams& params, const RunContext& context) {
   FoundLines found;
-  if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
+  if (edges.mode == EdgeMode::Outline && edges.choices.empty() && edges.painted.empty()) {
     Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, std::nullopt, nullptr, context);
     if (!borders) return fail(borders.error());
     found.set = std::move(*borders);
@@ -227,10 +228,11 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   if (edges.mode == EdgeMode::Centreline) {
     found.blots = chosenOf(found.blots, found.regions, edges);
   } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {
-    found.blots =
-        either(std::move(found.blots), notChosen(findFillings(*split, *lines, context), found.regions, edges));
+    found.blots = either(std::move(found.blots),
+                         notChosen(findFillings(*split, *lines, context), found.regions, split->painted, edges));
   }
   if (context.isCancelled()) return cancelled();
+  const bool isPaintedInVain = split->painted.width > 0 && both(found.blots, split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
   const BitImage grainy = split->pencil.width > 0 ? without(std::move(split->pencil), found.blots) : BitImage();
@@ -249,6 +251,9 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
   lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
   append(found.set, std::move(*lines));
+  if (isPaintedInVain)
+    addNote(found.set,
+            "Ink that was painted for a centre line is too short and wide for one: it was traced by its outline.");
   return found;
 }
 
@@ -296,7 +301,8 @@ double explainedInk(const ContourSet& set, const BitImage& ink) {
 bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
   constexpr double kLeastExplained = 0.5;  // of the ink
   if (set.contours.empty()) return true;
-  if (edges.mergeWidths > 0.0 || edges.intent || !edges.choices.empty() || hasOwnLengths(params)) return false;
+  const bool isChosen = !edges.choices.empty() || !edges.painted.empty();
+  if (edges.mergeWidths > 0.0 || edges.intent || isChosen || hasOwnLengths(params)) return false;
   return explainedInk(set, ink) < kLeastExplained;
 }
 

@@ -127,8 +127,8 @@ TEST_F(BadInput, PlacesOffEveryPageAreRefused) {
        {R"("corners":[[1e10,3.0]])", R"("corners":[{"at":[1e10,3],"round":2}])", R"("segment_points":[[1e10,3]])",
         R"("extrema":[{"at":[-1e300,3],"keep":true}])", R"("regions":[[[0,0],[9,1e10],[9,9]]])",
         R"("strokes":[{"points":[[1,1],[5,1e10]]}])", R"("ways":[{"at":[1e10,3],"mode":"outline"}])",
-        R"("choices":[{"anchor":[1e10,3]}])", R"("choices":[{"anchor":[1,1],"keep":[[1e10,3]]}])",
-        R"("choices":[{"anchor":[1,1],"splits":[[0,-1e10]]}])"}) {
+        R"("painted":[{"mode":"outline","radius":3,"course":[[1,1],[1,1e10]]}])", R"("choices":[{"anchor":[1e10,3]}])",
+        R"("choices":[{"anchor":[1,1],"keep":[[1e10,3]]}])", R"("choices":[{"anchor":[1,1],"splits":[[0,-1e10]]}])"}) {
     write("far.json", R"({"format":"batten-recipe","version":1,)" + entry + "}");
     expectError(start + "--recipe " + file("far.json"), 2, "1000000 px");
   }

@@ -33,12 +33,13 @@ constexpr int kFlashMs = 350;
 }  // namespace
 
 CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
-    : CanvasScene(s, v),
-      canvas(owner),
-      tools{makeSelectTool(*this),  makeThresholdTool(*this), makeCornerTool(*this),        makePenTool(*this),
-            makeSegmentTool(*this), makeLinesTool(*this),     makeRegionTool(*this, false), makeRegionTool(*this, true),
-            makeScaleTool(*this),   makeDirectionTool(*this), makeJunctionTool(*this),      makeSheetTool(*this),
-            makeInkTool(*this)} {
+    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this),        makeThresholdTool(*this),
+                                              makeCornerTool(*this),        makePenTool(*this),
+                                              makeSegmentTool(*this),       makeLinesTool(*this),
+                                              makeRegionTool(*this, false), makeRegionTool(*this, true),
+                                              makeScaleTool(*this),         makeDirectionTool(*this),
+                                              makeJunctionTool(*this),      makeSheetTool(*this),
+                                              makeInkTool(*this),           makePaintTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;

@@ -79,6 +79,7 @@ enum class ActionId {
   ToolJunctions,
   ToolSheet,
   ToolInk,
+  ToolPaint,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

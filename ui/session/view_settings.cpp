@@ -144,6 +144,21 @@ void ViewSettings::setSheetCorners(const std::optional<SheetCorners>& corners) {
   emit changed();
 }
 
+void ViewSettings::setPaintedMode(EdgeMode mode) {
+  if (paintedMode_ == mode) return;
+  paintedMode_ = mode;
+  emit changed();
+}
+
+void ViewSettings::setBrushPx(double px) {
+  constexpr double kLeastPx = 2.0, kMostPx = 100.0;
+  if (!std::isfinite(px)) return;
+  const double bounded = std::clamp(px, kLeastPx, kMostPx);
+  if (brushPx_ == bounded) return;
+  brushPx_ = bounded;
+  emit changed();
+}
+
 void ViewSettings::setScanOnly(bool scanOnly) {
   if (scanOnly_ == scanOnly) return;
   scanOnly_ = scanOnly;

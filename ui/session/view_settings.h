@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/vec2.h"
+#include "core/contour/edge_choices.h"
 #include "core/curve/closest_point.h"
 #include "core/image/rectification.h"
 
@@ -56,10 +57,11 @@ enum class Tool {
   Junctions,   ///< Click on a junction pairs its strokes in the next way; click on two branches pairs these.
   Sheet,       ///< Drag moves the corners of the sheet by which the page is to be rectified.
   Ink,         ///< Click on an ink leaves it out or traces it again.
+  Paint,       ///< Drag paints the trace mode of ink.
 };
 inline constexpr std::array kTools = {Tool::Select,    Tool::Thresholds, Tool::Corners, Tool::Pen,   Tool::Segments,
                                       Tool::Lines,     Tool::Rectangle,  Tool::Lasso,   Tool::Scale, Tool::Direction,
-                                      Tool::Junctions, Tool::Sheet,      Tool::Ink};
+                                      Tool::Junctions, Tool::Sheet,      Tool::Ink,     Tool::Paint};
 
 /// Its place in arrays with one entry a tool.
 constexpr std::size_t indexOf(Tool tool) { return static_cast<std::size_t>(tool); }
@@ -110,6 +112,11 @@ class ViewSettings : public QObject {
   const std::optional<SheetCorners>& sheetCorners() const { return sheetCorners_; }
   void setSheetCorners(const std::optional<SheetCorners>&);
   void requestRectify() { emit rectifyRequested(); }
+  /// What the brush of Tool::Paint makes of ink.
+  EdgeMode paintedMode() const { return paintedMode_; }
+  void setPaintedMode(EdgeMode);
+  double brushPx() const { return brushPx_; }  ///< [widget px] 2..100, its radius.
+  void setBrushPx(double);
   bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
   void setScanOnly(bool);
 
@@ -131,6 +138,8 @@ class ViewSettings : public QObject {
   double suggestionScalePx_ = 14.0;
   std::optional<Measure> measure_;
   std::optional<SheetCorners> sheetCorners_;
+  EdgeMode paintedMode_ = EdgeMode::Outline;
+  double brushPx_ = 12.0;
   bool scanOnly_ = false, showsUniform_ = false, maskUncleaned_ = false;
   bool combShowsRadius_ = false, radiusIsLinear_ = false;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/recipe_json.h"
 
 namespace batten {
@@ -84,6 +85,35 @@ Result<bool> readJunctions(const Json& json, Recipe& recipe) {
   return true;
 }
 
+/// {"mode": "outline", "radius": 12, "course": [[x, y], ...]}
+Result<bool> readPainted(const Json& json, Recipe& recipe) {
+  const auto damaged = [] {
+    return refuseRecipe(
+        "The recipe is damaged: an entry of \"painted\" must have \"mode\", \"radius\" and \"course\" only.");
+  };
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"painted\" is not a list.");
+  for (const Json& entry : json) {
+    const bool isWhole = entry.is_object() && entry.size() == 3 && entry.contains("mode") && entry.contains("radius") &&
+                         entry.contains("course");
+    auto course = isWhole ? pairsFromJson(entry["course"]) : std::nullopt;
+    Recipe named;
+    if (!course || !entry["radius"].is_number() || !entry["mode"].is_string() ||
+        !setParameter(named, "edges.mode", entry["mode"].get<std::string>()))
+      return damaged();
+    recipe.edges.painted.push_back({std::move(*course), entry["radius"].get<double>(), named.edges.mode});
+  }
+  return true;
+}
+
+Json paintedToJson(const PaintedInk& painted) {
+  Recipe named;
+  named.edges.mode = painted.mode;
+  Json course = Json::array();
+  for (const Vec2& p : painted.coursePx) course.push_back(pairToJson(p));
+  return {
+      {"mode", findParameter("edges.mode")->get(named)}, {"radius", painted.radiusPx}, {"course", std::move(course)}};
+}
+
 Json junctionToJson(const JunctionChoice& choice) {
   Json pairs = Json::array();
   for (const BranchPair& pair : choice.pairs) pairs.push_back({pairToJson(pair.firstPx), pairToJson(pair.secondPx)});
@@ -97,6 +127,7 @@ Result<bool> readPlacedMark(const std::string& name, const Json& value, Recipe& 
   if (name == "directions") return readDirections(value, recipe);
   if (name == "starts") return readStarts(value, recipe);
   if (name == "junctions") return readJunctions(value, recipe);
+  if (name == "painted") return readPainted(value, recipe);
   return false;
 }
 
@@ -107,6 +138,7 @@ void addPlacedMarks(const Recipe& recipe, Json& json) {
     json["directions"].push_back({{"at", pairToJson(mark.positionPx)}, {"towards", pairToJson(mark.towardsPx)}});
   for (const StartMark& mark : recipe.starts) json["starts"].push_back(pairToJson(mark.positionPx));
   for (const JunctionChoice& choice : recipe.edges.junctions) json["junctions"].push_back(junctionToJson(choice));
+  for (const PaintedInk& painted : recipe.edges.painted) json["painted"].push_back(paintedToJson(painted));
 }
 
 }  // namespace batten

@@ -38,6 +38,9 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
   for (const EdgeChoice& choice : recipe.edges.choices) {
     if (!isPlace(choice.positionPx)) return badPlace("A trace mode choice");
   }
+  for (const PaintedInk& painted : recipe.edges.painted) {
+    if (!arePlaces(painted.coursePx)) return badPlace("A place of painted ink");
+  }
   for (const JunctionChoice& choice : recipe.edges.junctions) {
     const auto arePlacesOf = [](const BranchPair& pair) { return isPlace(pair.firstPx) && isPlace(pair.secondPx); };
     if (!isPlace(choice.positionPx) || !std::ranges::all_of(choice.pairs, arePlacesOf))
@@ -105,6 +108,7 @@ std::optional<Error> validateCounts(const Recipe& recipe) {
                                     {recipe.choices.size(), "choices for curves"},
                                     {recipe.extremumChoices.size(), "choices for curvature extrema"},
                                     {recipe.edges.choices.size(), "trace mode choices"},
+                                    {recipe.edges.painted.size(), "strokes of the trace mode brush"},
                                     {recipe.edges.junctions.size(), "paired junctions"},
                                     {recipe.regions.size(), "regions"},
                                     {recipe.directions.size(), "directions of curves"},

@@ -41,6 +41,7 @@ void movePlaces(Recipe& recipe, const std::function<Vec2(const Vec2&)>& move) {
   for (PenStroke& stroke : recipe.penStrokes) moveAll(stroke.points);
   for (RegionOfInterest& region : recipe.regions) moveAll(region.cornersPx);
   for (EdgeChoice& choice : recipe.edges.choices) moveOne(choice.positionPx);
+  for (PaintedInk& painted : recipe.edges.painted) moveAll(painted.coursePx);
   for (JunctionChoice& choice : recipe.edges.junctions) {
     moveOne(choice.positionPx);
     for (BranchPair& pair : choice.pairs) {
@@ -84,12 +85,14 @@ Recipe rectifiedRecipe(Recipe recipe, const std::optional<Rectification>& before
                        const std::optional<Rectification>& after, const RectifyParams& params) {
   if (!isSamePage(before, after)) movePlaces(recipe, BetweenPages(before, after));
   recipe.preparation.rectify = params;
+  const double scale = (after ? after->scale : 1.0) / (before ? before->scale : 1.0);
+  for (PaintedInk& painted : recipe.edges.painted) painted.radiusPx = scaledRadius(painted, scale);
   if (recipe.scaleLine)
     setScaleLine(recipe, ScaleLine(*recipe.scaleLine));
   else if (after && after->dpi)
     recipe.dpi.reset();
   else if (recipe.dpi)
-    *recipe.dpi *= (after ? after->scale : 1.0) / (before ? before->scale : 1.0);
+    *recipe.dpi *= scale;
   return recipe;
 }
 

@@ -120,6 +120,12 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
         add(h, choice.positionPx);
         h.integer(static_cast<int>(choice.mode));
       }
+      addCount(h, r.edges.painted);
+      for (const PaintedInk& painted : r.edges.painted) {
+        addCount(h, painted.coursePx);
+        for (const Vec2& p : painted.coursePx) add(h, p);
+        h.number(painted.radiusPx).integer(static_cast<int>(painted.mode));
+      }
       addCount(h, r.edges.junctions);
       for (const JunctionChoice& choice : r.edges.junctions) {
         add(h, choice.positionPx);

@@ -24,6 +24,7 @@ Recipe withAllPlaces() {
   recipe.penStrokes.push_back({{Vec2(100, 110), Vec2(120, 130)}, false});
   recipe.regions.push_back({{Vec2(10, 10), Vec2(400, 12), Vec2(300, 420)}});
   recipe.edges.choices.push_back({Vec2(31, 41), EdgeMode::Outline});
+  recipe.edges.painted.push_back({{Vec2(35, 45), Vec2(36, 47)}, 6.0, EdgeMode::Centreline});
   recipe.edges.junctions.push_back({Vec2(55, 66), {{Vec2(50, 60), Vec2(60, 70)}}});
   recipe.cornerMarks.push_back({Vec2(77, 88)});
   recipe.refusedCornersPx.emplace_back(79, 89);
@@ -70,7 +71,7 @@ TEST(RecipePlaces, NoPlaceIsForgotten) {
     EXPECT_EQ(movedNumbers.at(name).get<double>(), value.get<double>() + step) << name;
     places += pointer.back() == "0" ? 1 : 0;
   }
-  EXPECT_EQ(places, 23) << "of withAllPlaces()";
+  EXPECT_EQ(places, 25) << "of withAllPlaces()";
 }
 
 TEST(RecipePlaces, AreOnTheSameInkOfARectifiedPageAndComeBack) {
@@ -84,6 +85,8 @@ TEST(RecipePlaces, AreOnTheSameInkOfARectifiedPageAndComeBack) {
   const Recipe back = rectifiedRecipe(other, second, std::nullopt, {});
   EXPECT_LT((back.choices[0].splitsPx[0] - Vec2(205, 206)).norm(), 1e-7);
   EXPECT_NEAR(*back.dpi, 300.0, 1e-6) << "measured anew on the same line";
+  EXPECT_NEAR(rectified.edges.painted[0].radiusPx, 6.0 * first.scale, 1e-9) << "as wide on the ink";
+  EXPECT_NEAR(back.edges.painted[0].radiusPx, 6.0, 1e-9);
   EXPECT_FALSE(validate(rectified));
 }
 

@@ -26,6 +26,9 @@ inline QColor pinned() { return {132, 58, 186}; }  ///< A result set aside.
 inline QColor uniform() { return {200, 112, 0}; }  ///< A control polygon without repeated knots.
 inline QColor pen() { return {60, 60, 72, 150}; }  ///< What was drawn by hand.
 inline QColor segment() { return {20, 130, 80}; }
+inline QColor strokeInk() { return {0, 128, 132}; }    ///< Ink that is traced by its centre line,
+inline QColor shapeInk() { return {206, 104, 0}; }     ///< by its outline,
+inline QColor pageInk() { return {110, 110, 118}; }    ///< or as the page.
 inline QColor invented() { return {190, 0, 140}; }     ///< A stretch of a curve without ink.
 inline QColor ruling() { return {70, 150, 210, 70}; }  ///< A printed line that was left out.
 inline QColor grid() { return {40, 40, 40, 70}; }

@@ -61,5 +61,6 @@ std::unique_ptr<CanvasTool> makeDirectionTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeJunctionTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeSheetTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeInkTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makePaintTool(CanvasScene&);
 
 }  // namespace batten

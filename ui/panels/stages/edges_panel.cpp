@@ -14,6 +14,7 @@
 #include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/line_trace_mode.h"
 #include "ui/panels/stages/merge_suggestion.h"
+#include "ui/panels/stages/paint_controls.h"
 #include "ui/panels/stages/pen_panel.h"
 #include "ui/session/edits/junction_edits.h"
 #include "ui/session/edits/region_edits.h"
@@ -41,9 +42,11 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
        "edges.merge", "edges.intent", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
       this);
   editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
-  tracing_ = {editor, new LineTraceMode(session, this), caption(tr("Lines found"), this), figures_};
+  auto* paint = new PaintControls(session, view, this);
+  tracing_ = {editor, new LineTraceMode(session, this), caption(tr("Lines found"), this), figures_, paint};
   layout->addWidget(tracing_[0]);
   layout->addWidget(tracing_[1]);
+  layout->addWidget(paint);
   buildChoice();
   buildJunctions();
   layout->addWidget(tracing_[2]);

@@ -3,6 +3,9 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <utility>
+
+#include "core/contour/painted_ink.h"
 
 namespace batten {
 
@@ -47,6 +50,29 @@ void chooseTraceMode(EditorSession& session, std::optional<int> curve, EdgeMode 
                  : mode == EdgeMode::Outline ? QCoreApplication::translate("WayEdits", "Trace outline of line")
                                              : QCoreApplication::translate("WayEdits", "Trace centre of line"),
                  std::move(after));
+}
+
+bool paintTraceMode(EditorSession& session, PaintedInk painted) {
+  if (validate(painted)) return false;
+  Recipe after = session.recipe();
+  const auto forgotten =
+      std::erase_if(after.edges.choices, [&](const EdgeChoice& c) { return isUnder(painted, c.positionPx); });
+  const EdgeMode mode = painted.mode;
+  if (mode != EdgeMode::Automatic || !after.edges.painted.empty())
+    after.edges.painted.push_back(std::move(painted));
+  else if (forgotten == 0)
+    return false;
+  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("WayEdits", "Paint as the page")
+                 : mode == EdgeMode::Outline ? QCoreApplication::translate("WayEdits", "Paint outline")
+                                             : QCoreApplication::translate("WayEdits", "Paint centre line"),
+                 std::move(after));
+  return true;
+}
+
+void forgetPainted(EditorSession& session) {
+  Recipe after = session.recipe();
+  after.edges.painted.clear();
+  session.change(QCoreApplication::translate("WayEdits", "Forget what was painted"), std::move(after));
 }
 
 }  // namespace batten

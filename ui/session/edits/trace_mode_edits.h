@@ -15,5 +15,10 @@ const Contour* tracedLineOf(const EditorSession& session, std::optional<int> cur
 EdgeMode traceModeOf(const EditorSession& session, std::optional<int> curve);
 /// Sets the trace mode of a curve's ink, overriding the page; Automatic removes the choice.
 void chooseTraceMode(EditorSession& session, std::optional<int> curve, EdgeMode mode);
+/// Paints the trace mode of ink; Automatic is the page's again. Choices made by a click on it before are forgotten.
+/// @return false, and nothing happens, where the course is no valid one.
+bool paintTraceMode(EditorSession& session, PaintedInk painted);
+/// Nothing is painted any more.
+void forgetPainted(EditorSession& session);
 
 }  // namespace batten
