@@ -36,7 +36,7 @@ EdgeParams onFinePage(EdgeParams edges) {
     choice.reachPx *= kFineFactor;
   }
   for (PaintedInk& painted : edges.painted) {
-    painted.radiusPx *= kFineFactor;
+    painted.radiusPx = scaledRadius(painted, kFineFactor);
     for (Vec2& place : painted.coursePx) place *= kFineFactor;
   }
   for (JunctionChoice& choice : edges.junctions) {
