@@ -2,6 +2,7 @@
 #include "core/curve/sample_tree.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace batten {
@@ -20,38 +21,37 @@ double distanceToChord(const Vec2& p, const Vec2& a, const Vec2& b) {
 }  // namespace
 
 SampleTree::SampleTree(std::vector<CurvePlace> places) : places_(std::move(places)) {
-  sorted_.reserve(places_.size());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const Vec2 &before = places_[i > 0 ? i - 1 : i].point, &behind = places_[std::min(i + 1, places_.size() - 1)].point;
-    sorted_.push_back({before, places_[i].point, behind, places_[i].bulge, i});
-  }
+  order_.resize(places_.size());
+  std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(4 * places_.size() / kLeafSize + 1);
   build(0, places_.size());
 }
 
 void SampleTree::build(std::size_t first, std::size_t last) {
   const std::size_t index = nodes_.size();
-  const Vec2& any = sorted_[first].point;
-  Node node{{any, any}, {any, any}, 0.0, first, last, 0, last - first <= kLeafSize};
+  const Vec2& any = places_[order_[first]].point;
+  const auto number = [](std::size_t k) { return static_cast<std::uint32_t>(k); };
+  Node node{{any, any}, {any, any}, 0.0, number(first), number(last), 0, last - first <= kLeafSize};
   for (std::size_t k = first; k < last; ++k) {
-    const Sorted& one = sorted_[k];
-    node.places.add(one.point);
-    for (const Vec2& end : {one.before, one.point, one.behind}) node.chords.add(end);
-    node.bulge = std::max(node.bulge, one.bulge);
+    const std::size_t i = order_[k];
+    node.places.add(places_[i].point);
+    for (const Vec2& end : {before(i), places_[i].point, behind(i)}) node.chords.add(end);
+    node.bulge = std::max(node.bulge, places_[i].bulge);
   }
   nodes_.push_back(node);
   if (!node.isLeaf) {
     const std::size_t middle = first + (last - first) / 2;
     const Vec2 size = node.places.high - node.places.low;
     const int axis = size.x() >= size.y() ? 0 : 1;
-    const auto at = [&](std::size_t k) { return sorted_.begin() + static_cast<std::ptrdiff_t>(k); };
-    std::nth_element(at(first), at(middle), at(last), [axis](const Sorted& a, const Sorted& b) {
-      return a.point[axis] != b.point[axis] ? a.point[axis] < b.point[axis] : a.index < b.index;
+    const auto at = [&](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::nth_element(at(first), at(middle), at(last), [&](std::uint32_t a, std::uint32_t b) {
+      const double u = places_[a].point[axis], v = places_[b].point[axis];
+      return u != v ? u < v : a < b;
     });
     build(first, middle);
     build(middle, last);
   }
-  nodes_[index].behind = nodes_.size();
+  nodes_[index].behind = number(nodes_.size());
 }
 
 double SampleTree::distanceTo(const Box& box, const Vec2& p) {
@@ -59,8 +59,9 @@ double SampleTree::distanceTo(const Box& box, const Vec2& p) {
   return outside.norm() * (1.0 - kRounding);
 }
 
-double SampleTree::Sorted::distanceToChords(const Vec2& p) const {
-  return std::min(distanceToChord(p, before, point), distanceToChord(p, point, behind)) * (1.0 - kRounding);
+double SampleTree::distanceToChords(std::size_t i, const Vec2& p) const {
+  const Vec2& point = places_[i].point;
+  return std::min(distanceToChord(p, before(i), point), distanceToChord(p, point, behind(i))) * (1.0 - kRounding);
 }
 
 std::size_t SampleTree::nearest(const Vec2& p) const {
@@ -69,8 +70,8 @@ std::size_t SampleTree::nearest(const Vec2& p) const {
   double best = std::numeric_limits<double>::infinity();
   const auto look = [&](const Node& leaf) {
     for (std::size_t k = leaf.first; k < leaf.last; ++k) {
-      const double distance = (sorted_[k].point - p).norm();
-      const std::size_t i = sorted_[k].index;
+      const std::size_t i = order_[k];
+      const double distance = (places_[i].point - p).norm();
       if (distance < best || (distance == best && i < found)) best = distance, found = i;
     }
   };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -24,7 +25,7 @@ class SampleTree {
  public:
   static constexpr std::size_t kFew = 8;
 
-  /// @pre at least one place, all finite.
+  /// @pre at least one place and fewer than 2^32, all finite.
   explicit SampleTree(std::vector<CurvePlace> places);
 
   const std::vector<CurvePlace>& places() const { return places_; }
@@ -45,8 +46,9 @@ class SampleTree {
       }
       if (box.isLeaf) {
         for (std::size_t k = box.first; k < box.last; ++k) {
-          const double distance = sorted_[k].distanceToChords(p) - sorted_[k].bulge;
-          if (distance <= bound()) near.push_back({distance, sorted_[k].index});
+          const std::size_t i = order_[k];
+          const double distance = distanceToChords(i, p) - places_[i].bulge;
+          if (distance <= bound()) near.push_back({distance, i});
         }
       }
       ++node;
@@ -63,14 +65,6 @@ class SampleTree {
   }
 
  private:
-  /// A place with its chords, which are looked at together.
-  struct Sorted {
-    Vec2 before, point, behind;  ///< At the ends of the line the place itself.
-    double bulge;
-    std::size_t index;
-
-    double distanceToChords(const Vec2& p) const;
-  };
   struct Near {
     double distance;  ///< The least that the curve may have there.
     std::size_t index;
@@ -80,21 +74,25 @@ class SampleTree {
     void add(const Vec2& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
   };
   struct Node {
-    Box places;               ///< Around its places.
-    Box chords;               ///< Around these and the chords to their neighbours.
-    double bulge = 0.0;       ///< The largest inside.
-    std::size_t first, last;  ///< Places sorted_[first..last - 1].
-    std::size_t behind;       ///< The node behind this one and all below it.
+    Box places;                 ///< Around its places.
+    Box chords;                 ///< Around these and the chords to their neighbours.
+    double bulge = 0.0;         ///< The largest inside.
+    std::uint32_t first, last;  ///< Places order_[first..last - 1].
+    std::uint32_t behind;       ///< The node behind this one and all below it.
     bool isLeaf = false;
   };
 
+  /// The places before and behind; at the ends of the line the place itself.
+  const Vec2& before(std::size_t i) const { return places_[i > 0 ? i - 1 : i].point; }
+  const Vec2& behind(std::size_t i) const { return places_[std::min(i + 1, places_.size() - 1)].point; }
+  double distanceToChords(std::size_t i, const Vec2& p) const;
   void build(std::size_t first, std::size_t last);
   /// From the box, a little less than exact, so that rounding hides no place.
   static double distanceTo(const Box& box, const Vec2& p);
 
   std::vector<CurvePlace> places_;
-  std::vector<Sorted> sorted_;  ///< The places, box by box.
-  std::vector<Node> nodes_;     ///< Each before those below it, the first half before the second.
+  std::vector<std::uint32_t> order_;  ///< The places, box by box.
+  std::vector<Node> nodes_;           ///< Each before those below it, the first half before the second.
 };
 
 }  // namespace batten

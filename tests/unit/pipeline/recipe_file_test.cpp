@@ -50,7 +50,7 @@ Recipe fullRecipe() {
   r.extremumChoices = {{Vec2(1.0 / 7.0, 300.5), true}, {Vec2(12.25, 1e-3), false}};
   r.regions = {rectangleRegion({1.0 / 3.0, 2.0}, {300.0, 4e2}), {{Vec2(0, 0), Vec2(10.1, 3.3), Vec2(-4, 9)}}};
   r.edges.choices = {{Vec2(1.0 / 3.0, 20.0), EdgeMode::Outline}, {Vec2(300.0, 4e2), EdgeMode::Centreline}};
-  r.edges.painted = {{{Vec2(1.0 / 3.0, 20.0), Vec2(7, 8)}, 1.0 / 3.0, EdgeMode::Centreline},
+  r.edges.painted = {{{Vec2(1.0 / 3.0, 20.0), Vec2(7, 8)}, 4.0 / 3.0, EdgeMode::Centreline},
                      {{Vec2(5, 6)}, 40.0, EdgeMode::Automatic}};
   r.edges.junctions = {{Vec2(1.0 / 3.0, 20.0), {{Vec2(1.0 / 7.0, 2.0), Vec2(3.5, 4e2)}, {Vec2(5, 6), Vec2(7, 8)}}},
                        {Vec2(300.0, 4e2), {}}};
