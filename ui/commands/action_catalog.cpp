@@ -139,7 +139,7 @@ std::vector<ActionInfo> toolActions() {
        tr("Drag the corners onto those of the photographed sheet; Enter makes it a rectangle."), true},
       {ToolInk, "tool-ink", menu, tr("Pick an ink"), keys({"I"}),
        tr("Click an ink of a colour scan to exclude it, or to trace it again; Shift+click traces it alone."), true},
-      {ToolPaint, "tool-paint", menu, tr("Paint trace mode"), keys({"B"}),
+      {ToolPaint, "tool-paint", menu, tr("Trace brush"), keys({"B"}),
        tr("Drag over ink to trace it by its outline or its centre line; [ and ] change the size of the brush."), true},
       {ToolDirection, "tool-direction", menu, tr("Directions"), keys({"F"}),
        tr("Click a curve to reverse its direction; drag the ring of a closed curve to its start "

@@ -108,7 +108,7 @@ std::optional<Error> validateCounts(const Recipe& recipe) {
                                     {recipe.choices.size(), "choices for curves"},
                                     {recipe.extremumChoices.size(), "choices for curvature extrema"},
                                     {recipe.edges.choices.size(), "trace mode choices"},
-                                    {recipe.edges.painted.size(), "strokes of the trace mode brush"},
+                                    {recipe.edges.painted.size(), "strokes of the trace brush"},
                                     {recipe.edges.junctions.size(), "paired junctions"},
                                     {recipe.regions.size(), "regions"},
                                     {recipe.directions.size(), "directions of curves"},

@@ -22,7 +22,7 @@ PaintControls::PaintControls(EditorSession& session, ViewSettings& view, QWidget
     : QWidget(parent),
       session_(session),
       view_(view),
-      paint_(plainButton(tr("Paint trace mode"), QStringLiteral("edges.paint"), this)),
+      paint_(plainButton(tr("Trace brush"), QStringLiteral("edges.paint"), this)),
       forget_(linkButton(tr("Forget painted"), QStringLiteral("edges.forgetPainted"), this)),
       modes_(new SegmentedControl({tr("Outline"), tr("Centre line"), tr("Same as page")}, this)) {
   auto* layout = new QVBoxLayout(this);
