@@ -22,8 +22,8 @@ std::optional<std::uint64_t> residentMemoryBytes(std::int64_t processId);
 /// work that took a lot of it.
 void returnFreeMemory();
 
-/// From here on buffers of the size of a page go back to the system as soon as they are freed, and all threads share two
-/// heaps, where the C library would keep freed buffers of up to 32 MB in as many heaps as there are threads. For a
+/// From here on buffers of the size of a page go back to the system as soon as they are freed, and all threads share
+/// two heaps, where the C library would keep freed buffers of up to 32 MB in as many heaps as there are threads. For a
 /// program that stays open; to be called before the first thread starts.
 void keepFewHeaps();
 

@@ -17,7 +17,7 @@ struct Foot {
   double distance = std::numeric_limits<double>::infinity();
   double kappa = 0.0;
   int piece = 0;
-  double s = 0.0;            ///< [px] along the piece.
+  double s = 0.0;  ///< [px] along the piece.
   Vec2 tangent = Vec2::Zero();
 };
 

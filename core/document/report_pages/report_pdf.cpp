@@ -292,7 +292,8 @@ Result<std::string> reportPdf(const ReportContent& content, ReportPaper paper, c
   const auto failed = [] {
     return fail(ErrorCode::CannotWrite, "The pages of the report could not be made. Write it as .html.");
   };
-  if (content.curves.empty()) return fail(ErrorCode::NoCurve, "There is no curve to report on. Include at least one curve.");
+  if (content.curves.empty())
+    return fail(ErrorCode::NoCurve, "There is no curve to report on. Include at least one curve.");
   if (QCoreApplication::instance() == nullptr) return failed();
   QByteArray bytes;
   QBuffer buffer(&bytes);

@@ -38,8 +38,8 @@ Vec2 anchorOf(const Piece&);
 /// 0.1 px. Of a closed line the first place is also the last.
 std::vector<Vec2> anchorsOf(const Piece&);
 
-/// The choices that compete for a curve's method and detail: those with one, and those made for a part of a line. No others, so
-/// that the curves are not constructed again when those change.
+/// The choices that compete for a curve's method and detail: those with one, and those made for a part of a line. No
+/// others, so that the curves are not constructed again when those change.
 std::vector<PieceChoice> choicesForMethods(const Recipe&);
 
 }  // namespace batten
