@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/image/sheet_levels.h"
 
 namespace batten {
 namespace {
@@ -50,24 +52,6 @@ std::optional<TwoPages> pagesOf(const BitImage& inside) {
   std::ranges::stable_sort(order, [&](int a, int b) { return area(a) > area(b); });
   if (order.size() < 2 || area(order[1]) < kLeastFacingPage * area(order[0])) return std::nullopt;
   return TwoPages{{cv::Mat1b(labels == order[0]), cv::Mat1b(labels == order[1])}};
-}
-
-cv::Mat1f medianLevels(const GreyImage& page, const BitImage& inside, int cellPx, const RunContext& context) {
-  cv::Mat1f levels(inside.height, inside.width, 0.0f);
-  parallelFor(context, inside.height, 8, [&](int begin, int end) {
-    std::vector<float> pixels;
-    for (int j = begin; j < end; ++j) {
-      for (int i = 0; i < inside.width; ++i) {
-        if (!inside.at(i, j)) continue;
-        pixels.clear();
-        for (int y = j * cellPx; y < (j + 1) * cellPx; ++y) {
-          for (int x = i * cellPx; x < (i + 1) * cellPx; ++x) pixels.push_back(static_cast<float>(page.row(y)[x]));
-        }
-        levels(j, i) = upperMedian(pixels);
-      }
-    }
-  });
-  return levels;
 }
 
 /// Where a cell lies as seen from the gutter, in cells.
@@ -205,42 +189,36 @@ bool isFacingPage(const cv::Mat1b& page, const cv::Mat1b& sheet, const SheetCell
   return shaded.isDrawnOn(page);
 }
 
-GreyImage pagesOnOneLevel(const GreyImage& page, const BitImage& inside, int cellPx, const RunContext& context) {
-  GreyImage out = page;
+std::optional<GreyImage> pagesOnOneLevel(const GreyImage& page, const BitImage& inside, int cellPx,
+                                         const RunContext& context) {
   const std::optional<TwoPages> pages = pagesOf(inside);
-  if (!pages) return out;
-  const cv::Mat1f levels = medianLevels(page, inside, cellPx, context);
-  if (context.isCancelled()) return out;
+  if (!pages) return std::nullopt;
+  std::vector<float> levels = levelsOfCells(page, inside, cellPx, context);
+  if (context.isCancelled()) return std::nullopt;
+  const cv::Mat1f ofCells(inside.height, inside.width, levels.data());
   std::vector<float> all;
-  for (const float level : levels)
-    if (level > 0.0f) all.push_back(level);
+  std::ranges::copy_if(levels, std::back_inserter(all), [](float level) { return level > 0.0f; });
   const float target = upperMedian(all);
-  cv::Mat1f gain(levels.size(), 1.0f);
+  std::vector<float> gain(levels.size(), 1.0f);
   for (const int k : {0, 1}) {
-    const GutterShading shading(levels, pages->masks[k], pages->masks[1 - k]);
+    const GutterShading shading(ofCells, pages->masks[k], pages->masks[1 - k]);
     // One cell farther, for the values between cells.
     cv::Mat1b around;
     cv::dilate(pages->masks[k], around, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
-    for (int j = 0; j < gain.rows; ++j) {
-      for (int i = 0; i < gain.cols; ++i) {
+    for (int j = 0; j < inside.height; ++j) {
+      for (int i = 0; i < inside.width; ++i) {
         const float level = around(j, i) != 0 ? shading.at(i, j) : 0.0f;
-        if (level > 0.0f) gain(j, i) = target / level;
+        if (level > 0.0f) gain[std::ptrdiff_t{j} * inside.width + i] = target / level;
       }
     }
   }
+  GreyImage out = page;
   parallelFor(context, page.height, kRowsPerBlock, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const double v = std::clamp((y + 0.5) / cellPx - 0.5, 0.0, gain.rows - 1.0);
-      const int j = std::min(static_cast<int>(v), gain.rows - 2);
-      for (int x = 0; x < page.width; ++x) {
-        const double u = std::clamp((x + 0.5) / cellPx - 0.5, 0.0, gain.cols - 1.0);
-        const int i = std::min(static_cast<int>(u), gain.cols - 2);
-        const auto at = [&](int a, int b) { return static_cast<double>(gain(b, a)); };
-        const double above = std::lerp(at(i, j), at(i + 1, j), u - i);
-        const double below = std::lerp(at(i, j + 1), at(i + 1, j + 1), u - i);
-        const double value = page.row(y)[x] * std::lerp(above, below, v - j);
-        out.row(y)[x] = static_cast<std::uint16_t>(std::clamp(value, 0.0, 65535.0));
-      }
+      const RowBetweenCells row(gain, inside.width, cellPx, y);
+      std::uint16_t* at = out.row(y);
+      for (int x = 0; x < page.width; ++x)
+        at[x] = static_cast<std::uint16_t>(std::clamp(at[x] * row.at(x), 0.0, 65535.0));
     }
   });
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "core/base/run_context.h"
 #include "core/image/bits/bit_image.h"
@@ -21,7 +22,8 @@ bool isFacingPage(const cv::Mat1b& page, const cv::Mat1b& sheet, const SheetCell
 /// The pages of an open book on one level of brightness: towards the gutter paper bends away and dims, on one page more
 /// than on the other. What is taken out depends on the distance from the gutter and changes slowly along it, so that
 /// shading that was drawn stays.
-/// @param inside the pages, in squares of cellPx; with other than two pages the picture is returned as it is.
-GreyImage pagesOnOneLevel(const GreyImage& page, const BitImage& inside, int cellPx, const RunContext& context);
+/// @param inside the pages, in squares of cellPx. Absent: there are not two pages, or the run was cancelled.
+std::optional<GreyImage> pagesOnOneLevel(const GreyImage& page, const BitImage& inside, int cellPx,
+                                         const RunContext& context);
 
 }  // namespace batten

@@ -14,6 +14,7 @@
 #include "core/image/shaded_paper.h"
 #include "core/image/sheet_cells.h"
 #include "core/image/sheet_edges.h"
+#include "core/image/sheet_levels.h"
 
 namespace batten {
 namespace {
@@ -154,12 +155,19 @@ cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
   return out;
 }
 
+/// The outermost cells.
+cv::Mat1b borderOf(const cv::Size& size) {
+  cv::Mat1b border(size, 255);
+  border(cv::Rect(1, 1, size.width - 2, size.height - 2)) = 0;
+  return border;
+}
+
 /// What lies beside the sheet without what hangs on it by a narrow neck only: a shape whose outline was drawn up to the
 /// edge of the sheet encloses paper.
 cv::Mat1b withoutPockets(const cv::Mat1b& beside) {
   const cv::Mat disc = discOf(beside.size(), kPocketNeckShare);
-  cv::Mat1b core, table, broad, border(beside.size(), 255);
-  border(cv::Rect(1, 1, beside.cols - 2, beside.rows - 2)) = 0;
+  const cv::Mat1b border = borderOf(beside.size());
+  cv::Mat1b core, table, broad;
   cv::erode(beside, core, disc, {-1, -1}, 1, cv::BORDER_REPLICATE);
   cv::dilate(partsTouching(core, border), table, disc);
   cv::dilate(core, broad, disc);
@@ -169,8 +177,7 @@ cv::Mat1b withoutPockets(const cv::Mat1b& beside) {
 
 /// Share of what a mask holds at the border of the picture that another holds, too.
 double shareAtBorder(const cv::Mat1b& mask, const cv::Mat1b& other) {
-  cv::Mat1b border(mask.size(), 255);
-  border(cv::Rect(1, 1, mask.cols - 2, mask.rows - 2)) = 0;
+  const cv::Mat1b border = borderOf(mask.size());
   return cv::countNonZero(mask & other & border) / std::max(1.0, 1.0 * cv::countNonZero(mask & border));
 }
 
@@ -327,26 +334,21 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx) {
   return sheet;
 }
 
-GreyImage onlyTheSheet(const GreyImage& picture, const PaperSheet& sheet, const RunContext& context) {
-  const GreyImage page = pagesOnOneLevel(picture, sheet.inside, sheet.cellPx, context);
+GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const RunContext& context) {
+  std::optional<GreyImage> even = pagesOnOneLevel(page, sheet.inside, sheet.cellPx, context);
+  GreyImage out = even ? std::move(*even) : page;
   const int columns = sheet.inside.width, rows = sheet.inside.height;
-  std::vector<float> level(std::ptrdiff_t{columns} * rows, 0.0f), weight(level.size(), 0.0f);
-  std::vector<float> pixels, steps;
+  std::vector<float> level = levelsOfCells(out, sheet.inside, sheet.cellPx, context), weight(level.size(), 0.0f);
+  std::vector<float> steps;
   for (int j = 0; j < rows && !context.isCancelled(); ++j) {
+    const std::uint16_t* row = out.row(j * sheet.cellPx);
     for (int i = 0; i < columns; ++i) {
       if (!sheet.inside.at(i, j)) continue;
-      pixels.clear();
-      for (int y = j * sheet.cellPx; y < (j + 1) * sheet.cellPx; ++y) {
-        for (int x = i * sheet.cellPx; x < (i + 1) * sheet.cellPx; ++x)
-          pixels.push_back(static_cast<float>(page.row(y)[x]));
-      }
-      steps.push_back(pixels[1] - pixels[0]);
-      const std::ptrdiff_t at = std::ptrdiff_t{j} * columns + i;
-      level[at] = upperMedian(pixels);
-      weight[at] = 1.0f;
+      const std::uint16_t* first = row + i * sheet.cellPx;
+      steps.push_back(static_cast<float>(first[1] - first[0]));
+      weight[std::ptrdiff_t{j} * columns + i] = 1.0f;
     }
   }
-  GreyImage out = page;
   if (steps.empty() || context.isCancelled()) return out;
   const double grain = robustSigma(steps) / std::sqrt(2.0);
   // Ink within the sheet must not bleed out of it: darker cells than around do not count.
@@ -357,19 +359,14 @@ GreyImage onlyTheSheet(const GreyImage& picture, const PaperSheet& sheet, const 
     if (level[i] < 0.97f * around(static_cast<int>(i) / columns, static_cast<int>(i) % columns)) weight[i] = 0.0f;
   }
   const std::vector<float> paper = pushPull(level, weight, columns, rows);
-  parallelFor(context, page.height, kRowsPerBlock, [&](int begin, int end) {
+  parallelFor(context, out.height, kRowsPerBlock, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const double v = std::clamp((y + 0.5) / sheet.cellPx - 0.5, 0.0, rows - 1.0);
-      const int j = static_cast<int>(v), j1 = std::min(j + 1, rows - 1), cellRow = std::min(y / sheet.cellPx, rows - 1);
-      for (int x = 0; x < page.width; ++x) {
+      const RowBetweenCells row(paper, columns, sheet.cellPx, y);
+      const int cellRow = std::min(y / sheet.cellPx, rows - 1);
+      for (int x = 0; x < out.width; ++x) {
         if (sheet.inside.at(std::min(x / sheet.cellPx, columns - 1), cellRow)) continue;
-        const double u = std::clamp((x + 0.5) / sheet.cellPx - 0.5, 0.0, columns - 1.0);
-        const int i = static_cast<int>(u), i1 = std::min(i + 1, columns - 1);
-        const auto cell = [&](int a, int b) { return static_cast<double>(paper[std::ptrdiff_t{b} * columns + a]); };
-        const double above = cell(i, j) + (u - i) * (cell(i1, j) - cell(i, j));
-        const double below = cell(i, j1) + (u - i) * (cell(i1, j1) - cell(i, j1));
         const double noise = grain * (grainAt(x, y) - kGrainMean) / kGrainSigma;
-        out.row(y)[x] = static_cast<std::uint16_t>(std::clamp(above + (v - j) * (below - above) + noise, 0.0, 65535.0));
+        out.row(y)[x] = static_cast<std::uint16_t>(std::clamp(row.at(x) + noise, 0.0, 65535.0));
       }
     }
   });
