@@ -17,7 +17,8 @@ ReportJson explanationToJson(const PipelineOutput& out, const Recipe& recipe, co
   ReportJson stretches = ReportJson::array();
   for (const InventedStretch& s : std::span(e.inventions).first(std::min(kMostStretches, e.inventions.size()))) {
     const std::string name = nameOfCurve(out, recipe, out.faired->curves[s.curve]);
-    stretches.push_back({{"curve", name}, {"from_px", pointToJson(s.fromPx)}, {"length_px", numberToJson(s.lengthPx)}});
+    stretches.push_back(
+        {{"curve", name}, {"from_px", pointToJson(s.linePx.front())}, {"length_px", numberToJson(s.lengthPx)}});
   }
   return {{"reference_ink_px", e.referencePx},
           {"explained", numberToJson(e.explained)},

@@ -184,8 +184,8 @@ std::optional<Row> trace(const fs::path& file, const Recipe& recipe, const fs::p
       100.0 * explanation->invented, f.curves, f.controlPoints, f.extrema, f.worstRmsPx, f.failures, ms);
   if (detailed) {
     for (const InventedStretch& s : explanation->inventions)
-      std::printf("      invented %6.1f px of curve %d from (%.0f, %.0f)\n", s.lengthPx, s.curve + 1, s.fromPx.x(),
-                  s.fromPx.y());
+      std::printf("      invented %6.1f px of curve %d from (%.0f, %.0f)\n", s.lengthPx, s.curve + 1,
+                  s.linePx.front().x(), s.linePx.front().y());
   }
   if (const auto truth = test::SketchTruth::beside(file, scan->grey.width, scan->grey.height)) {
     const test::SketchTruth::Figures t = truth->compare(f.points);

@@ -114,7 +114,7 @@ CurveOnPage findInventions(const RedrawnCurve& c, const Reference& reference) {
   const auto close = [&](std::size_t last) {
     if (first && !isFaintlySeen(c, *first, last, reference)) {
       InventedStretch& stretch = found.inventions.emplace_back();
-      stretch = {c.curve, c.points[*first].at, c.points[last].at, lengthPx, {}};
+      stretch = {c.curve, lengthPx, {}};
       for (std::size_t i = *first; i <= last; ++i) stretch.linePx.push_back(c.points[i].at);
       found.inventedPx += lengthPx;
     }

@@ -16,9 +16,8 @@ namespace batten {
 /// A stretch of a curve that has no ink under it.
 struct InventedStretch {
   int curve = 0;  ///< Index into FairedSet::curves.
-  Vec2 fromPx = Vec2::Zero(), toPx = Vec2::Zero();
   double lengthPx = 0.0;
-  std::vector<Vec2> linePx;  ///< Its course, a point about every pixel.
+  std::vector<Vec2> linePx;  ///< Its course, a point about every pixel; at least two.
 };
 
 /// [0..1] What the shares of a page are held against: the ink explained, where most of it was drawn with a pen or with
