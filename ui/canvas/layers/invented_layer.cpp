@@ -12,11 +12,7 @@ void paintInvented(QPainter& painter, const CanvasScene& scene) {
   if (!explanation) return;
   ImagePainter image(painter, scene);
   for (const InventedStretch& stretch : explanation->inventions) {
-    QPainterPath path;
-    for (const Vec2& p : stretch.linePx) {
-      if (path.elementCount() == 0) path.moveTo(p.x(), p.y());
-      path.lineTo(p.x(), p.y());
-    }
+    const QPainterPath path = pathThrough(stretch.linePx);
     if (!image.sees(path.controlPointRect())) continue;
     // Wide enough that a stretch of a few pixels is found on the whole page.
     image.stroke(path, colors::casing(), 7.0);

@@ -14,13 +14,7 @@ namespace {
 constexpr int kKindAlpha = 130, kCourseAlpha = 70;
 
 QPainterPath pathOf(const Contour& line) {
-  QPainterPath path;
-  for (const ContourPoint& p : line.points) {
-    if (path.elementCount() == 0)
-      path.moveTo(p.at.x(), p.at.y());
-    else
-      path.lineTo(p.at.x(), p.at.y());
-  }
+  QPainterPath path = pathThrough(line.points, &ContourPoint::at);
   if (line.closed) path.closeSubpath();
   return path;
 }
@@ -56,8 +50,7 @@ void paintKinds(QPainter& painter, const CanvasScene& scene) {
 
 void paintCourse(QPainter& painter, const CanvasScene& scene, const PaintedInk& painted) {
   if (painted.coursePx.empty()) return;
-  QPainterPath path(QPointF(painted.coursePx.front().x(), painted.coursePx.front().y()));
-  for (const Vec2& p : painted.coursePx) path.lineTo(p.x(), p.y());
+  const QPainterPath path = pathThrough(painted.coursePx);
   ImagePainter image(painter, scene);
   QRectF bounds = path.controlPointRect();
   bounds.adjust(-painted.radiusPx, -painted.radiusPx, painted.radiusPx, painted.radiusPx);

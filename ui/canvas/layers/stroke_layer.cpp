@@ -4,6 +4,7 @@
 #include <QPolygonF>
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "ui/canvas/layers/image_painter.h"
 #include "ui/canvas/scene/canvas_colors.h"
@@ -70,12 +71,9 @@ void paintStrokes(QPainter& painter, const CanvasScene& scene) {
     image.fill(ribbon(line, [](const ContourPoint& p) { return p.bundle; }), QColor(200, 112, 0, 70));
     image.fill(ribbon(line, widthAt), QColor(20, 130, 80, 60));
     for (const auto& [first, last] : line.bridges) {
-      QPainterPath bridge;
-      for (int i = std::max(0, first); i <= last && i < std::ssize(line.points); ++i) {
-        const Vec2& p = line.points[i].at;
-        if (bridge.elementCount() == 0) bridge.moveTo(p.x(), p.y());
-        bridge.lineTo(p.x(), p.y());
-      }
+      const int begin = std::max(0, first), end = std::min(last + 1, static_cast<int>(line.points.size()));
+      if (begin >= end) continue;
+      const QPainterPath bridge = pathThrough(std::span(line.points).subspan(begin, end - begin), &ContourPoint::at);
       image.stroke(bridge, QColor(255, 255, 255, 200), 4.5);
       image.stroke(bridge, colors::target(), 2.0, Qt::DashLine);
     }
