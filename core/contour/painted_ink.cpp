@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/image/bits/run_pieces.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -99,10 +100,8 @@ double scaledRadius(const PaintedInk& painted, double scale) {
 bool isUnder(const PaintedInk& painted, const Vec2& px) {
   const auto& course = painted.coursePx;
   for (std::size_t i = 0; i < course.size(); ++i) {
-    const Vec2 &a = course[i], along = course[std::min(i + 1, course.size() - 1)] - a;
-    const double square = along.squaredNorm();
-    const double share = square > 0.0 ? std::clamp((px - a).dot(along) / square, 0.0, 1.0) : 0.0;
-    if ((px - a - share * along).norm() <= painted.radiusPx) return true;
+    const Vec2& end = course[std::min(i + 1, course.size() - 1)];
+    if (awayFromSegment(px, course[i], end).norm() <= painted.radiusPx) return true;
   }
   return false;
 }

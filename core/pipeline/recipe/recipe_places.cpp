@@ -35,13 +35,16 @@ bool isSamePage(const std::optional<Rectification>& a, const std::optional<Recti
 
 }  // namespace
 
-void movePlaces(Recipe& recipe, const std::function<Vec2(const Vec2&)>& move) {
+void movePlaces(Recipe& recipe, const std::function<Vec2(const Vec2&)>& move, double scale) {
   const auto moveOne = [&](Vec2& place) { place = move(place); };
   const auto moveAll = [&](std::vector<Vec2>& places) { std::ranges::for_each(places, moveOne); };
   for (PenStroke& stroke : recipe.penStrokes) moveAll(stroke.points);
   for (RegionOfInterest& region : recipe.regions) moveAll(region.cornersPx);
   for (EdgeChoice& choice : recipe.edges.choices) moveOne(choice.positionPx);
-  for (PaintedInk& painted : recipe.edges.painted) moveAll(painted.coursePx);
+  for (PaintedInk& painted : recipe.edges.painted) {
+    moveAll(painted.coursePx);
+    painted.radiusPx = scaledRadius(painted, scale);
+  }
   for (JunctionChoice& choice : recipe.edges.junctions) {
     moveOne(choice.positionPx);
     for (BranchPair& pair : choice.pairs) {
@@ -83,10 +86,9 @@ CurveNumbers rectifiedNumbers(CurveNumbers numbers, const std::optional<Rectific
 
 Recipe rectifiedRecipe(Recipe recipe, const std::optional<Rectification>& before,
                        const std::optional<Rectification>& after, const RectifyParams& params) {
-  if (!isSamePage(before, after)) movePlaces(recipe, BetweenPages(before, after));
-  recipe.preparation.rectify = params;
   const double scale = (after ? after->scale : 1.0) / (before ? before->scale : 1.0);
-  for (PaintedInk& painted : recipe.edges.painted) painted.radiusPx = scaledRadius(painted, scale);
+  if (!isSamePage(before, after)) movePlaces(recipe, BetweenPages(before, after), scale);
+  recipe.preparation.rectify = params;
   if (recipe.scaleLine)
     setScaleLine(recipe, ScaleLine(*recipe.scaleLine));
   else if (after && after->dpi)

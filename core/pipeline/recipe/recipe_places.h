@@ -10,8 +10,10 @@
 namespace batten {
 
 /// Moves every place of the page that the recipe holds: marks, choices, regions, pen strokes, the scale line, places of
-/// numbered curves. The resolution and lengths in px stay.
-void movePlaces(Recipe&, const std::function<Vec2(const Vec2&)>& move);
+/// numbered curves; painted ink keeps its breadth on the drawing. The resolution and lengths in px that are parameters
+/// stay.
+/// @param scale pixels of the page moved to, along a pixel of the one before.
+void movePlaces(Recipe&, const std::function<Vec2(const Vec2&)>& move, double scale);
 
 /// Numbers of curves on another page of the same picture: on the same ink.
 CurveNumbers rectifiedNumbers(CurveNumbers, const std::optional<Rectification>& before,

@@ -114,8 +114,8 @@ Recipe coarseRecipe(Recipe recipe, const Scan& scan, int factor) {
     recipe.page->bottomMm += restPx * kMillimetresPerInch / dpi;
   }
   recipe.curveNumbers = {};
-  for (PaintedInk& painted : recipe.edges.painted) painted.radiusPx = scaledRadius(painted, 1.0 / by);
-  movePlaces(recipe, [by](const Vec2& place) -> Vec2 { return place / by; });
+  movePlaces(
+      recipe, [by](const Vec2& place) -> Vec2 { return place / by; }, 1.0 / by);
   return recipe;
 }
 

@@ -54,7 +54,8 @@ Rectification made(double tiltDeg, PaperFormat format = PaperFormat::Unknown) {
 TEST(RecipePlaces, NoPlaceIsForgotten) {
   const Recipe before = withAllPlaces();
   Recipe after = before;
-  movePlaces(after, [](const Vec2& place) { return Vec2(place.x() + 5000.0, place.y() + 7000.0); });
+  movePlaces(
+      after, [](const Vec2& place) { return Vec2(place.x() + 5000.0, place.y() + 7000.0); }, 1.0);
   const auto file = nlohmann::json::parse(recipeToJson(before)), moved = nlohmann::json::parse(recipeToJson(after));
   const auto numbers = file.flatten(), movedNumbers = moved.flatten();
   ASSERT_EQ(numbers.size(), movedNumbers.size());
