@@ -70,17 +70,20 @@ RunPieces regionsOf(const InkSplit& split, const RunContext& context) {
     std::pair<int, int> region;  // of which picture, and its piece there
   };
   std::vector<Marked> marked;
-  std::vector<BitImage> kinds = {split.strokes, split.shapes};
-  if (split.painted.width > 0) {
-    for (int i = 0; i < 2; ++i) {
-      kinds.push_back(both(kinds[i], split.painted));
-      kinds[i] = without(std::move(kinds[i]), split.painted);
-    }
-  }
-  for (int kind = 0; kind < std::ssize(kinds); ++kind) {
-    const RunPieces pieces = findPieces(kinds[kind], Connectivity::Eight, context);
-    if (context.isCancelled()) return {};
+  int kind = 0;
+  const auto mark = [&](const BitImage& ink) {
+    const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
     for (std::size_t i = 0; i < pieces.runs.size(); ++i) marked.push_back({pieces.runs[i], {kind, pieces.piece[i]}});
+    ++kind;
+  };
+  for (const BitImage* ink : {&split.strokes, &split.shapes}) {
+    if (context.isCancelled()) return {};
+    if (split.painted.width == 0) {
+      mark(*ink);
+    } else {
+      mark(without(BitImage(*ink), split.painted));
+      mark(both(*ink, split.painted));
+    }
   }
   std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {
     return a.run.y != b.run.y ? a.run.y < b.run.y : a.run.x0 < b.run.x0;

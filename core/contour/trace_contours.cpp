@@ -340,7 +340,7 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                             const ContourParams& params, const FinePage* fine, const RunContext& context) {
   Result<ContourSet> found =
-      fine != nullptr ? findChosenLines(fine->ink, fine->grey, &grey, onFinePage(edges), onFinePage(params), context)
+      fine != nullptr ? findChosenLines(fine->ink, *fine->grey, &grey, onFinePage(edges), onFinePage(params), context)
                       : findChosenLines(ink, grey, nullptr, edges, params, context);
   if (!found) return found;
   if (fine != nullptr) found = fromFinePage(std::move(*found));

@@ -71,15 +71,15 @@ BitImage withLostLines(BitImage fine, const BitImage& page, const RunContext& co
 Result<std::optional<FinePage>> makeFinePage(const GreyImage& grey, const BitImage& ink, const InkSettings& settings,
                                              const RunContext& context) {
   FinePage fine;
-  fine.grey = enlarged(grey, context);
+  fine.grey = std::make_shared<const GreyImage>(enlarged(grey, context));
   if (context.isCancelled()) return cancelled();
   PaperParams paper = settings.paper;
   paper.folds = false;  // they are taken out
   const ThresholdParams params = finer(settings.threshold);
-  const Result<RegionThresholds> thresholds = findThresholds(fine.grey, paper, params, context);
+  const Result<RegionThresholds> thresholds = findThresholds(*fine.grey, paper, params, context);
   if (!thresholds) return fail(thresholds.error());
   if (!thresholds->foundLine) return std::nullopt;
-  const Result<BitImage> binary = binarize(fine.grey, *thresholds, params, context, kFineFactor);
+  const Result<BitImage> binary = binarize(*fine.grey, *thresholds, params, context, kFineFactor);
   if (!binary) return fail(binary.error());
   Result<FilteredImage> filtered = neighbourhoodFilter(*binary, finer(settings.filter), context);
   if (!filtered) return fail(filtered.error());
@@ -134,9 +134,8 @@ BitImage enlarged(const BitImage& ink, const RunContext& context) {
   return fine;
 }
 
-FinePage onInk(FinePage fine, const BitImage& ink, const RunContext& context) {
-  fine.ink = both(std::move(fine.ink), grown(enlarged(ink, context), kFineFactor, context));
-  return fine;
+FinePage onInk(const FinePage& fine, const BitImage& ink, const RunContext& context) {
+  return {fine.grey, both(fine.ink, grown(enlarged(ink, context), kFineFactor, context))};
 }
 
 Result<std::optional<FinePage>> finePage(const GreyImage& grey, const BitImage& ink, const InkSettings& settings,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "core/base/result.h"
@@ -16,7 +17,7 @@ namespace batten {
 /// that the smoothing before the thresholds fills it and that a skeleton has no pixel to go round it: here it stays
 /// open.
 struct FinePage {
-  GreyImage grey;
+  std::shared_ptr<const GreyImage> grey;  ///< Never null; parts of the ink share it.
   BitImage ink;
 };
 inline constexpr int kFineFactor = 2;  ///< Pixels of a fine page along a pixel of the page.
@@ -33,7 +34,7 @@ GreyImage enlarged(const GreyImage&, const RunContext&);
 BitImage enlarged(const BitImage&, const RunContext&);
 
 /// The page with as much of its ink as lies on `ink`, a part of that of the page.
-FinePage onInk(FinePage, const BitImage& ink, const RunContext&);
+FinePage onInk(const FinePage&, const BitImage& ink, const RunContext&);
 
 /// The fine page, where the strokes of `ink` are so thin that one is needed; absent where they are not, or where it
 /// would be too large. It has no ink beside that of the page; what only the smoother page shows of it, as faint lines,

@@ -266,7 +266,7 @@ struct PathsFound {
 PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                      const CentrelineOptions& options, const RunContext& context) {
   const BitImage* shapes = options.shapes;
-  const int pixelsPerPx = options.page != nullptr ? kFineFactor : 1;
+  const int pixelsPerPx = options.pixelsPerPx();
   PathsFound found;
   found.net = centrelinesOf(strokes, options, params, context);
   std::vector<StrokePath>& paths = found.net.paths;
@@ -310,7 +310,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   std::vector<StrokePath>& paths = found.net.paths;
   const bool anyPencil = found.bodies.has_value();
-  const double pixelsPerPx = options.page != nullptr ? kFineFactor : 1.0;
+  const int pixelsPerPx = options.pixelsPerPx();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
   dropShort(paths, grey, options, anyPencil, context);

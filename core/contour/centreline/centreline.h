@@ -10,6 +10,7 @@
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
 #include "core/image/bits/bit_image.h"
+#include "core/image/fine_page.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
@@ -41,6 +42,8 @@ struct CentrelineOptions {
   /// The page, where mask and grey are enlarged (fine_page.h): the middles are measured on it, whose noise is that of
   /// the scan. Absent: on the grey.
   const GreyImage* page = nullptr;
+  /// Of mask and grey, along a pixel of the page.
+  int pixelsPerPx() const { return page != nullptr ? kFineFactor : 1; }
 };
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&,
                                const CentrelineOptions& options = {});

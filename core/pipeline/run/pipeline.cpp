@@ -34,7 +34,7 @@ std::size_t bytesOf(const RegionThresholds& t) {
 std::size_t bytesOf(const BitImage& image) { return sizeof(image) + vectorBytes(image.words); }
 std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
 std::size_t bytesOf(const std::optional<FinePage>& fine) {
-  return sizeof(fine) + (fine ? vectorBytes(fine->grey.pixels) + bytesOf(fine->ink) : 0);
+  return sizeof(fine) + (fine ? vectorBytes(fine->grey->pixels) + bytesOf(fine->ink) : 0);
 }
 std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);

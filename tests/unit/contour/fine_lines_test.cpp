@@ -63,7 +63,7 @@ TEST(FineLines, TellPencilFromPenAsTheScanShowsIt) {
       ASSERT_TRUE(thresholds);
       const auto fine = finePage(grey, *binarize(grey, *thresholds, {}, {}), {}, {});
       ASSERT_TRUE(fine && *fine);
-      const auto split = splitInk((*fine)->ink, (*fine)->grey, {}, {}, &grey);
+      const auto split = splitInk((*fine)->ink, *(*fine)->grey, {}, {}, &grey);
       ASSERT_TRUE(split && split->known);
       double pencil = 0.0, all = 0.0;
       for (int i = 0; i < std::ssize(split->known->paths); ++i) {

@@ -70,7 +70,7 @@ TEST(FinePage, IsMadeOfThinStrokesAlone) {
     ASSERT_TRUE(fine);
     EXPECT_EQ(fine->has_value(), widthPx < 3.0) << widthPx;
     if (!*fine) continue;
-    EXPECT_EQ((*fine)->grey.width, kFineFactor * kLinePageWidth);
+    EXPECT_EQ((*fine)->grey->width, kFineFactor * kLinePageWidth);
     // Its ink lies on the ink of the page.
     EXPECT_EQ(without((*fine)->ink, grown(enlarged(ink, {}), kFineFactor, {})).count(), 0);
     EXPECT_GT((*fine)->ink.count(), ink.count());
