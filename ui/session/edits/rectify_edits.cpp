@@ -41,17 +41,11 @@ bool hasPaperEdge(const Scan& picture, const Rectification& made) {
   return std::ranges::find(isEdge, true) != isEdge.end();
 }
 
-// @param sheet whether what lies beside the sheet is cut off; absent: as before.
-Result<void> change(EditorSession& session, const QString& what, const RectifyParams& params,
-                    std::optional<SheetUse> sheet) {
+// How the picture would be rectified.
+Result<Rectification> rectificationBy(const EditorSession& session, const RectifyParams& params) {
   if (isPageAwaited(session))
     return fail(ErrorCode::BadParameter, "The sheet is still being looked for; try again when the page is shown.");
-  const auto made = rectificationOf(*session.picture(), params.cornersPx, params.format);
-  if (!made) return fail(made.error());
-  Recipe after = rectifiedRecipe(session.recipe(), pageOfRecipe(session), *made, params);
-  if (sheet) after.preparation.sheet = *sheet;
-  session.change(what, std::move(after));
-  return {};
+  return rectificationOf(*session.picture(), params.cornersPx, params.format);
 }
 
 // Of another rectangle than a sheet, as a frame that was drawn, nothing is cut off; that ends with it.
@@ -85,21 +79,25 @@ Result<void> rectifyBy(EditorSession& session, const SheetCorners& cornersPx) {
     const SheetMap map(*now);
     for (Vec2& corner : params.cornersPx) corner = map.toPicture(corner);
   }
-  std::optional<SheetUse> sheet;
-  if (const auto made = rectificationOf(*session.picture(), params.cornersPx, params.format)) {
-    if (!hasPaperEdge(*session.picture(), *made))
-      sheet = SheetUse::Off;
-    else if (isKeptForFrame(session))
-      sheet = SheetUse::CutOff;
-  }
-  return change(session, QObject::tr("Rectify"), params, sheet);
+  const auto made = rectificationBy(session, params);
+  if (!made) return fail(made.error());
+  Recipe after = rectifiedRecipe(session.recipe(), pageOfRecipe(session), *made, params);
+  if (!hasPaperEdge(*session.picture(), *made))
+    after.preparation.sheet = SheetUse::Off;
+  else if (isKeptForFrame(session))
+    after.preparation.sheet = SheetUse::CutOff;
+  session.change(QObject::tr("Rectify"), std::move(after));
+  return {};
 }
 
 Result<void> setSheetFormat(EditorSession& session, PaperFormat format) {
   const auto now = pageOfRecipe(session);
   if (!now) return {};
-  return change(session, QObject::tr("Format of the sheet"), {RectifyUse::Corners, now->cornersPx, format},
-                std::nullopt);
+  const RectifyParams params{RectifyUse::Corners, now->cornersPx, format};
+  const auto made = rectificationBy(session, params);
+  if (!made) return fail(made.error());
+  session.change(QObject::tr("Format of the sheet"), rectifiedRecipe(session.recipe(), now, *made, params));
+  return {};
 }
 
 void stopRectifying(EditorSession& session) {
