@@ -56,13 +56,13 @@ nlohmann::ordered_json placeToJson(const Vec2& px) { return {withDecimals(px.x()
 nlohmann::ordered_json junctionsToJson(const std::vector<StrokeJunction>& junctions) {
   auto list = nlohmann::ordered_json::array();
   for (const StrokeJunction& junction : junctions) {
-    if (!junction.isDoubtful || junction.choice || junction.ways.size() < 2) continue;
+    if (!junction.isDoubtful || junction.choice || junction.pairings.size() < 2) continue;
     auto branches = nlohmann::ordered_json::array();
     for (const Vec2& place : junction.branchesPx) branches.push_back(placeToJson(place));
     list.push_back({{"at", placeToJson(junction.positionPx)},
                     {"branches", std::move(branches)},
                     {"pairs", pairsToJson(junction.pairs)},
-                    {"next_best", pairsToJson(junction.ways[1])}});
+                    {"next_best", pairsToJson(junction.pairings[1])}});
   }
   return list;
 }

@@ -85,11 +85,12 @@ using EndPairs = std::vector<std::pair<int, int>>;
 /// A place where three or more branches of strokes meet.
 struct StrokeJunction {
   Vec2 positionPx = Vec2::Zero();
-  double radiusPx = 0.0;         ///< Of the ink of all its strokes.
-  std::vector<Vec2> branchesPx;  ///< A place on every branch, where it has a middle of its own.
-  EndPairs pairs;                ///< Branches that are one stroke; a branch in no pair ends here.
-  std::vector<EndPairs> ways;    ///< To pair them, the rule's own first, then the next best; the last pairs none.
-  bool isDoubtful = false;    ///< The next best way is hardly worse, or two strokes may share a stretch that ends here.
+  double radiusPx = 0.0;           ///< Of the ink of all its strokes.
+  std::vector<Vec2> branchesPx;    ///< A place on every branch, where it has a middle of its own.
+  EndPairs pairs;                  ///< Branches that are one stroke; a branch in no pair ends here.
+  std::vector<EndPairs> pairings;  ///< The rule's own first, then the next best; the last pairs none.
+  bool isDoubtful =
+      false;  ///< The next best pairing is hardly worse, or two strokes may share a stretch that ends here.
   std::optional<int> choice;  ///< Index of the user's choice that it follows.
 };
 

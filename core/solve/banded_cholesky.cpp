@@ -106,16 +106,16 @@ std::vector<double> inverseRows(const std::vector<double>& lower, int size, int 
   return z;
 }
 
-/// Calls `run` with the half width as a constant where the compiler knows it.
-template <class Run>
-auto withBand(int band, const Run& run) {
+/// Calls `body` with the half width as a constant where the compiler knows it.
+template <class Body>
+auto withBand(int band, const Body& body) {
   switch (band) {
     case kOpenSpline:
-      return run(std::integral_constant<int, kOpenSpline>());
+      return body(std::integral_constant<int, kOpenSpline>());
     case kCyclicSpline:
-      return run(std::integral_constant<int, kCyclicSpline>());
+      return body(std::integral_constant<int, kCyclicSpline>());
     default:
-      return run(std::integral_constant<int, Eigen::Dynamic>());
+      return body(std::integral_constant<int, Eigen::Dynamic>());
   }
 }
 

@@ -11,10 +11,10 @@ namespace {
 /// The unknowns of a knot span of a quintic curve, a number that the compiler knows; else Eigen::Dynamic.
 constexpr int kQuinticSpan = 12;
 
-template <class Run>
-void withSize(std::size_t size, const Run& run) {
-  if (size == kQuinticSpan) return run(std::integral_constant<int, kQuinticSpan>());
-  run(std::integral_constant<int, Eigen::Dynamic>());
+template <class Body>
+void withSize(std::size_t size, const Body& body) {
+  if (size == kQuinticSpan) return body(std::integral_constant<int, kQuinticSpan>());
+  body(std::integral_constant<int, Eigen::Dynamic>());
 }
 
 template <int kSize>

@@ -49,19 +49,19 @@ TEST_F(Junctions, AClickOnADoubtfulOneTakesTheNextWayUntilItIsTheRuleAgain) {
   EXPECT_TRUE(window_->view().isVisible(Layer::Junctions));
   ASSERT_TRUE(at({kForkX, 200}).isDoubtful);
   EXPECT_EQ(doubtfulCount(*session().output().contours), 1);
-  const auto ways = at({kForkX, 200}).ways;
-  ASSERT_EQ(ways.size(), 4u);
+  const auto pairings = at({kForkX, 200}).pairings;
+  ASSERT_EQ(pairings.size(), 4u);
   const auto before = session().output().contours;
-  for (std::size_t way = 1; way < ways.size(); ++way) {
+  for (std::size_t next = 1; next < pairings.size(); ++next) {
     click(at({kForkX, 200}).positionPx);
     EXPECT_EQ(choices(), 1u);
-    EXPECT_EQ(at({kForkX, 200}).pairs, ways[way]) << way;
+    EXPECT_EQ(at({kForkX, 200}).pairs, pairings[next]) << next;
     EXPECT_EQ(doubtfulCount(*session().output().contours), 0) << "the user has said";
   }
-  EXPECT_EQ(session().curves().size(), 5u) << "the last way leaves all ends open";
+  EXPECT_EQ(session().curves().size(), 5u) << "the last next leaves all ends open";
   click(at({kForkX, 200}).positionPx);
   EXPECT_EQ(choices(), 0u);
-  EXPECT_EQ(at({kForkX, 200}).pairs, ways[0]);
+  EXPECT_EQ(at({kForkX, 200}).pairs, pairings[0]);
   ASSERT_EQ(session().output().contours->contours.size(), before->contours.size());
   for (std::size_t i = 0; i < before->contours.size(); ++i)
     EXPECT_EQ(session().output().contours->contours[i].points, before->contours[i].points);
@@ -70,7 +70,7 @@ TEST_F(Junctions, AClickOnADoubtfulOneTakesTheNextWayUntilItIsTheRuleAgain) {
   EXPECT_EQ(choices(), 0u);
   window_->action(ActionId::Redo)->trigger();
   ASSERT_TRUE(settle());
-  EXPECT_EQ(at({kForkX, 200}).pairs, ways[1]);
+  EXPECT_EQ(at({kForkX, 200}).pairs, pairings[1]);
 }
 
 TEST_F(Junctions, AnyOtherIsPairedWithTheToolAndByTwoBranches) {
@@ -82,7 +82,7 @@ TEST_F(Junctions, AnyOtherIsPairedWithTheToolAndByTwoBranches) {
   EXPECT_EQ(window_->view().tool(), Tool::Junctions);
   click(cross);
   ASSERT_EQ(choices(), 1u);
-  EXPECT_EQ(at(cross).pairs, at(cross).ways[1]);
+  EXPECT_EQ(at(cross).pairs, at(cross).pairings[1]);
   window_->action(ActionId::Undo)->trigger();
   ASSERT_TRUE(settle());
 
@@ -90,13 +90,13 @@ TEST_F(Junctions, AnyOtherIsPairedWithTheToolAndByTwoBranches) {
   auto* canvas = find<CurveCanvas>("canvas");
   canvas->zoomActual();
   const StrokeJunction junction = at(cross);
-  ASSERT_EQ(junction.ways[0].size(), 2u);
-  const auto [first, second] = junction.ways[1][0];
+  ASSERT_EQ(junction.pairings[0].size(), 2u);
+  const auto [first, second] = junction.pairings[1][0];
   click(junction.branchesPx[first]);
   EXPECT_EQ(choices(), 0u);
   click(junction.branchesPx[second]);
   ASSERT_EQ(choices(), 1u);
-  EXPECT_EQ(at(cross).pairs, EndPairs({junction.ways[1][0]})) << "those that they went on with end here";
+  EXPECT_EQ(at(cross).pairs, EndPairs({junction.pairings[1][0]})) << "those that they went on with end here";
   click(junction.branchesPx[second]);
   click(junction.branchesPx[first]);
   EXPECT_TRUE(at(cross).pairs.empty()) << "two that are one come apart";
@@ -105,7 +105,7 @@ TEST_F(Junctions, AnyOtherIsPairedWithTheToolAndByTwoBranches) {
   QTest::mouseClick(byRule, Qt::LeftButton);
   ASSERT_TRUE(settle());
   EXPECT_EQ(choices(), 0u);
-  EXPECT_EQ(at(cross).pairs, junction.ways[0]);
+  EXPECT_EQ(at(cross).pairs, junction.pairings[0]);
   EXPECT_FALSE(byRule->isVisible());
 }
 

@@ -191,10 +191,10 @@ void CurveCanvas::mousePressEvent(QMouseEvent* event) {
 
 void CurveCanvas::mouseMoveEvent(QMouseEvent* event) {
   State& s = *state_;
-  const QPointF way = event->position() - s.lastMouse;
+  const QPointF moved = event->position() - s.lastMouse;
   s.lastMouse = event->position();
   if (s.isPanning) {
-    s.transform.pan(way);
+    s.transform.pan(moved);
     s.isFitted = false;
     s.transformChanged();
     return;

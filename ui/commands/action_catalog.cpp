@@ -128,7 +128,7 @@ std::vector<ActionInfo> toolActions() {
       {ToolLines, "tool-lines", menu, tr("Choose lines"), keys({"L"}),
        tr("Click a line to exclude it from fairing and export; click it again to include it."), true},
       {ToolJunctions, "tool-junctions", menu, tr("Pair strokes"), keys({"J"}),
-       tr("Click a junction to pair its strokes in the next way, or click two of its branches to join them."), true},
+       tr("Click a junction for the next pairing of its strokes, or click two of its branches to join them."), true},
       {ToolRectangle, "tool-rectangle", menu, tr("Rectangle"), keys({"R"}),
        tr("Drag a rectangle: only the area inside is traced. Further regions are added."), true},
       {ToolLasso, "tool-lasso", menu, tr("Lasso"), keys({"Shift+R"}),

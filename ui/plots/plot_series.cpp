@@ -201,9 +201,9 @@ void addDeviation(PlotData& data, const EditorSession& session, const TracedCurv
 bool runsLeft(const TracedCurve& curve, const PageFrame& frame) {
   if (curve.closed) return false;
   const Vec2 from = frame.pointToImage(curve.sketched.point(curve.sketched.start()));
-  const Vec2 way = frame.pointToImage(curve.sketched.point(curve.sketched.end())) - from;
-  const bool isUpright = std::abs(way.x()) < kUpright * frame.lengthToImage(extent(curve.sketched));
-  return isUpright ? way.y() < 0.0 : way.x() < 0.0;
+  const Vec2 chord = frame.pointToImage(curve.sketched.point(curve.sketched.end())) - from;
+  const bool isUpright = std::abs(chord.x()) < kUpright * frame.lengthToImage(extent(curve.sketched));
+  return isUpright ? chord.y() < 0.0 : chord.x() < 0.0;
 }
 
 /// The selected curve as its plots need it.

@@ -54,7 +54,7 @@ enum class Tool {
   Lasso,       ///< The same drawn freely.
   Scale,       ///< Drag measures a known length; the Scan panel asks how long it is.
   Direction,   ///< Click turns the direction in which a curve is exported; drag of its ring moves the start.
-  Junctions,   ///< Click on a junction pairs its strokes in the next way; click on two branches pairs these.
+  Junctions,   ///< Click on a junction takes the next pairing of its strokes; click on two branches pairs these.
   Sheet,       ///< Drag moves the corners of the sheet by which the page is to be rectified.
   Ink,         ///< Click on an ink leaves it out or traces it again.
   Paint,       ///< Drag paints the trace mode of ink.

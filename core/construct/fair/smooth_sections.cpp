@@ -125,7 +125,7 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
   fits_ = std::move(fits);
   const auto pieces = stretches();
   std::vector<PointRange> sharp = sharp_;
-  std::vector<Cut> cuts;
+  std::vector<StrayedFit> strayed;
   bool more = false;
   for (std::size_t i = 0; i < fits_.size(); ++i) {
     // Where the user took a bump out that was drawn, the curve leaves its points because he wants it.
@@ -137,7 +137,7 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
     const int offset = smooth_[i].first;
     const auto outliers = outlierRanges(close, pieces[i], lastRound);
     for (PointRange r : outliers) sharp.push_back({r.first + offset, r.last + offset});
-    if (lastRound && !outliers.empty()) cuts.push_back({i, close, outliers});
+    if (lastRound && !outliers.empty()) strayed.push_back({i, close, outliers});
     more = more || !outliers.empty();
   }
   if (!more) return false;
@@ -147,26 +147,26 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
   }
   sharp_ = united(std::move(sharp), piece_, kLeastSmoothPx);
   if (lastRound) {
-    keepNear(cuts, pieces);
+    keepNear(strayed, pieces);
   } else {
     smooth_ = between(sharp_, piece_);
   }
   return true;
 }
 
-void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<ConstructPiece>& pieces) {
+void SmoothSections::keepNear(const std::vector<StrayedFit>& strayed, const std::vector<ConstructPiece>& pieces) {
   std::vector<ConstructedPiece> kept;
   std::vector<PointRange> ranges;
-  auto cut = cuts.begin();
+  auto next = strayed.begin();
   for (std::size_t i = 0; i < fits_.size(); ++i) {
-    if (cut == cuts.end() || cut->fit != i) {
+    if (next == strayed.end() || next->fit != i) {
       kept.push_back(std::move(fits_[i]));
       ranges.push_back(smooth_[i]);
       continue;
     }
     const ConstructPiece& piece = pieces[i];
-    const auto outliers = united(cut->outliers, piece, kLeastSmoothPx);
-    const std::vector<PointOffset>& at = cut->close.points;
+    const auto outliers = united(next->outliers, piece, kLeastSmoothPx);
+    const std::vector<PointOffset>& at = next->close.points;
     const int n = static_cast<int>(at.size());
     for (const PointRange& r : between(outliers, piece)) {
       const bool atStart = !piece.closed && r.first == 0, atEnd = !piece.closed && r.last == n - 1;
@@ -177,7 +177,7 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
       kept.push_back(std::move(*part));
       ranges.push_back({r.first + smooth_[i].first, r.last + smooth_[i].first});
     }
-    ++cut;
+    ++next;
   }
   fits_ = std::move(kept);
   smooth_ = std::move(ranges);

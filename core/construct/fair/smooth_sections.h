@@ -31,13 +31,13 @@ class SmoothSections {
 
  private:
   /// A fit that has left its points in the last round.
-  struct Cut {
+  struct StrayedFit {
     std::size_t fit = 0;
     PointDeviation close;
     std::vector<PointRange> outliers;
   };
   /// Of those fits only what is near the points; tight curves come between.
-  void keepNear(const std::vector<Cut>&, const std::vector<ConstructPiece>& pieces);
+  void keepNear(const std::vector<StrayedFit>&, const std::vector<ConstructPiece>& pieces);
   Result<ConstructedPiece> joinedParts(const RunContext&) const;
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;

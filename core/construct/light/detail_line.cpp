@@ -35,8 +35,8 @@ class CornerSearch {
     const int n = line.size(), loop = line.closed ? n + 1 : n;
     double before = 0.0;
     for (int i = 0; i < loop; ++i) {
-      const Vec2 way = at(i + 1) - at(i - 1);
-      double angle = std::atan2(way.y(), way.x());
+      const Vec2 chord = at(i + 1) - at(i - 1);
+      double angle = std::atan2(chord.y(), chord.x());
       if (i > 0) angle += 2.0 * std::numbers::pi * std::round((before - angle) / (2.0 * std::numbers::pi));
       direction_.push_back(angle);
       before = angle;
@@ -84,8 +84,8 @@ class CornerSearch {
   }
   double turnAt(int i) const { return directionAt(i + places(kHalfTurn)) - directionAt(i - places(kHalfTurn)); }
   int apart(int a, int b) const {
-    const int way = std::abs(a - b);
-    return line_.closed ? std::min(way, line_.size() - way) : way;
+    const int direct = std::abs(a - b);
+    return line_.closed ? std::min(direct, line_.size() - direct) : direct;
   }
 
   std::optional<ScaleCorner> cornerAt(int i, double turn) const {

@@ -114,9 +114,9 @@ std::optional<LightReference> LightReference::through(const std::vector<Vec2>& p
   for (int i = 0; i < n; ++i) {
     LightSample& sample = made.samples_[i];
     sample.point = at(i);
-    const Vec2 in = at(i) - at(i - 1), out = at(i + 1) - at(i), way = at(i + 1) - at(i - 1);
-    if (!(way.norm() > 0.0)) return std::nullopt;
-    sample.tangent = way.normalized();
+    const Vec2 in = at(i) - at(i - 1), out = at(i + 1) - at(i), chord = at(i + 1) - at(i - 1);
+    if (!(chord.norm() > 0.0)) return std::nullopt;
+    sample.tangent = chord.normalized();
     const double length = 0.5 * (in.norm() + out.norm());
     if (in.norm() > 0.0 && out.norm() > 0.0) sample.kappa = std::atan2(cross(in, out), in.dot(out)) / length;
     sample.s = i == 0 ? 0.0 : made.samples_[i - 1].s + in.norm();
@@ -164,10 +164,10 @@ LightFoot LightReference::foot(const Vec2& place, int hint) const {
   const int n = size();
   int index = hint;
   double best = (points_[index] - place).squaredNorm();
-  for (const int way : {1, -1}) {
+  for (const int step : {1, -1}) {
     int moved = 0;
     while (moved < n) {
-      int next = index + way;
+      int next = index + step;
       if (next < 0 || next >= n) {
         if (!closed_) break;
         next = next < 0 ? n - 1 : 0;

@@ -132,12 +132,12 @@ class BlendSearch {
     for (int round = 0; round < kMostBlendRounds && step > kLastStep; ++round) {
       bool better = false;
       for (std::size_t i = 0; i < x.size(); ++i) {
-        for (const double way : {step, -step}) {
+        for (const double change : {step, -step}) {
           std::vector<double> tried = x;
-          tried[i] += way;
+          tried[i] += change;
           // Both ends together, too: most corners are much alike on both sides.
           for (const bool both : {false, true}) {
-            if (both) tried[i ^ 1U] += way;
+            if (both) tried[i ^ 1U] += change;
             const double now = cost(tried);
             if (!(now < best)) continue;
             best = now;
@@ -182,9 +182,9 @@ std::optional<CornerBlend> blendCorner(const BlendEnd& before, const BlendEnd& b
   const double turn = std::atan2(cross(before.tangent, behind.tangent), before.tangent.dot(behind.tangent));
   const double side = turn > 0.0 ? 1.0 : -1.0;
   if (!(std::abs(turn) > kLeastBlendTurn && std::abs(turn) < kMostBlendTurn)) return std::nullopt;
-  const Vec2 way = behind.point - before.point;
+  const Vec2 chord = behind.point - before.point;
   const double sine = cross(before.tangent, behind.tangent);
-  const double toVertex = cross(way, behind.tangent) / sine, fromVertex = cross(before.tangent, way) / sine;
+  const double toVertex = cross(chord, behind.tangent) / sine, fromVertex = cross(before.tangent, chord) / sine;
   if (!(toVertex > 0.0) || !(fromVertex > 0.0)) return std::nullopt;
   std::vector<Vec2> points = BlendSearch(before, behind, contact, std::min(toVertex, fromVertex), side).run();
   if (points.empty()) return std::nullopt;

@@ -42,8 +42,8 @@ std::optional<Frame> frameOf(const Joint& before, const Joint& behind) {
   f.side = turn > 0.0 ? 1.0 : -1.0;
   f.turn = std::abs(turn);
   if (!(f.turn > kLeastTurnRad && f.turn < kMostTurnRad)) return std::nullopt;
-  const Vec2 way = behind.point - before.point;
-  f.chord = {way.dot(before.tangent), f.side * way.dot(leftNormal(before.tangent))};
+  const Vec2 chord = behind.point - before.point;
+  f.chord = {chord.dot(before.tangent), f.side * chord.dot(leftNormal(before.tangent))};
   // The vertex lies ahead of the first place and behind the second.
   const double toVertex = f.chord.real() - f.chord.imag() / std::tan(f.turn),
                fromVertex = f.chord.imag() / std::sin(f.turn);
@@ -59,15 +59,15 @@ struct Arc {
   bool isSound() const { return edge > 0.0 && ratio > 0.0 && ratio <= std::cos(turn) * (1.0 + kCornerRounding); }
 };
 
-/// Way along such a curve whose first edge points along the real axis.
-Complex wayOf(const Arc& arc) {
+/// Chord of such a curve whose first edge points along the real axis.
+Complex chordOf(const Arc& arc) {
   const Complex z = std::polar(arc.ratio, arc.turn);
   return arc.edge * (1.0 + z + z * z);
 }
 
 /// From before to behind over both arcs: the second is the mirror of a curve from its far end.
-Complex wayOver(const Frame& f, const Arc& first, const Arc& second) {
-  return wayOf(first) + std::polar(1.0, f.turn) * std::conj(wayOf(second));
+Complex chordOver(const Frame& f, const Arc& first, const Arc& second) {
+  return chordOf(first) + std::polar(1.0, f.turn) * std::conj(chordOf(second));
 }
 
 std::optional<RoundedCorner> assemble(const Frame& f, const Arc& first, const Arc& second) {
@@ -83,18 +83,18 @@ std::optional<RoundedCorner> assemble(const Frame& f, const Arc& first, const Ar
 /// G1 ends: one h for both arcs; the turn is shared such that the chord gets its direction, then the size its length.
 std::optional<RoundedCorner> withRatio(const Frame& f, double h) {
   const double half = 0.5 * f.turn, wanted = std::arg(f.chord);
-  const auto way = [&](double phi1) {
-    return wayOver(f, {std::sin(phi1), h, phi1}, {std::sin(half - phi1), h, half - phi1});
+  const auto chordWith = [&](double phi1) {
+    return chordOver(f, {std::sin(phi1), h, phi1}, {std::sin(half - phi1), h, half - phi1});
   };
   double low = kLeastShare * half, high = (1.0 - kLeastShare) * half;
   // A larger first arc stays longer on the first direction... until the chord's direction is met.
-  const double atLow = std::arg(way(low)) - wanted, atHigh = std::arg(way(high)) - wanted;
+  const double atLow = std::arg(chordWith(low)) - wanted, atHigh = std::arg(chordWith(high)) - wanted;
   if (!(atLow * atHigh <= 0.0)) return std::nullopt;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
-    ((std::arg(way(middle)) - wanted) * atLow > 0.0 ? low : high) = middle;
+    ((std::arg(chordWith(middle)) - wanted) * atLow > 0.0 ? low : high) = middle;
   }
-  const double phi1 = 0.5 * (low + high), size = std::abs(f.chord) / std::abs(way(phi1));
+  const double phi1 = 0.5 * (low + high), size = std::abs(f.chord) / std::abs(chordWith(phi1));
   return assemble(f, {size * std::sin(phi1), h, phi1}, {size * std::sin(half - phi1), h, half - phi1});
 }
 
@@ -113,7 +113,7 @@ std::optional<RoundedCorner> withCurvatures(const Frame& f, double kappa1, doubl
   };
   ResidualBlock block{{0, 1}, 2, [&](std::span<const double> x, std::span<double> r) {
                         const auto arcs = arcsOf(x);
-                        const Complex away = (wayOver(f, arcs[0], arcs[1]) - f.chord) / size;
+                        const Complex away = (chordOver(f, arcs[0], arcs[1]) - f.chord) / size;
                         r[0] = away.real();
                         r[1] = away.imag();
                       }};

@@ -169,8 +169,8 @@ class Grower {
   std::span<const Vec2> pointsOn(const TypicalCurve& c) const {
     const std::size_t near = nearestTo(c.start), begin = near > kBehind ? near - kBehind : 0;
     std::size_t end = begin + 1;
-    for (double way = 0.0; end < points_.size() && way < kReachOfSize * sizeOf(c) + kReachPx; ++end)
-      way += (points_[end] - points_[end - 1]).norm();
+    for (double length = 0.0; end < points_.size() && length < kReachOfSize * sizeOf(c) + kReachPx; ++end)
+      length += (points_[end] - points_[end - 1]).norm();
     const std::span<const Vec2> beside = std::span(points_).subspan(begin, end - begin);
     const Feet feet = feetOn(c, beside);
     std::size_t first = 0;
@@ -240,14 +240,14 @@ class Grower {
       double step = 0.0;
       const FormGradient gradient = formGradient(c);
       if (params_.growingAsInPaper) {
-        // Where the way of the end point crosses the line of the points.
+        // Where the path of the end point crosses the line of the points.
         const double c0 = std::cos(c.angleRad), s0 = std::sin(c.angleRad);
-        const Vec2 way(c0 * gradient.endByTurn.x() - s0 * gradient.endByTurn.y(),
-                       s0 * gradient.endByTurn.x() + c0 * gradient.endByTurn.y());
+        const Vec2 path(c0 * gradient.endByTurn.x() - s0 * gradient.endByTurn.y(),
+                        s0 * gradient.endByTurn.x() + c0 * gradient.endByTurn.y());
         const Joint end = c.endJoint();
         const auto local = lineNear(end.point);
         const Vec2 normal = leftNormal(local.direction);
-        const double across = way.dot(normal);
+        const double across = path.dot(normal);
         if (!(std::abs(across) > 1e-9)) return true;
         step = (local.point - end.point).dot(normal) / across;
       } else {
@@ -282,9 +282,10 @@ class Grower {
     bool reachesEnd = false;
   };
   GrownCurve growOne(TypicalCurve c, const Vec2& end, const RunContext& context) {
-    for (std::size_t i = 0, way = 0; i < kMostGrowths && way < kExtrapolations.size() && !context.isCancelled(); ++i) {
+    for (std::size_t i = 0, extrapolation = 0;
+         i < kMostGrowths && extrapolation < kExtrapolations.size() && !context.isCancelled(); ++i) {
       if (isPassed(c, end)) return {c, true};
-      TypicalCurve longer = c.toParameter(kExtrapolations[way]);
+      TypicalCurve longer = c.toParameter(kExtrapolations[extrapolation]);
       record(GrowingStep::Kind::Extrapolated, longer, false);
       const bool rested = isFree_ ? refitWhole(longer) : refit(longer);
       const bool fits = std::abs(longer.turnRad) < kLargestGrownTurn && longer.ratio > kSmallestRatio &&
@@ -295,7 +296,7 @@ class Grower {
         c = longer;
         rested_ = rested;
       } else {
-        ++way;
+        ++extrapolation;
       }
     }
     return {c, false};

@@ -22,15 +22,15 @@ struct SamplesAcross {
 };
 
 // Where samples [first, first + count) of a profile lie.
-struct ProfileWay {
+struct ProfileRow {
   double x, y, dx, dy;
   int first, half, width;
 };
 
-BATTEN_HOT_LOOP void placeSamples(const ProfileWay& way, int count, std::int32_t* __restrict pixel,
+BATTEN_HOT_LOOP void placeSamples(const ProfileRow& row, int count, std::int32_t* __restrict pixel,
                                   float* __restrict right, float* __restrict down) {
-  const double x = way.x, y = way.y, dx = way.dx, dy = way.dy;
-  const int start = way.first - way.half, width = way.width;
+  const double x = row.x, y = row.y, dx = row.dx, dy = row.dy;
+  const int start = row.first - row.half, width = row.width;
   for (int k = 0; k < count; ++k) {
     const double u = (start + k) * kStrokeStepPx;
     const double fx = x + u * dx - 0.5, fy = y + u * dy - 0.5;

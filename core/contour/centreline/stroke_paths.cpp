@@ -8,7 +8,7 @@
 #include "core/base/statistics.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/junction_pairing.h"
-#include "core/contour/centreline/junction_ways.h"
+#include "core/contour/centreline/junction_pairings.h"
 #include "core/contour/centreline/skeleton_graph.h"
 #include "core/contour/centreline/skeleton_junctions.h"
 #include "core/contour/centreline/skeleton_spurs.h"
@@ -81,8 +81,8 @@ class StrokePathMaker {
     junction.pairs = pairs;
     junction.choice = choice;
     for (int i = 0; i < std::ssize(edges); ++i) junction.branchesPx.push_back(placeOn(edges[i], meeting[i].first));
-    JunctionWays found = findWays(meeting, own, node.radius, graph_.medianRadius(), params_.maxBendDeg);
-    junction.ways = std::move(found.ways);
+    JunctionPairings found = findPairings(meeting, own, node.radius, graph_.medianRadius(), params_.maxBendDeg);
+    junction.pairings = std::move(found.pairings);
     junction.isDoubtful = found.isDoubtful;
     return junction;
   }

@@ -162,13 +162,13 @@ class LoopRemoval {
     if (exposed_[i]) return *exposed_[i];
     bool isInk = false;
     const auto& places = middle_.places;
-    for (const std::ptrdiff_t way : {-1, 1}) {
+    for (const std::ptrdiff_t step : {-1, 1}) {
       double gone = 0.0;
       for (std::ptrdiff_t m = border_[i].middle; m >= 0 && m < std::ssize(places) && gone < reach_ && !isInk;
-           m += way) {
+           m += step) {
         const double half = (0.5 - kCoveredShare) * places[m].width;
         isInk = (places[m].at - border_[i].at).squaredNorm() < half * half;
-        if (m + way >= 0 && m + way < std::ssize(places)) gone += (places[m + way].at - places[m].at).norm();
+        if (m + step >= 0 && m + step < std::ssize(places)) gone += (places[m + step].at - places[m].at).norm();
       }
     }
     exposed_[i] = !isInk;

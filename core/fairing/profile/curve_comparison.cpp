@@ -14,19 +14,19 @@ namespace {
 /// |rho| counts as at most this many extents of the curve.
 constexpr double kLargestRadius = 10.0;
 
-/// One way of laying the second profile over the first.
-struct Way {
+/// How the second profile is laid over the first.
+struct Alignment {
   bool mirrored = false, reversed = false;
   int shift = 0;
 };
 
-std::vector<double> laid(const std::vector<double>& values, const Way& way) {
+std::vector<double> laid(const std::vector<double>& values, const Alignment& alignment) {
   // Running through a curve the other way turns the sign of its curvature, as a reflection does.
-  const double sign = way.mirrored != way.reversed ? -1.0 : 1.0;
+  const double sign = alignment.mirrored != alignment.reversed ? -1.0 : 1.0;
   const int count = static_cast<int>(values.size());
   std::vector<double> result(values.size());
   for (int i = 0; i < count; ++i) {
-    const int from = (way.reversed ? count - 1 - i + way.shift : i + way.shift) % count;
+    const int from = (alignment.reversed ? count - 1 - i + alignment.shift : i + alignment.shift) % count;
     result[i] = sign * values[from];
   }
   return result;
@@ -69,12 +69,12 @@ ShapeComparison compareShapes(const ShapeProfile& first, const ShapeProfile& sec
   result.second = second;
   if (first.radius.empty() || first.radius.size() != second.radius.size()) return result;
   const int shifts = first.closed && second.closed ? static_cast<int>(second.radius.size()) : 1;
-  Way best;
+  Alignment best;
   double largest = -2.0;
   for (const bool reversed : {false, true}) {
     for (int shift = 0; shift < shifts; ++shift) {
       const double s = similarity(first.radius, laid(second.radius, {false, reversed, shift}));
-      // A reflection turns the sign of S and changes nothing else. The first way found wins a tie.
+      // A reflection turns the sign of S and changes nothing else. The first alignment found wins a tie.
       for (const bool mirrored : {false, true}) {
         const double value = mirrored ? -s : s;
         if (value > largest + 1e-12) largest = value, best = {mirrored, reversed, shift};

@@ -290,8 +290,8 @@ class ShapeModification {
   }
 
   bool isFollowed() const {
-    const double way = report_.objectiveBefore - std::sqrt(metMisfit_);
-    return report_.objectiveBefore - report_.objectiveAfter >= kMetShare * way;
+    const double possible = report_.objectiveBefore - std::sqrt(metMisfit_);
+    return report_.objectiveBefore - report_.objectiveAfter >= kMetShare * possible;
   }
 
   void explain() {

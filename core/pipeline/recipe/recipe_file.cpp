@@ -178,14 +178,14 @@ Json numbersToJson(const CurveNumbers& numbers) {
 }
 
 Json traceModesToJson(const Recipe& recipe) {
-  Json ways = Json::array();
+  Json modes = Json::array();
   for (const EdgeChoice& choice : recipe.edges.choices) {
     Recipe named;
     named.edges.mode = choice.mode;
     const std::string word = findParameter("edges.mode")->get(named);
-    ways.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"mode", word}});
+    modes.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"mode", word}});
   }
-  return ways;
+  return modes;
 }
 
 Json cornerToJson(const CornerMark& mark) {

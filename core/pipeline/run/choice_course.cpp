@@ -67,20 +67,20 @@ CourseStretch runOf(const Course& course, const Piece& piece) {
   const std::size_t count = std::min(kPlaces, piece.points.size());
   for (std::size_t i = 0; i < count; ++i)
     shares.push_back(course.shareAt(piece.points[i * (piece.points.size() - 1) / (count - 1)].at));
-  double forwards = 0.0, way = 0.0;
+  double forwards = 0.0, advance = 0.0;
   for (std::size_t i = 1; i < shares.size(); ++i) {
     double step = shares[i] - shares[i - 1];
     if (course.isClosed()) step -= std::round(step);
     // Where the line comes near itself a place may fall on another stretch: such jumps say nothing.
     if (std::abs(step) > 0.25) continue;
     forwards += step > 0.0 ? 1.0 : step < 0.0 ? -1.0 : 0.0;
-    way += step;
+    advance += step;
   }
   CourseStretch run;
-  run.isReversed = forwards != 0.0 ? forwards < 0.0 : way < 0.0;
+  run.isReversed = forwards != 0.0 ? forwards < 0.0 : advance < 0.0;
   if (course.isClosed()) {
     run.start = shares.front();
-    run.covered = piece.closed ? 1.0 : std::min(1.0, std::abs(way));
+    run.covered = piece.closed ? 1.0 : std::min(1.0, std::abs(advance));
     if (run.covered > 1.0 - kSameEnd) run.covered = 1.0;
     if (run.covered == 1.0 && std::abs(run.start - std::round(run.start)) < kSameEnd) run.start = 0.0;
     return run;
@@ -107,8 +107,8 @@ std::vector<ProfilePoint> turned(const std::vector<ProfilePoint>& profile, const
   // The ends of a part are added below, where its profile is cut.
   const double least = isPart ? kSameEnd : -kRounding, most = isPart ? 1.0 - kSameEnd : 1.0 + kRounding;
   for (const ProfilePoint& p : profile) {
-    const double way = side * (p.fraction - run.start);
-    double t = (closedCourse ? fractionOf(way) : way) / run.covered;
+    const double along = side * (p.fraction - run.start);
+    double t = (closedCourse ? fractionOf(along) : along) / run.covered;
     if (closedCourse && !isPart && std::min(t, 1.0 - t) < kSeam) t = 0.0;
     if (t >= least && t <= most) points.push_back({std::clamp(t, 0.0, 1.0), side * p.kappa});
   }

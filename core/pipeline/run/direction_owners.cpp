@@ -30,8 +30,8 @@ std::optional<PlaceOnPiece> placeNear(const PieceSet& set, const Vec2& px) {
   return found;
 }
 
-/// The way a piece runs at one of its points, not normalised.
-Vec2 wayAt(const Piece& piece, std::ptrdiff_t point) {
+/// The direction of a piece at one of its points, not normalised.
+Vec2 directionAt(const Piece& piece, std::ptrdiff_t point) {
   const std::ptrdiff_t last = std::ssize(piece.points) - 1;
   const auto at = [&](std::ptrdiff_t i) { return piece.points[std::clamp<std::ptrdiff_t>(i, 0, last)].at; };
   return at(point + kChordPoints) - at(point - kChordPoints);
@@ -49,8 +49,8 @@ DirectionOwners assignDirections(const PieceSet& set, const Recipe& recipe) {
       owners.lostDirections.push_back(mark);
       continue;
     }
-    const Vec2 way = wayAt(set.pieces[place->piece], place->point);
-    owners.ofPiece[place->piece] = {mark, way.dot(wanted.towardsPx - wanted.positionPx) < 0.0};
+    const Vec2 direction = directionAt(set.pieces[place->piece], place->point);
+    owners.ofPiece[place->piece] = {mark, direction.dot(wanted.towardsPx - wanted.positionPx) < 0.0};
   }
   for (std::size_t mark = 0; mark < recipe.starts.size(); ++mark) {
     if (const auto place = placeNear(set, recipe.starts[mark].positionPx))
@@ -71,9 +71,9 @@ void reverseDirection(Recipe& recipe, const PieceSet& set, std::size_t piece) {
   });
   const std::ptrdiff_t middle = std::ssize(points) / 2;
   const Vec2 at = points[middle].at;
-  const Vec2 way = wayAt(set.pieces[piece], middle);
+  const Vec2 direction = directionAt(set.pieces[piece], middle);
   const bool isReversed = now && now->isReversed;
-  if (way.norm() > 0.0) recipe.directions.push_back({at, at + (isReversed ? way : Vec2(-way))});
+  if (direction.norm() > 0.0) recipe.directions.push_back({at, at + (isReversed ? direction : Vec2(-direction))});
 }
 
 void setStart(Recipe& recipe, const PieceSet& set, std::size_t piece, const Vec2& px) {

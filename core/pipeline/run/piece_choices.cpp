@@ -145,9 +145,9 @@ class CourseFinder {
     const double step = std::max(kStepPx, polylineLength(anchors, false) / kMostPoints);
     std::vector<Vec2> course = {anchors.front()};
     for (std::size_t i = 1; i < anchors.size(); ++i) {
-      const Vec2 way = anchors[i] - anchors[i - 1];
-      const int count = std::max(1, static_cast<int>(std::ceil(way.norm() / step)));
-      for (int k = 1; k <= count; ++k) course.push_back(anchors[i - 1] + (static_cast<double>(k) / count) * way);
+      const Vec2 chord = anchors[i] - anchors[i - 1];
+      const int count = std::max(1, static_cast<int>(std::ceil(chord.norm() / step)));
+      for (int k = 1; k <= count; ++k) course.push_back(anchors[i - 1] + (static_cast<double>(k) / count) * chord);
     }
     return course;
   }

@@ -40,9 +40,9 @@ std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
   for (const Contour& c : set.contours) bytes += sizeof(c) + vectorBytes(c.points);
   for (const StrokeJunction& junction : set.junctions) {
-    bytes +=
-        sizeof(junction) + vectorBytes(junction.branchesPx) + vectorBytes(junction.pairs) + vectorBytes(junction.ways);
-    for (const EndPairs& way : junction.ways) bytes += vectorBytes(way);
+    bytes += sizeof(junction) + vectorBytes(junction.branchesPx) + vectorBytes(junction.pairs) +
+             vectorBytes(junction.pairings);
+    for (const EndPairs& pairing : junction.pairings) bytes += vectorBytes(pairing);
   }
   return bytes;
 }

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/contour/centreline/junction_ways.h"
+#include "core/contour/centreline/junction_pairings.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/dense_page.h"
 
@@ -25,33 +25,34 @@ MeetingEnd meetingTowards(double angleDeg, double radius = kUsualRadiusPx) {
   return {0, kNodeRadiusPx * out, out, radius};
 }
 
-JunctionWays waysOf(const std::vector<MeetingEnd>& ends) {
+JunctionPairings pairingsOf(const std::vector<MeetingEnd>& ends) {
   const EndPairs own = pairEnds(ends, kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg);
-  return findWays(ends, own, kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg);
+  return findPairings(ends, own, kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg);
 }
 
-TEST(JunctionWays, TheRuleComesFirstThenTheNextBestAndNoneLast) {
-  const JunctionWays cross = waysOf({meetingTowards(0), meetingTowards(80), meetingTowards(180), meetingTowards(260)});
-  ASSERT_EQ(cross.ways.size(), 4u);
-  EXPECT_EQ(cross.ways[0], EndPairs({{0, 2}, {1, 3}}));
+TEST(JunctionPairings, TheRuleComesFirstThenTheNextBestAndNoneLast) {
+  const JunctionPairings cross =
+      pairingsOf({meetingTowards(0), meetingTowards(80), meetingTowards(180), meetingTowards(260)});
+  ASSERT_EQ(cross.pairings.size(), 4u);
+  EXPECT_EQ(cross.pairings[0], EndPairs({{0, 2}, {1, 3}}));
   // The ends of an obtuse angle bend by 80, those of an acute one by 100.
-  EXPECT_EQ(cross.ways[1], EndPairs({{0, 3}, {1, 2}}));
-  EXPECT_EQ(cross.ways[2], EndPairs({{0, 1}, {2, 3}}));
-  EXPECT_TRUE(cross.ways[3].empty());
+  EXPECT_EQ(cross.pairings[1], EndPairs({{0, 3}, {1, 2}}));
+  EXPECT_EQ(cross.pairings[2], EndPairs({{0, 1}, {2, 3}}));
+  EXPECT_TRUE(cross.pairings[3].empty());
   EXPECT_FALSE(cross.isDoubtful);
   EXPECT_NEAR(cross.cost, 0.0, 1e-6);
 
-  const JunctionWays branch = waysOf({meetingTowards(0), meetingTowards(180), meetingTowards(70)});
-  ASSERT_EQ(branch.ways.size(), 4u);
-  EXPECT_EQ(branch.ways[0], EndPairs({{0, 1}}));
+  const JunctionPairings branch = pairingsOf({meetingTowards(0), meetingTowards(180), meetingTowards(70)});
+  ASSERT_EQ(branch.pairings.size(), 4u);
+  EXPECT_EQ(branch.pairings[0], EndPairs({{0, 1}}));
   EXPECT_FALSE(branch.isDoubtful);
 }
 
-TEST(JunctionWays, AForkOfEqualTinesIsDoubtful) {
-  EXPECT_TRUE(waysOf({meetingTowards(180), meetingTowards(11), meetingTowards(-12)}).isDoubtful);
-  EXPECT_FALSE(waysOf({meetingTowards(180), meetingTowards(0), meetingTowards(38)}).isDoubtful);
+TEST(JunctionPairings, AForkOfEqualTinesIsDoubtful) {
+  EXPECT_TRUE(pairingsOf({meetingTowards(180), meetingTowards(11), meetingTowards(-12)}).isDoubtful);
+  EXPECT_FALSE(pairingsOf({meetingTowards(180), meetingTowards(0), meetingTowards(38)}).isDoubtful);
   // What is as wide decides without doubt.
-  EXPECT_FALSE(waysOf({meetingTowards(180, 5.0), meetingTowards(11, 5.0), meetingTowards(-12, 1.5)}).isDoubtful);
+  EXPECT_FALSE(pairingsOf({meetingTowards(180, 5.0), meetingTowards(11, 5.0), meetingTowards(-12, 1.5)}).isDoubtful);
 }
 
 struct CrossedPage {
@@ -118,7 +119,7 @@ TEST(JunctionChoices, StrokesGoOnAsTheUserPairsThem) {
   const ContourSet turned = tracedBy(page, params);
   ASSERT_EQ(turned.junctions.size(), 1u);
   EXPECT_EQ(turned.junctions[0].choice, 0);
-  EXPECT_EQ(turned.junctions[0].ways, plain.junctions[0].ways) << "what the rule says stays known";
+  EXPECT_EQ(turned.junctions[0].pairings, plain.junctions[0].pairings) << "what the rule says stays known";
   EXPECT_TRUE(isOneLine(turned, placeOn(0, angle, 100), placeOn(1, angle, 100)));
   EXPECT_TRUE(isOneLine(turned, placeOn(0, angle, -100), placeOn(1, angle, -100)));
   EXPECT_FALSE(isOneLine(turned, placeOn(0, angle, 100), placeOn(0, angle, -100)));

@@ -35,10 +35,10 @@ void paintEnvelope(QPainter& painter, const std::vector<CombPoint>& points, cons
 
 /// Says that a quill goes on: two short strokes aslant across its end.
 void paintCut(QPainter& painter, QPointF foot, QPointF tip) {
-  const QPointF way = tip - foot;
-  const double length = std::hypot(way.x(), way.y());
+  const QPointF quill = tip - foot;
+  const double length = std::hypot(quill.x(), quill.y());
   if (!(length > 0.0)) return;
-  const QPointF along = way / length, across(-along.y(), along.x());
+  const QPointF along = quill / length, across(-along.y(), along.x());
   const QPointF aslant = 4.0 * across + 2.0 * along;
   for (const double back : {0.0, 4.0}) {
     const QPointF at = tip - back * along;

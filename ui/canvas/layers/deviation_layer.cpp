@@ -23,8 +23,8 @@ void paintDeviation(QPainter& painter, const CanvasScene& scene) {
   QPolygonF tips;
   for (const Whisker& whisker : comb->whiskers) {
     const QPointF foot = scene.transform.toWidget(whisker.toPx);
-    const Vec2 way = whisker.fromPx - whisker.toPx;
-    const Vec2 unit = way.norm() > 0.0 ? Vec2(way / way.norm()) : Vec2(0.0, 0.0);
+    const Vec2 offset = whisker.fromPx - whisker.toPx;
+    const Vec2 unit = offset.norm() > 0.0 ? Vec2(offset / offset.norm()) : Vec2(0.0, 0.0);
     const QPointF tip = foot + QPointF(unit.x(), unit.y()) * (whisker.mm * pxPerMm);
     const double share = std::clamp(whisker.mm / tolerance, 0.0, 1.0);
     painter.setPen(QPen(QColor::fromHsvF(static_cast<float>(0.38 * (1.0 - share)), 0.85F, 0.72F), 1.4));

@@ -23,10 +23,10 @@ QPolygonF outlineOf(const TypicalCurve& curve, const CanvasScene& scene) {
 
 /// A tick across the end of a curve: where segments meet.
 void paintJoint(QPainter& painter, const QPolygonF& line) {
-  const QPointF way = line.back() - line[line.size() - 2];
-  const double length = std::hypot(way.x(), way.y());
+  const QPointF chord = line.back() - line[line.size() - 2];
+  const double length = std::hypot(chord.x(), chord.y());
   if (!(length > 0.0)) return;
-  const QPointF across(-way.y() / length * 6.0, way.x() / length * 6.0);
+  const QPointF across(-chord.y() / length * 6.0, chord.x() / length * 6.0);
   painter.drawLine(line.back() - across, line.back() + across);
 }
 

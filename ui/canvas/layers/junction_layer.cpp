@@ -90,16 +90,16 @@ std::optional<int> junctionNear(const CanvasScene& scene, const Vec2& px, double
 }
 
 QString junctionHint(const CanvasScene& scene, const StrokeJunction& junction) {
-  const auto now = std::find(junction.ways.begin(), junction.ways.end(), askedPairs(scene.session, junction));
-  const QString way = now == junction.ways.end() ? QString()
-                                                 : layerText(" (%1 of %2)")
-                                                       .arg(now - junction.ways.begin() + 1)
-                                                       .arg(static_cast<qint64>(junction.ways.size()));
+  const auto now = std::find(junction.pairings.begin(), junction.pairings.end(), askedPairs(scene.session, junction));
+  const QString number = now == junction.pairings.end() ? QString()
+                                                        : layerText(" (%1 of %2)")
+                                                              .arg(now - junction.pairings.begin() + 1)
+                                                              .arg(static_cast<qint64>(junction.pairings.size()));
   if (isPairedByHand(scene.session, junction))
-    return layerText("Strokes paired by hand%1. Click for the next way.").arg(way);
+    return layerText("Strokes paired by hand%1. Click for the next pairing.").arg(number);
   if (junction.isDoubtful)
-    return layerText("These strokes might also be paired otherwise%1. Click for the next way.").arg(way);
-  return layerText("Click to pair these strokes in the next way%1.").arg(way);
+    return layerText("These strokes might be paired differently%1. Click for the next pairing.").arg(number);
+  return layerText("Click for the next pairing of these strokes%1.").arg(number);
 }
 
 }  // namespace batten

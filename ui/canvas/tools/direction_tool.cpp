@@ -20,8 +20,8 @@ constexpr double kHeadAngleRad = 0.45;
 
 QString directionToolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Shows which way curves are exported and where they begin; click turns, drag of the ring of a closed line moves its
-/// start.
+/// Shows in which direction curves are exported and where they begin; click turns, drag of the ring of a closed line
+/// moves its start.
 class DirectionTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;
@@ -87,7 +87,7 @@ class DirectionTool final : public CanvasTool {
  private:
   /// Where the marks of a curve are drawn [px].
   struct Shown {
-    Vec2 middle = Vec2::Zero(), way = Vec2::UnitX(), start = Vec2::Zero();
+    Vec2 middle = Vec2::Zero(), direction = Vec2::UnitX(), start = Vec2::Zero();
     bool isClosed = false, isFirst = false;
   };
 
@@ -108,7 +108,7 @@ class DirectionTool final : public CanvasTool {
       const CurveSample middle = sampleByArcLength(shape, 3)[1];
       const double sign = courses[i].isReversed ? -1.0 : 1.0;
       shown.middle = frame.pointToImage(middle.point);
-      shown.way = sign * frame.vectorToImage(middle.tangent).normalized();
+      shown.direction = sign * frame.vectorToImage(middle.tangent).normalized();
       shown.isClosed = courses[i].isOfClosedLine;
       const Vec2 begin = frame.pointToImage(shape.point(courses[i].isReversed ? shape.end() : shape.start()));
       shown.start = begin;
@@ -161,8 +161,8 @@ class DirectionTool final : public CanvasTool {
 
   void paintArrow(QPainter& painter, const Shown& shown, const QColor& color) const {
     const QPointF tip =
-        scene_.transform.toWidget(shown.middle) + 0.5 * kArrowPx * QPointF(shown.way.x(), shown.way.y());
-    const double angle = std::atan2(shown.way.y(), shown.way.x());
+        scene_.transform.toWidget(shown.middle) + 0.5 * kArrowPx * QPointF(shown.direction.x(), shown.direction.y());
+    const double angle = std::atan2(shown.direction.y(), shown.direction.x());
     QPolygonF head{tip};
     for (const double side : {kHeadAngleRad, -kHeadAngleRad})
       head << tip - kArrowPx * QPointF(std::cos(angle + side), std::sin(angle + side));

@@ -14,7 +14,7 @@ namespace {
 
 QString toolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Click on a junction: its strokes go through it in the next way. Click on one of its branches, then on another: these
+/// Click on a junction: the next pairing of its strokes. Click on one of its branches, then on another: these
 /// two are one stroke, or come apart.
 class JunctionTool final : public CanvasTool {
  public:
@@ -31,7 +31,7 @@ class JunctionTool final : public CanvasTool {
     const StrokeJunction& junction = junctionsOf(scene_.session)[target->junction];
     if (!target->branch) {
       first_.reset();
-      pairNextWay(scene_.session, junction);
+      pairNext(scene_.session, junction);
     } else if (first_ && first_->junction == target->junction && first_->branch != target->branch) {
       const int first = *first_->branch;
       first_.reset();
@@ -132,7 +132,8 @@ class JunctionTool final : public CanvasTool {
     const auto junctions = junctionsOf(scene_.session);
     if (first_) return scene_.hint(toolText("Click another branch: both are one stroke, or come apart."));
     if (!over_ || over_->junction >= std::ssize(junctions))
-      return scene_.hint(toolText("Click a junction for the next way to pair its strokes, or two of its branches."));
+      return scene_.hint(
+          toolText("Click a junction for the next pairing of its strokes, or two of its branches to join them."));
     scene_.hint(over_->branch ? toolText("Click to join this branch with another one.")
                               : junctionHint(scene_, junctions[over_->junction]));
   }

@@ -64,8 +64,8 @@ void PointTool::move(const ToolEvent& event, bool isPressed) {
   if (!isPressed) return update(event);
   last_ = event;
   if (!held_) return;
-  const QPointF way = event.widget - pressed_;
-  if (!isDragging_ && std::hypot(way.x(), way.y()) < kDragStartPx) return;
+  const QPointF moved = event.widget - pressed_;
+  if (!isDragging_ && std::hypot(moved.x(), moved.y()) < kDragStartPx) return;
   isDragging_ = true;
   const auto at = placeFor(event);
   Recipe recipe = scene_.session.recipe();
@@ -90,7 +90,7 @@ void PointTool::abort() {
 }
 
 bool PointTool::key(QKeyEvent* event) {
-  if (const auto way = arrowOf(event)) return nudge(*way);
+  if (const auto step = arrowOf(event)) return nudge(*step);
   if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace) return false;
   const Index mark = hovered_ ? hovered_ : selected();
   if (!mark) return false;
@@ -158,12 +158,12 @@ void PointTool::update(const ToolEvent& event) {
 }
 
 /// Moves the selected mark; without one the arrow pans.
-bool PointTool::nudge(const Vec2& way) {
+bool PointTool::nudge(const Vec2& step) {
   const Index mark = selected();
   if (!mark || *mark >= count()) return false;
   if (!nudgeGesture_) nudgeGesture_ = scene_.session.newGesture();
   Recipe recipe = scene_.session.recipe();
-  place(recipe, *mark, stored(*mark) + way);
+  place(recipe, *mark, stored(*mark) + step);
   change(steps().move, std::move(recipe), nudgeGesture_);
   return true;
 }

@@ -54,7 +54,7 @@ class PointTool : public CanvasTool {
  private:
   Index markAt(const Vec2& px) const { return nearest(px, scene_.reachImagePx()); }
   void update(const ToolEvent&);
-  bool nudge(const Vec2& way);
+  bool nudge(const Vec2& step);
   void remove(std::size_t mark);
   void change(const QString& what, Recipe after, GestureId gesture = {});
 

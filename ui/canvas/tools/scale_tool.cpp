@@ -96,13 +96,13 @@ class ScaleTool final : public CanvasTool {
     const auto line = isPressed_ || isFollowing_ ? std::optional(line_) : shown();
     if (!line || line->fromPx == line->toPx) return;
     const QPointF from = scene_.transform.toWidget(line->fromPx), to = scene_.transform.toWidget(line->toPx);
-    const QLineF way(from, to);
-    const QPointF across = QPointF(-way.dy(), way.dx()) / std::max(way.length(), 1e-9) * kEndMarkPx;
+    const QLineF bar(from, to);
+    const QPointF across = QPointF(-bar.dy(), bar.dx()) / std::max(bar.length(), 1e-9) * kEndMarkPx;
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
     for (const auto& [color, width] : {std::pair{QColor(255, 255, 255, 220), 4.5}, {colors::target(), 1.8}}) {
       painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap));
-      painter.drawLine(way);
+      painter.drawLine(bar);
       painter.drawLine(QLineF(from - across, from + across));
       painter.drawLine(QLineF(to - across, to + across));
     }
@@ -134,11 +134,11 @@ class ScaleTool final : public CanvasTool {
     Vec2& end = held_ == End::From ? line_.fromPx : line_.toPx;
     const Vec2& other = held_ == End::From ? line_.toPx : line_.fromPx;
     end = event.px;
-    const Vec2 way = end - other;
-    if (!event.modifiers.testFlag(Qt::ShiftModifier) || way.norm() == 0.0) return;
-    const double step = kSteepDeg * kRadPerDeg, angle = step * std::round(std::atan2(way.y(), way.x()) / step);
+    const Vec2 offset = end - other;
+    if (!event.modifiers.testFlag(Qt::ShiftModifier) || offset.norm() == 0.0) return;
+    const double step = kSteepDeg * kRadPerDeg, angle = step * std::round(std::atan2(offset.y(), offset.x()) / step);
     const Vec2 along(std::cos(angle), std::sin(angle));
-    end = other + way.dot(along) * along;
+    end = other + offset.dot(along) * along;
   }
 
   void finish() {

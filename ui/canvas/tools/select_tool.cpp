@@ -25,7 +25,7 @@ class SelectTool final : public CanvasTool {
       return toggleExtremum(scene_.session, scene_.session.selectedCurve(), note);
     }
     if (const auto junction = markedJunction(event.px))
-      return pairNextWay(scene_.session, junctionsOf(scene_.session)[*junction]);
+      return pairNext(scene_.session, junctionsOf(scene_.session)[*junction]);
     const auto curve = scene_.curveNear(event.px);
     if (!curve) return;
     if (*curve == scene_.session.selectedCurve() && judgedIn(scene_.view) == Judged::Result)

@@ -54,10 +54,10 @@ class ThresholdTool final : public CanvasTool {
                     ? QString()
                     : tr("Drag up or down, or turn the wheel, to change this threshold; double-click for automatic."));
     if (!isPressed || base_.empty()) return;
-    const double way = pressed_.y() - event.widget.y();
-    if (!isDragging_ && std::abs(way) < kDragStartPx) return;
+    const double drag = pressed_.y() - event.widget.y();
+    if (!isDragging_ && std::abs(drag) < kDragStartPx) return;
     isDragging_ = true;
-    apply(base_, way * kLevelsPerPx, gesture_);
+    apply(base_, drag * kLevelsPerPx, gesture_);
   }
 
   void release(const ToolEvent&) override {

@@ -93,7 +93,7 @@ void EdgesPanel::buildJunctions() {
   auto* row = new QHBoxLayout;
   pair_->setCheckable(true);
   pair_->setToolTip(
-      tr("Click a junction to pair its strokes in the next way, or click two of its branches to join them  (J)"));
+      tr("Click a junction for the next pairing of its strokes, or click two of its branches to join them  (J)"));
   row->addWidget(pair_);
   row->addStretch();
   row->addWidget(unpair_);

@@ -12,26 +12,26 @@
 namespace batten {
 namespace {
 
-constexpr std::array kWays = {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::Centreline};
+constexpr std::array kTraceModes = {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::Centreline};
 
 }
 
 LineTraceMode::LineTraceMode(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      ways_(new SegmentedControl({tr("Same as page"), tr("Outline"), tr("Centre line")}, this)),
+      modes_(new SegmentedControl({tr("Same as page"), tr("Outline"), tr("Centre line")}, this)),
       hint_(note(tr("Click a line to give it its own trace mode."), this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   layout->addWidget(caption(tr("Selected line"), this));
-  layout->addWidget(ways_);
+  layout->addWidget(modes_);
   layout->addWidget(hint_);
-  ways_->setNames(QStringLiteral("edges.way"),
-                  {QStringLiteral("page"), QStringLiteral("outline"), QStringLiteral("centreline")});
-  ways_->setToolTip(tr("Trace mode of the selected line, independent of the page setting."));
-  connect(ways_, &SegmentedControl::chosen, this, [this](int index) {
-    chooseTraceMode(session_, session_.selectedCurve(), kWays[index]);
+  modes_->setNames(QStringLiteral("edges.way"),
+                   {QStringLiteral("page"), QStringLiteral("outline"), QStringLiteral("centreline")});
+  modes_->setToolTip(tr("Trace mode of the selected line, independent of the page setting."));
+  connect(modes_, &SegmentedControl::chosen, this, [this](int index) {
+    chooseTraceMode(session_, session_.selectedCurve(), kTraceModes[index]);
     refresh();
   });
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
@@ -45,12 +45,12 @@ void LineTraceMode::refresh() {
   if (session_.isStale(StageId::Contours) != session_.isStale(StageId::Faired)) return;
   const auto curve = session_.selectedCurve();
   const bool isTraced = tracedLineOf(session_, curve) != nullptr;
-  ways_->setVisible(isTraced);
+  modes_->setVisible(isTraced);
   hint_->setVisible(!isTraced);
   if (!isTraced) return;
-  const EdgeMode way = traceModeOf(session_, curve);
-  for (std::size_t i = 0; i < kWays.size(); ++i) {
-    if (kWays[i] == way) ways_->setCurrent(static_cast<int>(i));
+  const EdgeMode mode = traceModeOf(session_, curve);
+  for (std::size_t i = 0; i < kTraceModes.size(); ++i) {
+    if (kTraceModes[i] == mode) modes_->setCurrent(static_cast<int>(i));
   }
 }
 

@@ -20,7 +20,7 @@ class LineTraceMode : public QWidget {
  private:
   void refresh();
   EditorSession& session_;
-  SegmentedControl* ways_;
+  SegmentedControl* modes_;
   QLabel* hint_;
 };
 

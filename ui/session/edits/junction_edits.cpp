@@ -40,7 +40,7 @@ void setPairs(EditorSession& session, const StrokeJunction& junction, const EndP
   JunctionChoice choice{junction.positionPx, {}};
   std::erase_if(after.edges.junctions, [&](const JunctionChoice& c) { return isAbout(session, c, junction); });
   for (const auto& [a, b] : pairs) choice.pairs.push_back({junction.branchesPx[a], junction.branchesPx[b]});
-  const bool isRule = !junction.ways.empty() && pairs == junction.ways.front();
+  const bool isRule = !junction.pairings.empty() && pairs == junction.pairings.front();
   if (!isRule) after.edges.junctions.push_back(std::move(choice));
   session.change(isRule ? junctionText("Pair strokes by rule") : junctionText("Pair strokes"), std::move(after));
 }
@@ -54,7 +54,7 @@ std::span<const StrokeJunction> junctionsOf(const EditorSession& session) {
 
 EndPairs askedPairs(const EditorSession& session, const StrokeJunction& junction) {
   const JunctionChoice* choice = choiceFor(session, junction);
-  if (choice == nullptr) return junction.ways.empty() ? junction.pairs : junction.ways.front();
+  if (choice == nullptr) return junction.pairings.empty() ? junction.pairs : junction.pairings.front();
   // What was found by the choice knows best which branches its places mean.
   if (junction.choice && session.recipe().edges.junctions.data() + *junction.choice == choice &&
       !session.isStale(StageId::Contours))
@@ -72,11 +72,11 @@ bool isPairedByHand(const EditorSession& session, const StrokeJunction& junction
   return choiceFor(session, junction) != nullptr;
 }
 
-void pairNextWay(EditorSession& session, const StrokeJunction& junction) {
-  const auto& ways = junction.ways;
-  if (ways.empty()) return;
-  const auto now = std::find(ways.begin(), ways.end(), askedPairs(session, junction));
-  setPairs(session, junction, now == ways.end() || now + 1 == ways.end() ? ways.front() : *(now + 1));
+void pairNext(EditorSession& session, const StrokeJunction& junction) {
+  const auto& pairings = junction.pairings;
+  if (pairings.empty()) return;
+  const auto now = std::find(pairings.begin(), pairings.end(), askedPairs(session, junction));
+  setPairs(session, junction, now == pairings.end() || now + 1 == pairings.end() ? pairings.front() : *(now + 1));
 }
 
 void pairBranches(EditorSession& session, const StrokeJunction& junction, int first, int second) {

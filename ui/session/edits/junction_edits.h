@@ -13,8 +13,8 @@ std::span<const StrokeJunction> junctionsOf(const EditorSession& session);
 EndPairs askedPairs(const EditorSession& session, const StrokeJunction& junction);
 /// Whether the user has paired the strokes of the junction.
 bool isPairedByHand(const EditorSession& session, const StrokeJunction& junction);
-/// Pairs the strokes in the next way; behind the last one it is the rule again.
-void pairNextWay(EditorSession& session, const StrokeJunction& junction);
+/// Takes the next pairing of the strokes; behind the last one it is the rule again.
+void pairNext(EditorSession& session, const StrokeJunction& junction);
 /// Makes one stroke of two branches, which leave those that they went on with; two that are one come apart.
 void pairBranches(EditorSession& session, const StrokeJunction& junction, int first, int second);
 /// Leaves all junctions to the rule.

@@ -46,9 +46,9 @@ void chooseTraceMode(EditorSession& session, std::optional<int> curve, EdgeMode 
   std::erase_if(after.edges.choices, [&](const EdgeChoice& c) { return c.positionPx == place; });
   if (mode != EdgeMode::Automatic) after.edges.choices.push_back({place, mode});
   session.selectNear(place);
-  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("WayEdits", "Trace line as the page")
-                 : mode == EdgeMode::Outline ? QCoreApplication::translate("WayEdits", "Trace outline of line")
-                                             : QCoreApplication::translate("WayEdits", "Trace centre of line"),
+  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("TraceModeEdits", "Trace line as the page")
+                 : mode == EdgeMode::Outline ? QCoreApplication::translate("TraceModeEdits", "Trace outline of line")
+                                             : QCoreApplication::translate("TraceModeEdits", "Trace centre of line"),
                  std::move(after));
 }
 
@@ -62,9 +62,9 @@ bool paintTraceMode(EditorSession& session, PaintedInk painted) {
     after.edges.painted.push_back(std::move(painted));
   else if (forgotten == 0)
     return false;
-  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("WayEdits", "Paint as the page")
-                 : mode == EdgeMode::Outline ? QCoreApplication::translate("WayEdits", "Paint outline")
-                                             : QCoreApplication::translate("WayEdits", "Paint centre line"),
+  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("TraceModeEdits", "Paint as the page")
+                 : mode == EdgeMode::Outline ? QCoreApplication::translate("TraceModeEdits", "Paint outline")
+                                             : QCoreApplication::translate("TraceModeEdits", "Paint centre line"),
                  std::move(after));
   return true;
 }
@@ -72,7 +72,7 @@ bool paintTraceMode(EditorSession& session, PaintedInk painted) {
 void forgetPainted(EditorSession& session) {
   Recipe after = session.recipe();
   after.edges.painted.clear();
-  session.change(QCoreApplication::translate("WayEdits", "Forget what was painted"), std::move(after));
+  session.change(QCoreApplication::translate("TraceModeEdits", "Forget what was painted"), std::move(after));
 }
 
 }  // namespace batten

@@ -18,7 +18,7 @@
 namespace batten {
 namespace {
 
-constexpr int kWayWidth = 118, kTickRow = 24, kLeastTickRows = 8;
+constexpr int kSelectionWidth = 118, kTickRow = 24, kLeastTickRows = 8;
 constexpr int kNumberRole = Qt::UserRole, kIndexRole = Qt::UserRole + 1;
 
 }  // namespace
@@ -26,11 +26,11 @@ constexpr int kNumberRole = Qt::UserRole, kIndexRole = Qt::UserRole + 1;
 ExportChoice::ExportChoice(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      way_(new QComboBox(this)),
+      selection_(new QComboBox(this)),
       ticks_(new QWidget(this)),
       list_(new QListWidget(ticks_)) {
   build();
-  connect(way_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+  connect(selection_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     refresh();
     emit changed();
   });
@@ -56,14 +56,14 @@ void ExportChoice::build() {
   auto* name = new QLabel(tr("Which curves"), this);
   const QString help = tr("All included curves, the selected one, or those that are ticked in a list.");
   name->setToolTip(help);
-  way_->setToolTip(help);
-  way_->setObjectName(QStringLiteral("export.choice"));
-  way_->setAccessibleName(tr("Which curves"));
-  way_->addItems({tr("All"), tr("The selected one"), tr("Ticked ones")});
-  way_->setFixedWidth(kWayWidth);
+  selection_->setToolTip(help);
+  selection_->setObjectName(QStringLiteral("export.choice"));
+  selection_->setAccessibleName(tr("Which curves"));
+  selection_->addItems({tr("All"), tr("The selected one"), tr("Ticked ones")});
+  selection_->setFixedWidth(kSelectionWidth);
   row->addWidget(name);
   row->addStretch();
-  row->addWidget(way_);
+  row->addWidget(selection_);
   layout->addLayout(row);
   list_->setObjectName(QStringLiteral("export.list"));
   list_->setAccessibleName(tr("Curves to export"));
@@ -88,19 +88,19 @@ void ExportChoice::build() {
   ticks_->hide();
 }
 
-ExportChoice::Way ExportChoice::way() const {
-  constexpr std::array kListedWays = {All, Selected, Ticked};  // in the order of the list
-  return kListedWays.at(way_->currentIndex());
+ExportChoice::Selection ExportChoice::selection() const {
+  constexpr std::array kListed = {All, Selected, Ticked};  // in the order of the list
+  return kListed.at(selection_->currentIndex());
 }
 
 std::optional<std::set<int>> ExportChoice::numbers() const {
-  if (way() == All) return std::nullopt;
+  if (selection() == All) return std::nullopt;
   std::set<int> numbers;
   const auto curves = session_.curves();
   for (int i = 0; i < std::ssize(curves); ++i) {
-    if (!curves[i].included || (way() == Selected && i != session_.selectedCurve())) continue;
+    if (!curves[i].included || (selection() == Selected && i != session_.selectedCurve())) continue;
     const int number = curveNumber(session_.output(), curves[i]);
-    if (way() == Selected || !unticked_.contains(number)) numbers.insert(number);
+    if (selection() == Selected || !unticked_.contains(number)) numbers.insert(number);
   }
   return numbers;
 }
@@ -108,15 +108,15 @@ std::optional<std::set<int>> ExportChoice::numbers() const {
 QString ExportChoice::obstacle() const {
   const auto chosen = numbers();
   if (!chosen || !chosen->empty()) return {};
-  return way() == Selected ? tr("Select the curve to export, or take all.")
-                           : tr("Tick at least one curve to export, or take all.");
+  return selection() == Selected ? tr("Select the curve to export, or take all.")
+                                 : tr("Tick at least one curve to export, or take all.");
 }
 
 void ExportChoice::refresh() {
-  ticks_->setVisible(way() == Ticked);
+  ticks_->setVisible(selection() == Ticked);
   setMaximumHeight(QWIDGETSIZE_MAX);
-  setSizePolicy(QSizePolicy::Preferred, way() == Ticked ? QSizePolicy::Preferred : QSizePolicy::Fixed);
-  if (way() != Ticked) return;
+  setSizePolicy(QSizePolicy::Preferred, selection() == Ticked ? QSizePolicy::Preferred : QSizePolicy::Fixed);
+  if (selection() != Ticked) return;
   filling_ = true;
   const auto curves = session_.curves();
   int row = 0;
@@ -159,8 +159,8 @@ void ExportChoice::tickAll(bool ticked) {
 
 void ExportChoice::reset() {
   unticked_.clear();
-  const QSignalBlocker quiet(way_);
-  way_->setCurrentIndex(All);
+  const QSignalBlocker quiet(selection_);
+  selection_->setCurrentIndex(All);
   refresh();
 }
 

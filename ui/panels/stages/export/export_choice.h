@@ -32,13 +32,13 @@ class ExportChoice : public QWidget {
   void changed();
 
  private:
-  enum Way { All, Selected, Ticked };
+  enum Selection { All, Selected, Ticked };
   void build();
   void tickAll(bool ticked);
-  Way way() const;
+  Selection selection() const;
 
   EditorSession& session_;
-  QComboBox* way_;
+  QComboBox* selection_;
   QWidget* ticks_;
   QListWidget* list_;
   std::set<int> unticked_;  ///< So that a new curve is ticked.

@@ -31,7 +31,7 @@ PreviewCurve shapeOf(const std::vector<ExportPiece>& pieces, const ExportCurve& 
   }
   const auto middle = sampleByArcLength(pieces[pieces.size() / 2].curve, 3)[1];
   shape.arrowAt = {middle.point.x(), -middle.point.y()};
-  shape.arrowWay = {middle.tangent.x(), -middle.tangent.y()};
+  shape.arrowDirection = {middle.tangent.x(), -middle.tangent.y()};
   shape.isSketched = line.isSketched;
   shape.isClosed = line.closed;
   shape.number = pieces.front().number;
@@ -120,11 +120,13 @@ void ExportPreview::paintEvent(QPaintEvent*) {
     if (QLineF(toWidget(box.topLeft()), toWidget(box.bottomRight())).length() < kLeastMarkedPx) continue;
     painter.setBrush(curve.isSketched ? theme.mute : theme.accent);
     painter.drawEllipse(toWidget(curve.points.front()), kStartPx, kStartPx);
-    const double length = std::hypot(curve.arrowWay.x(), curve.arrowWay.y());
+    const double length = std::hypot(curve.arrowDirection.x(), curve.arrowDirection.y());
     if (!(length > 0.0)) continue;
-    const QPointF way = curve.arrowWay / length, aside(-way.y(), way.x()), at = toWidget(curve.arrowAt);
-    painter.drawPolygon(QPolygonF{{at + 0.6 * kArrowPx * way, at - 0.6 * kArrowPx * way + 0.5 * kArrowPx * aside,
-                                   at - 0.6 * kArrowPx * way - 0.5 * kArrowPx * aside}});
+    const QPointF direction = curve.arrowDirection / length, aside(-direction.y(), direction.x()),
+                  at = toWidget(curve.arrowAt);
+    painter.drawPolygon(
+        QPolygonF{{at + 0.6 * kArrowPx * direction, at - 0.6 * kArrowPx * direction + 0.5 * kArrowPx * aside,
+                   at - 0.6 * kArrowPx * direction - 0.5 * kArrowPx * aside}});
   }
 }
 

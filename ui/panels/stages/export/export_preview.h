@@ -17,8 +17,8 @@ class BackgroundWorker;
 
 /// One curve of the file that is to be written.
 struct PreviewCurve {
-  QPolygonF points;           ///< [mm] of the file, y down.
-  QPointF arrowAt, arrowWay;  ///< Middle, and the way it runs there.
+  QPolygonF points;                 ///< [mm] of the file, y down.
+  QPointF arrowAt, arrowDirection;  ///< Middle, and the direction of the curve there.
   bool isSketched = false, isClosed = false;
   std::optional<int> number;  ///< Of its first piece, from 1.
 };

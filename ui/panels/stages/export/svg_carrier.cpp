@@ -54,29 +54,29 @@ SvgCarrier::SvgCarrier(QWidget* window)
 
 SvgCarrier::~SvgCarrier() = default;
 
-void SvgCarrier::copy(const ExportRequest& request) { make(request, std::nullopt, Way::Copy, {}); }
+void SvgCarrier::copy(const ExportRequest& request) { make(request, std::nullopt, Transfer::Copy, {}); }
 
 void SvgCarrier::drag(const ExportRequest& request, std::optional<int> number, const QString& name) {
-  make(request, number, Way::Drag, name);
+  make(request, number, Transfer::Drag, name);
 }
 
-void SvgCarrier::make(const ExportRequest& request, std::optional<int> number, Way way, const QString& name) {
-  worker_->start([this, request, number, way, name](const CancelToken& cancel) {
+void SvgCarrier::make(const ExportRequest& request, std::optional<int> number, Transfer transfer, const QString& name) {
+  worker_->start([this, request, number, transfer, name](const CancelToken& cancel) {
     RunContext context;
     context.cancel = cancel;
     auto made = svgOf(request, number, context);
     if (cancel.isCancelled()) return;
-    inbox_.post([this, way, name, made = std::move(made)] {
+    inbox_.post([this, transfer, name, made = std::move(made)] {
       if (!made) return emit failed(made.error());
-      carry(*made, way, name);
+      carry(*made, transfer, name);
     });
   });
 }
 
-void SvgCarrier::carry(const ExportedFile& made, Way way, const QString& name) {
+void SvgCarrier::carry(const ExportedFile& made, Transfer transfer, const QString& name) {
   const QByteArray svg = QByteArray::fromStdString(made.bytes);
   auto data = pictureOf(svg);
-  if (way == Way::Copy) {
+  if (transfer == Transfer::Copy) {
     data->setText(QString::fromUtf8(svg));
     QApplication::clipboard()->setMimeData(data.release());
     emit copied(tr("Copied as SVG: %1.").arg(QString::fromStdString(sentenceByNumbers(made.report))));

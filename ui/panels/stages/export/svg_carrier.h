@@ -32,9 +32,9 @@ class SvgCarrier : public QObject {
   void failed(const batten::Error& error);
 
  private:
-  enum class Way { Copy, Drag };
-  void make(const ExportRequest&, std::optional<int> number, Way, const QString& name);
-  void carry(const ExportedFile&, Way, const QString& name);
+  enum class Transfer { Copy, Drag };
+  void make(const ExportRequest&, std::optional<int> number, Transfer, const QString& name);
+  void carry(const ExportedFile&, Transfer, const QString& name);
 
   QWidget* window_;
   QTemporaryDir folder_;  ///< Of the files that are dragged: receivers read them after the drop.

@@ -9,16 +9,16 @@
 
 namespace batten {
 
-/// The ways to pair the ends of a junction, and how sure the rule's own is.
-struct JunctionWays {
+/// The pairings of the ends of a junction, and how sure the rule's own is.
+struct JunctionPairings {
   std::vector<EndPairs>
-      ways;  ///< The rule's own first, then as many pairs or more, the next best first; last: no pair.
+      pairings;  ///< The rule's own first, then as many pairs or more, the next best first; last: no pair.
   double cost = 0.0, nextCost = 0.0;  ///< [deg^2] Of the first and of the best other one.
   bool isDoubtful = false;
 };
 
 /// @param own what pairEnds gave for the ends, by the same parameters.
-JunctionWays findWays(std::span<const MeetingEnd> ends, const EndPairs& own, double nodeRadius, double usualRadius,
-                      double maxBendDeg);
+JunctionPairings findPairings(std::span<const MeetingEnd> ends, const EndPairs& own, double nodeRadius,
+                              double usualRadius, double maxBendDeg);
 
 }  // namespace batten
