@@ -11,6 +11,7 @@
 #include "core/construct/fit_start.h"
 #include "core/construct/light/light_pieces.h"
 #include "core/construct/nurbs/quintic_nurbs.h"
+#include "core/construct/pixel_frame.h"
 #include "core/construct/polygon/control_polygon.h"
 #include "core/construct/typical/typical_chain.h"
 
@@ -18,20 +19,20 @@ namespace batten {
 
 namespace {
 
-Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
+Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, const ConstructParams& params,
                                         const RunContext& context) {
   switch (params.method) {
     case ConstructMethod::ControlPolygon:
-      return constructControlPolygon(piece, pixelMm, params, context);
+      return constructControlPolygon(piece, params, context);
     case ConstructMethod::Bezier:
-      return constructBezierChain(piece, pixelMm, params, context);
+      return constructBezierChain(piece, params, context);
     case ConstructMethod::Typical:
-      return constructTypical(piece, pixelMm, params, context);
+      return constructTypical(piece, params, context);
     case ConstructMethod::Fair:
     case ConstructMethod::Nurbs:
       break;
   }
-  return constructQuinticNurbs(piece, pixelMm, params, context);
+  return constructQuinticNurbs(piece, params, context);
 }
 
 Result<std::vector<ConstructedPiece>> constructEach(const ConstructContour& contour, const ConstructParams& params,
@@ -39,7 +40,7 @@ Result<std::vector<ConstructedPiece>> constructEach(const ConstructContour& cont
   std::vector<Result<ConstructedPiece>> made(contour.pieces.size(), cancelled());
   parallelFor(context, static_cast<int>(made.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      made[i] = constructPiece(contour.pieces[i], contour.pixelMm, params, context);
+      made[i] = constructPiece(contour.pieces[i], params, context);
     }
   });
   if (context.isCancelled()) return cancelled();
@@ -64,29 +65,38 @@ Result<std::vector<ConstructedPiece>> constructFromFit(const ConstructContour& c
   return pieces;
 }
 
+/// All in px.
+Result<std::vector<ConstructedPiece>> constructInPixels(const ConstructContour& contour, const ConstructParams& params,
+                                                        const RunContext& context) {
+  if (params.method == ConstructMethod::Fair) {
+    FairFitOptions options;
+    options.extremumSignificance = params.extremumSignificance;
+    options.knotRemovalTolerance = params.light ? ConstructParams{}.knotRemovalTolerance : params.knotRemovalTolerance;
+    return fairFit(contour, options, context);
+  }
+  const bool onFit = params.start == ConstructStart::Fit && params.method != ConstructMethod::Typical;
+  return onFit ? constructFromFit(contour, params, context) : constructEach(contour, params, context);
+}
+
 }  // namespace
 
 Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour, const ConstructParams& params,
                                                 const RunContext& context) {
   if (auto error = validate(params)) return fail(std::move(*error));
-  if (params.method == ConstructMethod::Fair) {
-    FairFitOptions options;
-    options.extremumSignificance = params.extremumSignificance;
-    options.knotRemovalTolerance = params.light ? ConstructParams{}.knotRemovalTolerance : params.knotRemovalTolerance;
-    auto made = fairFit(contour, options, context);
-    if (!made || !params.light) return made;
-    try {
-      if (auto light = makePiecesLight(*made, contour, params, context); !light) return fail(light.error());
-    } catch (const std::bad_alloc&) {
-      return fail(ErrorCode::OutOfMemory, "There is not enough memory to make the curves light.");
-    }
-    return made;
-  }
+  if (!(contour.pixelMm > 0.0) || !std::isfinite(contour.pixelMm))
+    return fail(ErrorCode::BadParameter, "The size of a pixel must be above 0 mm.");
   try {
-    if (params.start == ConstructStart::Fit && params.method != ConstructMethod::Typical) {
-      return constructFromFit(contour, params, context);
+    const ConstructContour px = inPixels(contour);
+    auto made = constructInPixels(px, params, context);
+    if (!made) return made;
+    for (std::size_t i = 0; i < made->size(); ++i) {
+      auto piece = inMillimetres(std::move((*made)[i]), px.pieces[i], contour.pieces[i], contour.pixelMm);
+      if (!piece) return fail(std::move(piece.error()));
+      (*made)[i] = std::move(*piece);
     }
-    return constructEach(contour, params, context);
+    if (params.method != ConstructMethod::Fair || !params.light) return made;
+    if (auto light = makePiecesLight(*made, contour, params, context); !light) return fail(light.error());
+    return made;
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct the curves.");
   }

@@ -18,9 +18,9 @@ constexpr double kBackwardCost = 100.0;  // times the squared distance: a place 
 /// The fit of one piece, sampled every pixel.
 class FittedLine {
  public:
-  FittedLine(const NurbsCurve& curve, bool closed, double pixelMm)
+  FittedLine(const NurbsCurve& curve, bool closed)
       : curve_(curve), length_(curve), closed_(closed), total_(length_.total()) {
-    const double count = std::clamp(std::ceil(total_ / pixelMm), kFewestLineSteps, kMostLineSteps);
+    const double count = std::clamp(std::ceil(total_), kFewestLineSteps, kMostLineSteps);
     samples_ = sampleByArcLength(curve, static_cast<int>(count) + 1);
   }
 
@@ -61,7 +61,7 @@ class FittedLine {
     return best ? *best : samples_.front();
   }
 
-  /// [mm] along the curve: the foot point of `point` near s, by Newton steps of a few pixels at most.
+  /// [px] along the curve: the foot point of `point` near s, by Newton steps of a few pixels at most.
   double polished(double s, const Vec2& point) const {
     const double reach = 2.0 * total_ / static_cast<double>(samples_.size());
     for (int i = 0; i < 4; ++i) {
@@ -94,7 +94,7 @@ Result<ConstructContour> onFairFit(const ConstructContour& contour, const Constr
   ConstructContour onFit = contour;
   for (std::size_t i = 0; i < fits->size() && !context.isCancelled(); ++i) {
     ConstructPiece& piece = onFit.pieces[i];
-    const FittedLine line((*fits)[i].curve, piece.closed, contour.pixelMm);
+    const FittedLine line((*fits)[i].curve, piece.closed);
     piece.points = piecePoints(line.points());
     piece.isDrawn = false;
     for (Station& station : piece.stations) station = line.foot(station);

@@ -11,7 +11,7 @@ namespace batten {
 /// The contour as its true and fair fit shows it: points every pixel along the fit, and every station moved onto it,
 /// in its direction: where its share of the length is known to that share, else to its foot point. Corners, constraints
 /// and breakpoints stay. No knot removal: the fit is intermediate.
-/// @return what the fit says where it cannot be made.
+/// In px. @return what the fit says where it cannot be made.
 Result<ConstructContour> onFairFit(const ConstructContour&, const ConstructParams&, const RunContext&);
 
 }  // namespace batten

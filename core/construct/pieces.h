@@ -13,7 +13,8 @@
 #include "core/contour/segment/regression_segments.h"
 #include "core/curve/nurbs_curve.h"
 
-/// What goes into the constructions and what comes out of them.
+/// What goes into the constructions and what comes out of them: in mm, as stated here, outside of construct(); in px of
+/// the scan, the unit in which noise has its size, inside of it (pixel_frame.h).
 namespace batten {
 
 /// What the user wants of the curvature extremum nearest to a place (fair fit only).
@@ -36,7 +37,7 @@ struct ConstructPiece : PieceLine {
 struct ConstructContour {
   std::vector<ConstructPiece> pieces;
   bool isStroke = false;                  ///< Centre line of a stroke (else an outline).
-  double pixelMm = 1.0;                   ///< [mm] size of a scan pixel: the scale of noise.
+  double pixelMm = 1.0;                   ///< [mm] size of a scan pixel; 1 of a contour in px.
   std::optional<double> inkWidthPx = {};  ///< [px] width of the page's strokes and shapes; absent: not known.
 };
 
@@ -71,8 +72,8 @@ enum class SegmentCause {
 struct SegmentNote {
   bool typical = true;  ///< Else a quintic between two, for the reason below.
   SegmentCause cause = SegmentCause::None;
-  Vec2 startMm = Vec2::Zero();  ///< Where it starts.
-  double lengthMm = 0.0;
+  Vec2 start = Vec2::Zero();                ///< [mm] Where it starts.
+  double length = 0.0;                      ///< [mm]
   double ratio = 1.0;                       ///< h
   double turnRad = 0.0;                     ///< Change of direction, 2 phi.
   double startKappa = 0.0, endKappa = 0.0;  ///< [1/mm]
@@ -83,8 +84,8 @@ struct SegmentNote {
 inline double shareOf(SegmentCause cause, std::span<const SegmentNote> segments) {
   double part = 0.0, all = 0.0;
   for (const SegmentNote& one : segments) {
-    all += one.lengthMm;
-    if (one.cause == cause) part += one.lengthMm;
+    all += one.length;
+    if (one.cause == cause) part += one.length;
   }
   return all > 0.0 ? part / all : 0.0;
 }

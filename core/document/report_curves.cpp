@@ -85,8 +85,8 @@ ReportJson constructToJson(const ConstructReport& r, const PageFrame& frame) {
   for (const SegmentNote& n : r.segments) {
     json["segments"].push_back({{"kind", n.typical ? "typical" : "transition"},
                                 {"cause", causeName(n.cause)},
-                                {"start_mm", pointToJson(n.startMm)},
-                                {"length_mm", numberToJson(n.lengthMm)},
+                                {"start_mm", pointToJson(n.start)},
+                                {"length_mm", numberToJson(n.length)},
                                 {"ratio", numberToJson(n.ratio)},
                                 {"turn_deg", numberToJson(n.turnRad * kDegPerRad)},
                                 {"start_curvature_per_mm", numberToJson(n.startKappa)},

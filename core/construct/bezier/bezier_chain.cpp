@@ -13,8 +13,7 @@ namespace {
 
 /// The least length of the low pass; where stations were set closer, the least is shorter by as much.
 constexpr double kShortestLowPassPx = 20.0;
-constexpr double kKernelWidths = 8.0;    // standard deviations of a Gaussian; beyond it is 1e-14
-constexpr double kUnitsOfPath = 1000.0;  // of a path whose pixel nobody knows: about as long as a drawing's lines
+constexpr double kKernelWidths = 8.0;  // standard deviations of a Gaussian; beyond it is 1e-14
 /// Weights of one px: offset of a joint, turn of a joint (over a quarter of a segment), sagitta of a segment that the
 /// curvature misses, change of that miss along a segment. Tuned on ellipses and roof lines with noise of 0 to 0.3 px.
 constexpr double kOffsetWeight = 0.2;
@@ -34,12 +33,8 @@ Vec2 rotated(const Vec2& v, double angle) {
 /// [px of sagitta]; all about 1.
 class Chain {
  public:
-  Chain(std::vector<Joint> joints, std::vector<double> lengths, std::vector<double> share, bool closed, double pixelMm)
-      : joints_(std::move(joints)),
-        lengths_(std::move(lengths)),
-        share_(std::move(share)),
-        closed_(closed),
-        pixelMm_(pixelMm) {
+  Chain(std::vector<Joint> joints, std::vector<double> lengths, std::vector<double> share, bool closed)
+      : joints_(std::move(joints)), lengths_(std::move(lengths)), share_(std::move(share)), closed_(closed) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const double before = lengths_[i > 0 ? i - 1 : (closed ? lengths_.size() - 1 : 0)];
       reach_.push_back(0.5 * (before + (i < lengths_.size() ? lengths_[i] : before)));
@@ -53,13 +48,13 @@ class Chain {
 
   Joint moved(std::size_t i, const double* x) const {
     Joint joint = joints_[i];
-    joint.point += x[0] * pixelMm_ * leftNormal(joint.tangent);
+    joint.point += x[0] * leftNormal(joint.tangent);
     joint.tangent = rotated(joint.tangent, x[1] * angleUnit(i));
     joint.kappa += x[2] * kappaUnit(i);
     return joint;
   }
-  double angleUnit(std::size_t i) const { return pixelMm_ / (0.25 * reach_[i]); }
-  double kappaUnit(std::size_t i) const { return 8.0 * pixelMm_ / (reach_[i] * reach_[i]); }
+  double angleUnit(std::size_t i) const { return 1.0 / (0.25 * reach_[i]); }
+  double kappaUnit(std::size_t i) const { return 8.0 / (reach_[i] * reach_[i]); }
 
   std::vector<ResidualBlock> blocks(const std::vector<double>& targets) const {
     std::vector<ResidualBlock> result;
@@ -70,8 +65,8 @@ class Chain {
         for (int k = 0; k < 3; ++k) block.columns.push_back(static_cast<int>(3 * joint) + k);
       }
       block.size = 2 * static_cast<int>(kPlaces.size());
-      const double reach = std::max(lengths_[i], kShortestLowPassPx * std::min(share_[i], share_[j]) * pixelMm_);
-      const double weight = reach * reach / (8.0 * pixelMm_) / std::sqrt(static_cast<double>(kPlaces.size()));
+      const double reach = std::max(lengths_[i], kShortestLowPassPx * std::min(share_[i], share_[j]));
+      const double weight = reach * reach / 8.0 / std::sqrt(static_cast<double>(kPlaces.size()));
       block.evaluate = [this, i, j, weight, &targets](std::span<const double> x, std::span<double> r) {
         const Quintic q = quinticHermite(moved(i, &x[0]), moved(j, &x[3]), lengths_[i]);
         // How far the curvature misses its target, little; how quickly the miss changes along the piece, much: the
@@ -119,7 +114,6 @@ class Chain {
   std::vector<Joint> joints_;
   std::vector<double> lengths_, share_, reach_;
   bool closed_;
-  double pixelMm_;
 };
 
 /// Joints of the path as 001 leaves it: mean curvature of both sides at every joint.
@@ -240,8 +234,7 @@ std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool c
   return result;
 }
 
-FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, double lowPass,
-                          const RunContext& context) {
+FairedJoints fairedJoints(const StationSet& set, bool closed, double lowPass, const RunContext& context) {
   const std::vector<Station> stations = set.plain();
   const auto lengths = arcCorrectedDistances(stations, closed);
   double total = 0.0;
@@ -251,7 +244,6 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, do
     total += length;
   }
   if (!closed) places.push_back(total);
-  const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / kUnitsOfPath;
   // Distances that there were before stations were set closer.
   std::vector<double> shares;
   for (const SpacedStation& station : set.stations) shares.push_back(station.share);
@@ -259,11 +251,11 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, do
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     distances += 0.5 * (shares[i] + shares[(i + 1) % shares.size()]);
   }
-  const double width = std::max(lowPass * total / distances, kShortestLowPassPx * unit);
+  const double width = std::max(lowPass * total / distances, kShortestLowPassPx);
   std::vector<double> widths;
   for (const double share : shares) widths.push_back(share * width);
   const auto targets = lowPassedCurvature(stations, closed, widths, places);
-  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, shares, closed, unit);
+  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, shares, closed);
   const auto blocks = chain.blocks(targets);
   const auto unknowns = static_cast<Eigen::Index>(3 * chain.count());
   const BlockSolution solved =
@@ -271,33 +263,32 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, do
   return {chain.joints(solved.x), lengths, solved.run.why};
 }
 
-StationSet bezierStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
-                          const RunContext& context) {
+StationSet bezierStations(const ConstructPiece& piece, const ConstructParams& params, const RunContext& context) {
   StationSet set = givenStations(usableStations(piece, 6, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 3u : 2u)) return set;
   const auto plain = [closed](const StationSet& now) { return polylinesOf(bezierPath(now.plain(), closed)); };
-  set = adaptiveStations(piece, std::move(set), pixelMm, params.maxDeviationPx, plain, context);
+  set = adaptiveStations(piece, std::move(set), params.maxDeviationPx, plain, context);
   // A wider low pass is to calm the path, and may move it.
   const double lowPass = std::min(params.lowPass, 1.0);
   if (lowPass == 0.0) return set;
   const auto faired = [&](const StationSet& now) {
-    const FairedJoints joints = fairedJoints(now, closed, pixelMm, lowPass, context);
+    const FairedJoints joints = fairedJoints(now, closed, lowPass, context);
     std::vector<Quintic> path;
     for (std::size_t i = 0; i < joints.lengths.size(); ++i) {
       path.push_back(quinticHermite(joints.joints[i], joints.joints[i + 1], joints.lengths[i]));
     }
     return polylinesOf(path);
   };
-  return adaptiveStations(piece, std::move(set), pixelMm, params.maxDeviationPx, faired, context);
+  return adaptiveStations(piece, std::move(set), params.maxDeviationPx, faired, context);
 }
 
 namespace {
 
-Result<ConstructedPiece> chainThrough(const StationSet& set, bool closed, double pixelMm, const ConstructParams& params,
+Result<ConstructedPiece> chainThrough(const StationSet& set, bool closed, const ConstructParams& params,
                                       const RunContext& context) {
   if (params.lowPass == 0.0) return plainPath(set.plain(), closed, params.equaliseJoints);
-  const FairedJoints faired = fairedJoints(set, closed, pixelMm, params.lowPass, context);
+  const FairedJoints faired = fairedJoints(set, closed, params.lowPass, context);
   if (context.isCancelled()) return cancelled();
   auto curve = hermiteChain(faired.joints, faired.lengths);
   if (!curve) return fail(curve.error());
@@ -308,17 +299,17 @@ Result<ConstructedPiece> chainThrough(const StationSet& set, bool closed, double
 
 }  // namespace
 
-Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, double pixelMm,
-                                              const ConstructParams& params, const RunContext& context) {
+Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, const ConstructParams& params,
+                                              const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  StationSet set = bezierStations(piece, pixelMm, params, context);
+  StationSet set = bezierStations(piece, params, context);
   if (set.stations.size() < (piece.closed ? 3u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
   }
-  auto made = chainThrough(set, piece.closed, pixelMm, params, context);
+  auto made = chainThrough(set, piece.closed, params, context);
   if (!made && set.added > 0 && !context.isCancelled()) {
     set = givenStations(usableStations(piece, 6, params.ends));
-    made = chainThrough(set, piece.closed, pixelMm, params, context);
+    made = chainThrough(set, piece.closed, params, context);
   }
   if (!made) return made;
   made->report.stationsAdded = set.added;

@@ -21,42 +21,6 @@ constexpr int kFitRounds = 6;              // of fits of a contour; stretches ar
 constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
 constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
-/// The contour in px, the unit of the noise: all that this room calculates is in px, 1/px and so on.
-ConstructContour inPixels(const ConstructContour& contour) {
-  ConstructContour px{{}, contour.isStroke, 1.0, contour.inkWidthPx};
-  const auto toPx = [&](const Vec2& p) { return Vec2(p / contour.pixelMm); };
-  for (const ConstructPiece& piece : contour.pieces) {
-    ConstructPiece& made = px.pieces.emplace_back(ConstructPiece{inFrame(piece, toPx)});
-    made.isDrawn = piece.isDrawn;
-    made.constraints = piece.constraints;
-    for (ExtremumConstraint& constraint : made.constraints) constraint.point = toPx(constraint.point);
-  }
-  return px;
-}
-
-/// The curve and its report back in mm. An end that is a point of the piece is that point to the last digit, so that
-/// pieces meet.
-Result<ConstructedPiece> inMillimetres(ConstructedPiece made, const ConstructPiece& px, const ConstructPiece& mm,
-                                       double pixelMm) {
-  std::vector<double> knots(made.curve.knots().begin(), made.curve.knots().end());
-  std::vector<Vec2> points(made.curve.controlPoints().begin(), made.curve.controlPoints().end());
-  const bool fromFirst = points.front() == px.points.front().at, toLast = points.back() == px.points.back().at;
-  for (double& k : knots) k *= pixelMm;
-  for (Vec2& p : points) p *= pixelMm;
-  if (fromFirst) points.front() = mm.points.front().at;
-  if (toLast) points.back() = mm.points.back().at;
-  auto curve = NurbsCurve::make(made.curve.degree(), std::move(knots), std::move(points));
-  if (!curve) return fail(curve.error());
-  made.curve = std::move(*curve);
-  for (ExtremumNote& note : made.report.extrema) {
-    note.s *= pixelMm;
-    note.kappa /= pixelMm;
-    note.point *= pixelMm;
-  }
-  for (NoiseNote& note : made.report.noise) note = {note.s * pixelMm, note.sigma / pixelMm};
-  return made;
-}
-
 /// The rest of the frame, which is most of what a piece holds, is of no use after the noise is known.
 void keepBaseOnly(FairPiece& piece) {
   FairFrame bare;
@@ -179,14 +143,11 @@ double costAsked(const ConstructContour& contour, const FairFitOptions& options)
     for (std::size_t i = 1; i < piece.points.size(); ++i)
       length += (piece.points[i].at - piece.points[i - 1].at).norm();
   }
-  return options.extremumSignificance + 2.0 * std::log(std::max(1.0, length / (contour.pixelMm * kUsualLengthPx)));
+  return options.extremumSignificance + 2.0 * std::log(std::max(1.0, length / kUsualLengthPx));
 }
 
 Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, const FairFitOptions& options,
                                               const RunContext& context) {
-  if (!(contour.pixelMm > 0.0) || !std::isfinite(contour.pixelMm)) {
-    return fail(ErrorCode::BadParameter, "The size of a pixel must be above 0 mm.");
-  }
   const double lengths[] = {options.knotSpacingPx, options.blockPx, options.noiseDensityFloor, options.emWidthPx,
                             options.extremumSignificance};
   for (const double x : lengths) {
@@ -196,14 +157,10 @@ Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, c
   try {
     FairFitOptions asked = options;
     asked.extremumSignificance = costAsked(contour, options);
-    const ConstructContour px = inPixels(contour);
-    auto pieces = fitParts(px, asked, context);
+    auto pieces = fitParts(contour, asked, context);
     if (!pieces) return pieces;
-    for (std::size_t i = 0; i < pieces->size(); ++i) {
-      auto piece = inMillimetres(std::move((*pieces)[i]), px.pieces[i], contour.pieces[i], contour.pixelMm);
-      if (!piece) return fail(piece.error());
-      for (ExtremumNote& note : piece->report.extrema) note.askedCost = asked.extremumSignificance;
-      (*pieces)[i] = std::move(*piece);
+    for (ConstructedPiece& piece : *pieces) {
+      for (ExtremumNote& note : piece.report.extrema) note.askedCost = asked.extremumSignificance;
     }
     return pieces;
   } catch (const std::bad_alloc&) {

@@ -27,11 +27,12 @@ struct FairFitOptions {
 /// on longer lines. Noise that looks like a bump of three freedoms costs more than 20 at one place of 40 px in 6000,
 /// and a long line has many places; so the chance of a false bump is about the same for all of them (less for shorter
 /// lines).
-double costAsked(const ConstructContour&, const FairFitOptions&);
+double costAsked(const ConstructContour& px, const FairFitOptions&);
 
 /// Fits the edge points of all pieces of a contour: quintic B-splines that lie on the line and have no curvature
 /// extremum that was not drawn (pilot, in-frame fit with local penalty, structure test, monotone quadratic program).
-/// The noise is pooled over the pieces.
-Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour&, const FairFitOptions&, const RunContext&);
+/// The noise is pooled over the pieces. @param contour in px (pixel_frame.h), as what is returned.
+Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, const FairFitOptions&,
+                                              const RunContext&);
 
 }  // namespace batten

@@ -196,7 +196,7 @@ Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& conte
   if (!segments) return fail(segments.error());
   ConstructPiece piece = piece_;
   piece.stations = segments->pieces.at(0).stations;
-  auto made = constructQuinticNurbs(piece, 1.0, ConstructParams{}, context);
+  auto made = constructQuinticNurbs(piece, ConstructParams{}, context);
   if (!made) return made;
   made->report.why = Termination::Degenerate;
   made->report.note = "The fair fit did not stay on this line; quintic NURBS were used.";

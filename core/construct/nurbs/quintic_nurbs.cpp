@@ -145,10 +145,10 @@ std::vector<double> uniformPlaces(std::size_t m, bool closed) {
   return places;
 }
 
-/// Parameters of the stations, mean spacing 1, and what one unit of them is in mm.
+/// Parameters of the stations, mean spacing 1, and what one unit of them is in px.
 struct Places {
   std::vector<double> at;
-  double unitMm = 1.0;
+  double unit = 1.0;
   bool uniform = true;
 };
 
@@ -157,14 +157,14 @@ Places placesOf(const std::vector<double>& distances, std::size_t m, bool closed
   Places places;
   double total = 0.0;
   for (const double d : distances) total += d;
-  places.unitMm = total / static_cast<double>(distances.size());
+  places.unit = total / static_cast<double>(distances.size());
   places.uniform = forceUniform || *high <= kUneven * *low;
   if (places.uniform) {
     places.at = uniformPlaces(m, closed);
     return places;
   }
   places.at = {0.0};
-  for (const double d : distances) places.at.push_back(places.at.back() + d / places.unitMm);
+  for (const double d : distances) places.at.push_back(places.at.back() + d / places.unit);
   return places;
 }
 
@@ -231,7 +231,7 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
   if (!solution) return std::nullopt;
   std::vector<double> knots = space.knots, at = places.at;
   for (std::vector<double>* values : {&knots, &at}) {
-    for (double& k : *values) k *= places.unitMm;
+    for (double& k : *values) k *= places.unit;
   }
   auto open = NurbsCurve::make(kQuintic, std::move(knots), unrolled(space, *solution));
   if (!open) return std::nullopt;
@@ -307,8 +307,8 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
   return result;
 }
 
-Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, double pixelMm,
-                                               const ConstructParams& params, const RunContext& context) {
+Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, const ConstructParams& params,
+                                               const RunContext& context) {
   if (context.isCancelled()) return cancelled();
   StationSet set = givenStations(usableStations(piece, 6, params.ends));
   const bool closed = piece.closed;
@@ -323,7 +323,7 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, doub
       const auto made = curveThrough(now.plain(), closed, params);
       return made ? polylinesOf(*made) : std::vector<std::vector<Vec2>>{};
     };
-    set = adaptiveStations(piece, std::move(set), pixelMm, params.maxDeviationPx, through, context);
+    set = adaptiveStations(piece, std::move(set), params.maxDeviationPx, through, context);
     if (context.isCancelled()) return cancelled();
   }
   auto made = curveThrough(set.plain(), closed, params);

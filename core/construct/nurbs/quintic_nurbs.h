@@ -33,7 +33,6 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
 /// stations' end points. Uneven stations get knots at their arc distances, so that equal speed stays right. Where the
 /// curve would leave the line by more than params.maxDeviationPx, stations are set closer; not where the paper's own
 /// rules are asked for (its magnitude, or even knots with loose lengths).
-Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece&, double pixelMm, const ConstructParams&,
-                                               const RunContext&);
+Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece&, const ConstructParams&, const RunContext&);
 
 }  // namespace batten

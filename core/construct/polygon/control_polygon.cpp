@@ -58,7 +58,7 @@ struct ThinnedPiece {
   int before = 0;
 };
 
-ThinnedPiece thinnedPiece(const ConstructPiece& piece, double pixelMm, const ConstructParams& params) {
+ThinnedPiece thinnedPiece(const ConstructPiece& piece, const ConstructParams& params) {
   std::vector<Vec2> all;
   const auto take = [&](const Vec2& p) {
     if (p.allFinite() && (all.empty() || p != all.back())) all.push_back(p);
@@ -71,8 +71,8 @@ ThinnedPiece thinnedPiece(const ConstructPiece& piece, double pixelMm, const Con
   ThinnedPiece result;
   result.before = static_cast<int>(all.size());
   const std::vector<int> kept = params.removal == PointRemoval::Step
-                                    ? thinnedByStep(all, {}, params.removalStepPx * pixelMm)
-                                    : thinnedByTolerance(all, {}, params.removalTolerancePx * pixelMm);
+                                    ? thinnedByStep(all, {}, params.removalStepPx)
+                                    : thinnedByTolerance(all, {}, params.removalTolerancePx);
   for (const int i : kept) result.points.push_back(all[i]);
   if (piece.closed && result.points.size() > 1 && result.points.front() == result.points.back()) {
     result.points.pop_back();
@@ -155,7 +155,7 @@ LinePolygon linePolygon(const ConstructContour& contour, const ConstructParams& 
   const ConstructPiece& first = contour.pieces.front();
   const ConstructPiece& last = contour.pieces.back();
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
-    ThinnedPiece piece = thinnedPiece(contour.pieces[i], contour.pixelMm, params);
+    ThinnedPiece piece = thinnedPiece(contour.pieces[i], params);
     if (piece.points.empty()) continue;
     line.before += piece.before;
     const bool meets = !line.points.empty() && line.points.back() == piece.points.front();
@@ -198,10 +198,10 @@ Result<PolygonCurve> polygonCurve(const LinePolygon& line, int degree, SharpKnot
   return result;
 }
 
-Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, double pixelMm,
-                                                 const ConstructParams& params, const RunContext& context) {
+Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, const ConstructParams& params,
+                                                 const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  ThinnedPiece thinned = thinnedPiece(piece, pixelMm, params);
+  ThinnedPiece thinned = thinnedPiece(piece, params);
   std::vector<Vec2>& points = thinned.points;
   ConstructedPiece result;
   PolygonNote& note = result.report.polygon.emplace();

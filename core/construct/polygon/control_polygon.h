@@ -62,7 +62,6 @@ Result<PolygonCurve> polygonCurve(const LinePolygon&, int degree, SharpKnots kin
 /// parameters say, are the control polygon. Closed pieces give a periodic curve. Degree params.degree. Knots of
 /// multiplicity = degree at the corners are what the pieces give when they are joined; with Order a piece ends one
 /// point before its last corner, and the curve is broken there.
-Result<ConstructedPiece> constructControlPolygon(const ConstructPiece&, double pixelMm, const ConstructParams&,
-                                                 const RunContext&);
+Result<ConstructedPiece> constructControlPolygon(const ConstructPiece&, const ConstructParams&, const RunContext&);
 
 }  // namespace batten

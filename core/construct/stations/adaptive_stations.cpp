@@ -95,11 +95,11 @@ class BoxedLine {
   std::vector<Part> parts_;
 };
 
-/// Measures in px along the points of a piece; stations and the curves through them are in mm.
+/// Measures along the points of a piece how far they lie from the curve through its stations. All in px.
 class Refiner {
  public:
-  Refiner(const PieceLine& piece, const ConstructPiece& given, StationSet start, double pixelMm, double tolerancePx)
-      : meter_(piece), given_(given), set_(std::move(start)), pixelMm_(pixelMm) {
+  Refiner(const ConstructPiece& piece, StationSet start, double tolerancePx)
+      : meter_(piece), given_(piece), set_(std::move(start)) {
     limitPx_ = std::max(tolerancePx, kNoises * noiseOf(meter_));
   }
 
@@ -107,8 +107,8 @@ class Refiner {
   bool placeStations() {
     const std::size_t n = set_.stations.size();
     std::vector<double> run = {0.0};
-    for (std::size_t i = 1; i < n; ++i) run.push_back(run.back() + (stationPx(i) - stationPx(i - 1)).norm());
-    if (given_.closed) run.push_back(run.back() + (stationPx(0) - stationPx(n - 1)).norm());
+    for (std::size_t i = 1; i < n; ++i) run.push_back(run.back() + (stationAt(i) - stationAt(i - 1)).norm());
+    if (given_.closed) run.push_back(run.back() + (stationAt(0) - stationAt(n - 1)).norm());
     if (!(run.back() > 0.0) || !(meter_.length() > 0.0)) return false;
     const double scale = meter_.length() / run.back();
     const double reach = 2.0 * meter_.length() / static_cast<double>(n);
@@ -119,7 +119,7 @@ class Refiner {
       // A station at a free end stands for it, however far from it a turn there has put it.
       if (!given_.closed && (i == 0 || i + 1 == n)) s = i == 0 ? 0.0 : meter_.length();
       if (!s) {
-        s = i > 0 ? nearest(stationPx(i), guess - reach, guess + reach) : nearest(stationPx(i), 0.0, meter_.length());
+        s = i > 0 ? nearest(stationAt(i), guess - reach, guess + reach) : nearest(stationAt(i), 0.0, meter_.length());
       }
       if (i > 0 && !(*s > s_.back() + 1e-6 * meter_.length())) return false;
       s_.push_back(*s);
@@ -132,7 +132,6 @@ class Refiner {
     if (curve.size() != s_.size() - (given_.closed ? 0 : 1)) return false;
     for (auto& line : curve) {
       if (!std::all_of(line.begin(), line.end(), [](const Vec2& p) { return p.allFinite(); })) return false;
-      for (Vec2& p : line) p = toPx(p);
     }
     away_.clear();
     excess_ = 0.0;
@@ -162,8 +161,7 @@ class Refiner {
   const StationSet& set() const { return set_; }
 
  private:
-  Vec2 toPx(const Vec2& mm) const { return mm / pixelMm_; }
-  Vec2 stationPx(std::size_t i) const { return toPx(set_.stations[i].point); }
+  Vec2 stationAt(std::size_t i) const { return set_.stations[i].point; }
   double end(std::size_t i) const { return i + 1 < s_.size() ? s_[i + 1] : s_.front() + meter_.length(); }
   double length(std::size_t i) const { return end(i) - s_[i]; }
 
@@ -269,7 +267,6 @@ class Refiner {
     Station station = makeStation(meter_, s_[i], std::min(before, after)).station;
     if (first && given_.startIsCorner) station.point = meter_.point(0);
     if (last && given_.endIsCorner) station.point = meter_.point(meter_.count() - 1);
-    for (Vec2* p : {&station.point, &station.from, &station.to}) *p *= pixelMm_;
     return station;
   }
 
@@ -286,7 +283,7 @@ class Refiner {
   MeasuredPiece meter_;
   const ConstructPiece& given_;
   StationSet set_;
-  double pixelMm_, limitPx_ = 0.0, excess_ = 0.0;
+  double limitPx_ = 0.0, excess_ = 0.0;
   std::vector<double> s_;     ///< [px] per station, increasing.
   std::vector<double> away_;  ///< [px] per interval: how far the points lie from the curve.
 };
@@ -299,15 +296,14 @@ StationSet givenStations(std::vector<Station> stations) {
   return set;
 }
 
-StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, double pixelMm, double tolerancePx,
+StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, double tolerancePx,
                             const CurveThrough& curve, const RunContext& context) {
   // Hardly more points than stations: there is nothing to measure closer.
   const bool fewPoints = piece.points.size() < 2 * start.stations.size();
-  if (!(tolerancePx > 0.0) || !(pixelMm > 0.0) || !std::isfinite(pixelMm) || fewPoints) return start;
+  if (!(tolerancePx > 0.0) || fewPoints) return start;
   if (start.stations.size() < (piece.closed ? 3u : 2u)) return start;
-  const PieceLine px = inFrame(piece, [&](const Vec2& p) { return Vec2(p / pixelMm); });
-  if (!std::ranges::all_of(px.points, [](const PiecePoint& p) { return p.at.allFinite(); })) return start;
-  Refiner refiner(px, piece, start, pixelMm, tolerancePx);
+  if (!std::ranges::all_of(piece.points, [](const PiecePoint& p) { return p.at.allFinite(); })) return start;
+  Refiner refiner(piece, start, tolerancePx);
   if (!refiner.placeStations()) return start;
   std::optional<StationSet> best;
   double least = 0.0;

@@ -37,7 +37,7 @@ using CurveThrough = std::function<std::vector<std::vector<Vec2>>(const StationS
 /// allows: stations far apart take a hairpin for a straight line. Neighbouring distances differ by a factor of 2 at
 /// most, but nothing is halved into a gap between the points. Everything else stays as it is, and all of it where the
 /// points do not go along with the stations. What comes nearest to the points is returned, at least the start.
-StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, double pixelMm, double tolerancePx,
+StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, double tolerancePx,
                             const CurveThrough& curve, const RunContext& context);
 
 /// Message for the user if the maximum deviation was not reached; else empty.

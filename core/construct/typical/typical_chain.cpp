@@ -38,10 +38,10 @@ constexpr std::size_t kManyElements = 60;
 constexpr std::size_t kMostGrown = 2;
 
 /// Joints nearest to the places that the user set, with those places.
-std::vector<std::size_t> jointsAtPlaces(TypicalLine& line, std::span<const Vec2> placesMm) {
+std::vector<std::size_t> jointsAtPlaces(TypicalLine& line, std::span<const Vec2> places) {
   std::vector<std::size_t> at;
-  for (const Vec2& placeMm : placesMm) {
-    const Vec2 place = line.toLine(placeMm);
+  for (const Vec2& onPiece : places) {
+    const Vec2 place = line.toLine(onPiece);
     // The line at the foot of the place becomes a joint.
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity(), share = 0.0;
@@ -114,8 +114,8 @@ void oneBetweenPlaces(TypicalPath& path, const TypicalLine& line, const std::vec
 }
 
 /// The path divided where the user wants it; absent where the points allow none.
-std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> placesMm, const RunContext& context) {
-  const auto at = jointsAtPlaces(line, placesMm);
+std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> places, const RunContext& context) {
+  const auto at = jointsAtPlaces(line, places);
   TypicalPath path = roughTypicalPath(line.joints, line.closed, at);
   oneBetweenPlaces(path, line, at);
   PathData data = dataOf(line);
@@ -135,11 +135,11 @@ std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> pla
 /// True for a curve that leaves its line: a loop between points, or an end that runs away, moves no point's foot.
 bool leavesLine(const NurbsCurve& curve, const TypicalLine& line) {
   constexpr double kFarthestPx = 3.0, kLonger = 1.2;
-  if (line.fair && !(deviation(curve, *line.fair).max < kFarthestPx * line.unitMm)) return true;
+  if (line.fair && !(deviation(curve, *line.fair).max < kFarthestPx)) return true;
   double length = 0.0;
   for (std::size_t i = 1; i < line.joints.size(); ++i)
     length += (line.joints[i].point - line.joints[i - 1].point).norm();
-  return !(ArcLength(curve).total() < line.unitMm * (kLonger * length + 2.0 * kFarthestPx));
+  return !(ArcLength(curve).total() < kLonger * length + 2.0 * kFarthestPx);
 }
 
 /// True when the ends of a closed path share place, direction and curvature.
@@ -198,9 +198,9 @@ std::optional<FoundPath> orGrown(Candidate chain, const TypicalLine& line, const
 
 /// The path of the global chain; absent where the points allow none. Laid along the fair fit of the line; where that
 /// brings extrema that the line has not, also from a rough path that is divided and made plain as the points ask for.
-std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2> placesMm,
-                                   const ConstructParams& params, const RunContext& context) {
-  if (!placesMm.empty()) return dividedPath(line, placesMm, context);
+std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2> places, const ConstructParams& params,
+                                   const RunContext& context) {
+  if (!places.empty()) return dividedPath(line, places, context);
   bool isLong = false;
   Candidate best;
   if (auto tiled = tiledPath(line)) {
@@ -222,13 +222,13 @@ std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2
 
 /// The grown path, tidied: growing sees only what lies before it, so that its many short segments bring turns of the
 /// curvature that the line has not. As grown where that helps nothing, or the segments are the user's or the paper's.
-std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const Vec2> placesMm,
+std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const Vec2> places,
                                         const ConstructParams& params, const RunContext& context) {
   TypicalLine divided = line;
-  jointsAtPlaces(divided, placesMm);
-  auto grown = grownPath(divided, placesMm, params, nullptr, context);
+  jointsAtPlaces(divided, places);
+  auto grown = grownPath(divided, places, params, nullptr, context);
   if (!grown) return std::nullopt;
-  if (!placesMm.empty() || params.growingAsInPaper) return grown;
+  if (!places.empty() || params.growingAsInPaper) return grown;
   Candidate tidy = fittedCandidate(grown->path, dataOf(line), PathSearch::Tidy, line, context);
   const auto curve = pathCurve(grown->path, line);
   const bool stays = curve && !leavesLine(*curve, line);
@@ -246,9 +246,9 @@ std::string typicalNote(const std::vector<SegmentNote>& segments) {
 }
 
 /// The Bezier path of a piece, with the reason why it took the place of the chain.
-Result<ConstructedPiece> pathInstead(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
+Result<ConstructedPiece> pathInstead(const ConstructPiece& piece, const ConstructParams& params,
                                      const RunContext& context) {
-  auto other = constructBezierChain(piece, pixelMm, params, context);
+  auto other = constructBezierChain(piece, params, context);
   if (other && other->report.why != Termination::Degenerate) {
     const std::string more = other->report.note.empty() ? "" : " " + other->report.note;
     other->report.note = "Typical curves do not fit this line; a Bézier path was used." + more;
@@ -274,30 +274,30 @@ std::string transitionCauses(std::span<const SegmentNote> segments) {
   return text;
 }
 
-Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
+Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, const ConstructParams& params,
                                           const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  const TypicalLine line = typicalLine(piece, pixelMm, params, context);
+  const TypicalLine line = typicalLine(piece, params, context);
   if (line.joints.empty()) return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
   if (context.isCancelled()) return cancelled();
   auto found = params.typical == TypicalMode::Growing ? grownAndTidied(line, piece.breakpoints, params, context)
                                                       : chainPath(line, piece.breakpoints, params, context);
   if (context.isCancelled()) return cancelled();
   auto curve = found ? pathCurve(found->path, line) : Result<NurbsCurve>(fail(ErrorCode::Numerical, ""));
-  if (!curve) return pathInstead(piece, pixelMm, params, context);
+  if (!curve) return pathInstead(piece, params, context);
   const bool endsFree = params.typical == TypicalMode::Growing && params.growingAsInPaper && found->path.endsTypical();
   const Vec2 end = line.closed ? Vec2(curve->controlPoints().front())
                    : endsFree  ? Vec2(curve->controlPoints().back())
-                               : line.endMm;
-  const Vec2 start = line.closed ? end : line.originMm;
+                               : line.end;
+  const Vec2 start = line.closed ? end : line.origin;
   curve = clampedWithEnds(*curve, start, end);
   if (!curve) return fail(curve.error());
   // The fit looks at feet that move along with it; a chain that has run away from its line is seen only from the line.
   constexpr double kLeftLinePx = 5.0;
   const bool asInPaper = params.typical == TypicalMode::Growing && params.growingAsInPaper;
   if (!asInPaper &&
-      (leavesLine(*curve, line) || !(deviation(*curve, positionsOf(piece.points), true).rms < kLeftLinePx * pixelMm))) {
-    return pathInstead(piece, pixelMm, params, context);
+      (leavesLine(*curve, line) || !(deviation(*curve, positionsOf(piece.points), true).rms < kLeftLinePx))) {
+    return pathInstead(piece, params, context);
   }
   ConstructedPiece result{std::move(*curve), {}};
   result.report.why = found->converged ? Termination::Converged : Termination::IterationLimit;

@@ -15,8 +15,7 @@ namespace batten {
 /// curvatures, every one with monotone curvature; at inflections and straight parts, which typical curves cannot draw,
 /// quintic Hermite pieces. Chain: fitted to the points as a whole, as few segments as they ask for. Growing: one after
 /// the other. Where `breakpoints` are given the segments meet there. G2 everywhere; degree 5, knots of multiplicity 4.
-Result<ConstructedPiece> constructTypical(const ConstructPiece&, double pixelMm, const ConstructParams&,
-                                          const RunContext&);
+Result<ConstructedPiece> constructTypical(const ConstructPiece&, const ConstructParams&, const RunContext&);
 
 /// Why a chain has transitions, with the part of its length for each reason: "40 % nearly straight, 7 % at
 /// inflections".

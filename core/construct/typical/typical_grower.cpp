@@ -350,9 +350,8 @@ class Grower {
 
   void record(GrowingStep::Kind kind, const TypicalCurve& c, bool stops) {
     if (!record_.steps) return;
-    GrowingStep step{kind, record_.segment, c, deviation(c), distance(c) * line_.unitMm, stops};
-    step.curve.start = line_.toModel(c.start);
-    step.curve.edge *= line_.unitMm;
+    GrowingStep step{kind, record_.segment, c, deviation(c), distance(c), stops};
+    step.curve.start = line_.toPiece(c.start);
     record_.steps->push_back(step);
   }
 

@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 
+#include "core/construct/pixel_frame.h"
 #include "core/construct/typical/typical_grower.h"
 #include "core/construct/typical/typical_path_fit.h"
 #include "core/construct/typical/typical_rough_path.h"
@@ -165,11 +166,10 @@ std::string_view name(GrowingStep::Kind kind) {
   return "unknown";
 }
 
-std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2> breakpointsMm,
-                                   const ConstructParams& params, std::vector<GrowingStep>* steps,
-                                   const RunContext& context) {
+std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2> places, const ConstructParams& params,
+                                   std::vector<GrowingStep>* steps, const RunContext& context) {
   std::vector<Vec2> breakpoints;
-  for (const Vec2& p : breakpointsMm) breakpoints.push_back(line.toLine(p));
+  for (const Vec2& p : places) breakpoints.push_back(line.toLine(p));
   GrowingRecord record{steps};
   TypicalPath path;
   path.closed = line.closed;
@@ -216,10 +216,18 @@ std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2
 Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece& piece, double pixelMm,
                                               const ConstructParams& params, const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  const TypicalLine line = typicalLine(piece, pixelMm, params, context);
+  if (!(pixelMm > 0.0) || !std::isfinite(pixelMm))
+    return fail(ErrorCode::BadParameter, "The size of a pixel must be above 0 mm.");
+  const ConstructPiece px = inPixels({{piece}, false, pixelMm}).pieces.front();
+  const TypicalLine line = typicalLine(px, params, context);
   std::vector<GrowingStep> steps;
-  if (!line.joints.empty()) grownPath(line, piece.breakpoints, params, &steps, context);
+  if (!line.joints.empty()) grownPath(line, px.breakpoints, params, &steps, context);
   if (context.isCancelled()) return cancelled();
+  for (GrowingStep& step : steps) {
+    step.curve.start *= pixelMm;
+    step.curve.edge *= pixelMm;
+    step.distance *= pixelMm;
+  }
   return steps;
 }
 

@@ -21,7 +21,7 @@ struct FormGradient {
 };
 FormGradient formGradient(const TypicalCurve&);
 
-/// What happened while a chain grew (002 figures 3 and 5). Model frame, mm.
+/// What happened while a chain grew (002 figures 3 and 5). Model frame, mm; px while it grows.
 struct GrowingStep {
   enum class Kind {
     Seed,          ///< A first small curve fitted to the points, or what was left of the fit before.
@@ -33,18 +33,20 @@ struct GrowingStep {
   int segment = 0;  ///< Number of the segment, from 0.
   TypicalCurve curve;
   double deviationRad = 0.0;  ///< Between the normals of the curve's end and of the points there.
-  double distanceMm = 0.0;    ///< Largest mean distance of neighbouring points.
+  double distance = 0.0;      ///< [mm] Largest mean distance of neighbouring points.
   bool stops = false;         ///< Fitted: this fit is not good enough any more.
 };
 std::string_view name(GrowingStep::Kind);
 
-/// The growing process of 002 section 6 for one piece, with every step. Empty for lines that nowhere bend clearly.
+/// The growing process of 002 section 6 for one piece in mm, with every step. Empty for lines that nowhere bend
+/// clearly.
+/// @param pixelMm [mm] > 0, size of a pixel.
 Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                               const RunContext&);
 
 /// The grown path. Stable: only the first half of each fit stays, as the start of the next segment is only known as
 /// well as the fit before; `growingAsInPaper` keeps all. @param steps filled unless null.
-std::optional<FoundPath> grownPath(const TypicalLine&, std::span<const Vec2> breakpointsMm, const ConstructParams&,
+std::optional<FoundPath> grownPath(const TypicalLine&, std::span<const Vec2> breakpoints, const ConstructParams&,
                                    std::vector<GrowingStep>* steps, const RunContext&);
 
 }  // namespace batten

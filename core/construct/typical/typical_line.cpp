@@ -22,8 +22,6 @@ namespace {
 constexpr std::size_t kMostPoints = 400;
 /// Largest distance [px] of an end of the stations and one of the fit that are the same place.
 constexpr double kAgreePx = 0.05;
-/// Without a pixel size, assume the length of a typical line of a drawing.
-constexpr double kUnitsOfLine = 1000.0;
 /// Distance of the joints along a fair fit, and the shortest one that is taken as a guide.
 constexpr double kJointPx = 40.0, kLeastFairPx = 40.0;
 
@@ -48,12 +46,10 @@ void rotateToStraightest(std::vector<Station>& stations) {
 namespace {
 
 /// The line as its true and fair fit shows it; absent where there is none.
-std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pixelMm, bool grows,
-                                         const RunContext& context) {
+std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, bool grows, const RunContext& context) {
   ConstructContour contour;
   contour.pieces = {piece};
   contour.pieces.front().constraints.clear();
-  contour.pixelMm = pixelMm;
   FairFitOptions options;
   options.knotRemovalTolerance = 0.0;
   const auto fitted = fairFit(contour, options, context);
@@ -62,50 +58,45 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pix
   if (grows && !fitted->front().report.note.empty()) return std::nullopt;
   const NurbsCurve& curve = fitted->front().curve;
   const double length = curve.isEmpty() ? 0.0 : ArcLength(curve).total();
-  if (!(pixelMm > 0.0) || !(length > kLeastFairPx * pixelMm)) return std::nullopt;
+  if (!(length > kLeastFairPx)) return std::nullopt;
   // A fit that lost its line is no guide.
-  if (!(deviation(curve, positionsOf(piece.points), true).rms < kLostRmsPx * pixelMm)) return std::nullopt;
+  if (!(deviation(curve, positionsOf(piece.points), true).rms < kLostRmsPx)) return std::nullopt;
   TypicalLine line;
-  line.unitMm = pixelMm;
   line.closed = piece.closed;
   line.fair = curve;
-  const int joints = std::max(8, static_cast<int>(std::ceil(length / (kJointPx * pixelMm)))) + 1;
+  const int joints = std::max(8, static_cast<int>(std::ceil(length / kJointPx))) + 1;
   const auto samples = sampleByArcLength(curve, joints);
-  line.originMm = samples.front().point;
-  line.endMm = samples.back().point;
+  line.origin = samples.front().point;
+  line.end = samples.back().point;
   // Where the stations and the fit agree on an end, it is that of the stations, as in the other constructions.
   const std::vector<Station> stations = line.closed ? std::vector<Station>{} : usableStations(piece, 6);
   if (!stations.empty()) {
-    const auto agrees = [&](const Vec2& a, const Vec2& b) { return (a - b).norm() < kAgreePx * pixelMm; };
-    if (agrees(stations.front().point, line.originMm)) line.originMm = stations.front().point;
-    if (agrees(stations.back().point, line.endMm)) line.endMm = stations.back().point;
+    const auto agrees = [&](const Vec2& a, const Vec2& b) { return (a - b).norm() < kAgreePx; };
+    if (agrees(stations.front().point, line.origin)) line.origin = stations.front().point;
+    if (agrees(stations.back().point, line.end)) line.end = stations.back().point;
   }
-  for (const CurveSample& s : samples) line.joints.push_back({line.toLine(s.point), s.tangent, s.kappa * pixelMm});
+  for (const CurveSample& s : samples) line.joints.push_back({line.toLine(s.point), s.tangent, s.kappa});
   if (line.closed) {
     line.joints.back() = line.joints.front();
   } else {
     line.joints.front().point = Vec2::Zero();
-    line.joints.back().point = line.toLine(line.endMm);
+    line.joints.back().point = line.toLine(line.end);
   }
   return line;
 }
 
 /// The line as its stations show it.
-TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
-                           const RunContext& context) {
+TypicalLine lineOnStations(const ConstructPiece& piece, const ConstructParams& params, const RunContext& context) {
   TypicalLine line;
   // A chain needs no closer stations: it goes by the points, and by more joints it only takes longer.
   std::vector<Station> stations = usableStations(piece, 6);
   if (stations.size() < (piece.closed ? 3u : 2u)) return line;
   if (piece.closed) rotateToStraightest(stations);
-  const FairedJoints faired = fairedJoints(givenStations(stations), piece.closed, pixelMm, params.lowPass, context);
-  double total = 0.0;
-  for (const double length : faired.lengths) total += length;
-  line.unitMm = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / kUnitsOfLine;
-  line.originMm = stations.front().point;
-  line.endMm = stations.back().point;
+  const FairedJoints faired = fairedJoints(givenStations(stations), piece.closed, params.lowPass, context);
+  line.origin = stations.front().point;
+  line.end = stations.back().point;
   for (const Joint& j : faired.joints) {
-    line.joints.push_back({line.toLine(j.point), j.tangent, j.kappa * line.unitMm});
+    line.joints.push_back({line.toLine(j.point), j.tangent, j.kappa});
   }
   line.closed = piece.closed;
   return line;
@@ -113,10 +104,9 @@ TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const Co
 
 }  // namespace
 
-TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
-                        const RunContext& context) {
-  auto fair = lineOnFairFit(piece, pixelMm, params.typical == TypicalMode::Growing, context);
-  TypicalLine line = fair ? std::move(*fair) : lineOnStations(piece, pixelMm, params, context);
+TypicalLine typicalLine(const ConstructPiece& piece, const ConstructParams& params, const RunContext& context) {
+  auto fair = lineOnFairFit(piece, params.typical == TypicalMode::Growing, context);
+  TypicalLine line = fair ? std::move(*fair) : lineOnStations(piece, params, context);
   if (!line.joints.empty()) line.points = pointsAlong(piece, line);
   return line;
 }
@@ -160,7 +150,7 @@ Result<NurbsCurve> pathCurve(const TypicalPath& path, const TypicalLine& line) {
   std::vector<Quintic> pieces;
   for (std::size_t e = 0; e < path.elements.size(); ++e) {
     Quintic& q = pieces.emplace_back(path.quintic(e));
-    for (Vec2& p : q) p = line.toModel(p);
+    for (Vec2& p : q) p = line.toPiece(p);
   }
   return joinedQuintics(pieces, 1.0);
 }
@@ -181,20 +171,19 @@ std::vector<SegmentNote> segmentNotes(const TypicalPath& path, const TypicalLine
   for (std::size_t e = 0; e < path.elements.size(); ++e) {
     SegmentNote note;
     note.typical = path.elements[e].typical;
-    note.startKappa = path.states[e].kappa / line.unitMm;
-    note.endKappa = path.states[e + 1].kappa / line.unitMm;
-    note.startMm = line.toModel(path.states[e].point);
+    note.startKappa = path.states[e].kappa;
+    note.endKappa = path.states[e + 1].kappa;
+    note.start = line.toPiece(path.states[e].point);
     note.turnRad = path.states[e + 1].angleRad - path.states[e].angleRad;
     if (!note.typical) note.turnRad = std::remainder(note.turnRad, 2.0 * std::numbers::pi);
     if (!note.typical) note.cause = causeOf(path.states[e].kappa, path.states[e + 1].kappa, note.turnRad);
     if (note.typical) {
       const TypicalCurve curve = path.typical(e);
       note.ratio = curve.ratio;
-      note.lengthMm =
-          line.unitMm * curve.edge * (1.0 + curve.ratio * std::cos(curve.turnRad) + curve.ratio * curve.ratio);
+      note.length = curve.edge * (1.0 + curve.ratio * std::cos(curve.turnRad) + curve.ratio * curve.ratio);
       note.monotone = curve.isMonotone();
     } else {
-      note.lengthMm = line.unitMm * path.hermiteLength(e);
+      note.length = path.hermiteLength(e);
     }
     notes.push_back(note);
   }

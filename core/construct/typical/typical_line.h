@@ -16,25 +16,24 @@ namespace batten {
 inline constexpr double kLostRmsPx = 3.0;
 
 /// A piece as the typical constructions take it: joints that roughly follow it, and its points, both from its start and
-/// in units of noise (px).
+/// in px.
 struct TypicalLine {
   std::vector<Joint> joints;  ///< Empty: too few stations. Closed: the last repeats the first.
   std::vector<Vec2> points;
   bool closed = false;
-  double unitMm = 1.0;
-  Vec2 originMm = Vec2::Zero();
-  Vec2 endMm = Vec2::Zero();       ///< Open: where the line ends; it starts at the origin.
-  std::optional<NurbsCurve> fair;  ///< [mm] The true and fair fit of the line, which the joints then lie on.
+  Vec2 origin = Vec2::Zero();
+  Vec2 end = Vec2::Zero();         ///< Open: where the line ends; it starts at the origin.
+  std::optional<NurbsCurve> fair;  ///< The true and fair fit of the line, which the joints then lie on.
 
-  Vec2 toLine(const Vec2& mm) const { return (mm - originMm) / unitMm; }
-  Vec2 toModel(const Vec2& p) const { return originMm + unitMm * p; }
+  Vec2 toLine(const Vec2& p) const { return p - origin; }
+  Vec2 toPiece(const Vec2& p) const { return origin + p; }
 };
 
-TypicalLine typicalLine(const ConstructPiece&, double pixelMm, const ConstructParams&, const RunContext&);
+TypicalLine typicalLine(const ConstructPiece&, const ConstructParams&, const RunContext&);
 /// The points of a piece in order from the start of the line; many are taken together in groups, without bias.
 std::vector<Vec2> pointsAlong(const ConstructPiece&, const TypicalLine&);
 
-/// A path as one B-spline of degree 5 in the model frame, knots of multiplicity 4.
+/// A path as one B-spline of degree 5 where its piece lies, knots of multiplicity 4.
 Result<NurbsCurve> pathCurve(const TypicalPath&, const TypicalLine&);
 std::vector<SegmentNote> segmentNotes(const TypicalPath&, const TypicalLine&);
 

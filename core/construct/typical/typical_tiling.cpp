@@ -41,7 +41,7 @@ struct Place {
 class Tiling {
  public:
   explicit Tiling(const TypicalLine& line) : closed_(line.closed) {
-    const double length = ArcLength(*line.fair).total() / line.unitMm;
+    const double length = ArcLength(*line.fair).total();
     const double step = length / std::clamp(static_cast<int>(length / kStep), kFewest, kMost);
     const int fine = static_cast<int>(std::lround(length / step)) * static_cast<int>(kFiner) + 1;
     double angle = 0.0;
@@ -52,7 +52,7 @@ class Tiling {
       const bool regular = i % kFiner == 0;
       const bool turns = !regular && std::abs(angle - places_.back().state.angleRad) > kTurnOfStep;
       if (!regular && !turns) continue;
-      places_.push_back({{line.toLine(sample.point), angle, sample.kappa * line.unitMm}, sample.s / line.unitMm});
+      places_.push_back({{line.toLine(sample.point), angle, sample.kappa}, sample.s});
     }
     findTurns();
   }

@@ -84,7 +84,7 @@ JunctionPairings findPairings(std::span<const MeetingEnd> ends, const EndPairs& 
     std::stable_sort(pairings.begin(), pairings.end(),
                      [](const Pairing& a, const Pairing& b) { return a.cost < b.cost; });
     std::erase_if(pairings, [&](const Pairing& pairing) { return pairing.pairs == own; });
-    found.cost = all.costOf(own);
+    found.cost = search.costOf(own);
     // Whether a stroke goes on at all says the limit of the bend; doubt is about its partner.
     const auto next =
         std::ranges::find(pairings, own.size(), [](const Pairing& pairing) { return pairing.pairs.size(); });

@@ -101,7 +101,7 @@ TEST(CloserStations, StandEvenlyAndInOrder) {
     }
     return lines;
   };
-  const auto set = adaptiveStations(piece, givenStations(piece.stations), 1.0, 0.5, chords, {});
+  const auto set = adaptiveStations(piece, givenStations(piece.stations), 0.5, chords, {});
   ASSERT_EQ(std::ssize(set.stations), std::ssize(piece.stations) + set.added);
   EXPECT_GT(set.added, 4);
   double last = -1.0;
@@ -129,10 +129,10 @@ TEST(CloserStations, LeaveWhatHasNoPointsToMeasure) {
   bare.stations = test::stationsOf(test::ellipsePoint, 0.0, 2.0 * pi, 12, true);
   bare.closed = true;
   const auto never = [](const StationSet&) { return std::vector<std::vector<Vec2>>{}; };
-  EXPECT_EQ(adaptiveStations(bare, givenStations(bare.stations), 1.0, 0.1, never, {}).added, 0);
+  EXPECT_EQ(adaptiveStations(bare, givenStations(bare.stations), 0.1, never, {}).added, 0);
   auto broken = measured(hairpin, 0.0, kHairpinLength, 500, false, 1.0);
   broken.points[7].at.x() = std::nan("");
-  EXPECT_EQ(adaptiveStations(broken, givenStations(broken.stations), 1.0, 0.1, never, {}).added, 0);
+  EXPECT_EQ(adaptiveStations(broken, givenStations(broken.stations), 0.1, never, {}).added, 0);
 }
 
 }  // namespace

@@ -136,13 +136,13 @@ TEST(TypicalSegments, TwoPlacesMeanOneSegmentBetweenThem) {
     ASSERT_FALSE(chain->report.segments.empty()) << chain->report.note;
     int from = -1, to = -1;
     for (int i = 0; i < std::ssize(chain->report.segments); ++i) {
-      const Vec2& start = chain->report.segments[i].startMm;
+      const Vec2& start = chain->report.segments[i].start;
       if ((start - first).norm() < 3.0) from = i;
       if ((start - second).norm() < 3.0) to = i;
     }
     std::string starts;
     for (const SegmentNote& one : chain->report.segments)
-      starts += " (" + std::to_string(one.startMm.x()) + ", " + std::to_string(one.startMm.y()) + ")";
+      starts += " (" + std::to_string(one.start.x()) + ", " + std::to_string(one.start.y()) + ")";
     ASSERT_GE(from, 0) << static_cast<int>(mode) << starts;
     EXPECT_EQ(to, from + 1) << static_cast<int>(mode) << starts;
   }

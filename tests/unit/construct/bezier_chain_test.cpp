@@ -62,7 +62,7 @@ TEST(LowPassedCurvature, KeepsCirclesAndClothoidsToTheEnds) {
 TEST(ConstructBezierChain, HasG2AtEveryJoint) {
   auto piece = test::pieceOf(test::roofLine, 0, 900, 30, false);
   disturb(piece.stations, 0.3, 1);
-  const auto made = constructBezierChain(piece, 1.0, {}, {}).value();
+  const auto made = constructBezierChain(piece, {}, {}).value();
   const auto breaks = made.curve.breaks();
   double largest = 0.0;
   for (const double u : breaks) largest = std::max(largest, std::abs(curvature(made.curve, u).value()));
@@ -84,12 +84,12 @@ TEST(ConstructBezierChain, IsTrueAndFair) {
   for (const double noise : {0.0, 0.05}) {
     auto open = test::pieceOf(test::roofLine, 0, 900, 24, false);
     disturb(open.stations, noise, 2);
-    const auto line = constructBezierChain(open, 1.0, {}, {}).value();
+    const auto line = constructBezierChain(open, {}, {}).value();
     EXPECT_LT(deviation(line.curve, positionsOf(open.points), true).max, 1.0);
     EXPECT_EQ(curvatureExtrema(line.curve, 5e-3 / extent(line.curve), false).size(), 5u);
     auto closed = test::pieceOf(test::ellipsePoint, 0, 2 * pi, 30, true);
     disturb(closed.stations, noise, 3);
-    const auto around = constructBezierChain(closed, 1.0, {}, {}).value();
+    const auto around = constructBezierChain(closed, {}, {}).value();
     EXPECT_LT(deviation(around.curve, positionsOf(closed.points), true).max, 1.0);
     EXPECT_EQ(curvatureExtrema(around.curve, 5e-3 / extent(around.curve), true).size(), 4u);
   }
@@ -97,9 +97,9 @@ TEST(ConstructBezierChain, IsTrueAndFair) {
 
 TEST(ConstructBezierChain, TamesNoise) {
   auto piece = test::pieceOf(test::roofLine, 0, 900, 60, false);
-  const double truth = variation(constructBezierChain(piece, 1.0, {}, {}).value().curve);
+  const double truth = variation(constructBezierChain(piece, {}, {}).value().curve);
   disturb(piece.stations, 0.3, 4);
-  const auto made = constructBezierChain(piece, 1.0, {}, {}).value();
+  const auto made = constructBezierChain(piece, {}, {}).value();
   EXPECT_LT(variation(made.curve), 1.3 * truth);
   EXPECT_LT(deviation(made.curve, positionsOf(piece.points), true).max, 1.0);
 }
@@ -109,7 +109,7 @@ TEST(ConstructBezierChain, WithoutLowPassIsThePathOfThePaperWithOneCurvatureAtEv
   disturb(piece.stations, 0.3, 1);
   ConstructParams params;
   params.lowPass = 0.0;
-  const auto made = constructBezierChain(piece, 1.0, params, {}).value();
+  const auto made = constructBezierChain(piece, params, {}).value();
   const auto pieces = bezierPieces(made.curve).value();
   ASSERT_EQ(pieces.size(), 29u);
   std::optional<double> before;
@@ -124,9 +124,9 @@ TEST(ConstructBezierChain, WithoutLowPassIsThePathOfThePaperWithOneCurvatureAtEv
   }
   // A wide low pass is calmer than a narrow one, and both are calmer than none.
   params.lowPass = 0.5;
-  const double narrow = variation(constructBezierChain(piece, 1.0, params, {}).value().curve);
+  const double narrow = variation(constructBezierChain(piece, params, {}).value().curve);
   params.lowPass = 2.0;
-  const double wide = variation(constructBezierChain(piece, 1.0, params, {}).value().curve);
+  const double wide = variation(constructBezierChain(piece, params, {}).value().curve);
   EXPECT_LT(wide, 1.1 * narrow);
   EXPECT_LT(narrow, variation(made.curve));
 }
@@ -143,7 +143,7 @@ TEST(ConstructBezierChain, AnythingGivesAFiniteCurveOrAnError) {
       piece.points.push_back({p});
       if (random() % 4 != 0) piece.stations.push_back({p, Vec2(where(random), where(random)), p, p});
     }
-    const auto made = constructBezierChain(piece, trial % 5 == 0 ? 0.0 : 1.0, {}, {});
+    const auto made = constructBezierChain(piece, {}, {});
     if (!made) {
       EXPECT_EQ(made.error().code, ErrorCode::Numerical);
       continue;

@@ -116,12 +116,12 @@ TEST(ConstructControlPolygon, AllDegreesOpenAndClosed) {
     ConstructParams params;
     params.degree = degree;
     const auto open = test::pieceOf(test::ellipsePoint, 0.1, 2.0, 10, false);
-    const auto made = constructControlPolygon(open, 1.0, params, {}).value();
+    const auto made = constructControlPolygon(open, params, {}).value();
     EXPECT_EQ(made.curve.degree(), degree);
     EXPECT_LT(deviation(made.curve, positionsOf(open.points), true).max, 0.5);
     EXPECT_EQ(made.curve.point(made.curve.start()), open.points.front().at);
     const auto closed = test::pieceOf(test::ellipsePoint, 0.0, 2 * std::numbers::pi, 10, true);
-    const auto around = constructControlPolygon(closed, 1.0, params, {}).value();
+    const auto around = constructControlPolygon(closed, params, {}).value();
     EXPECT_LT(deviation(around.curve, positionsOf(closed.points), true).max, 0.5);
     const auto a = around.curve.derivatives(around.curve.start(), degree - 1);
     const auto b = around.curve.derivatives(around.curve.end(), degree - 1);

@@ -57,7 +57,7 @@ TEST(FairFit, EndsExactlyAtCorners) {
     piece.points.back().at = truth.points.back() - 0.2 * truth.normals.back();
     for (PiecePoint& p : piece.points) p.at = p.at * contour.pixelMm + Vec2(100.0, 50.0);
     piece.startIsCorner = piece.endIsCorner = true;
-    const auto fit = fairFit(contour, {}, {});
+    const auto fit = test::fitInMillimetres(contour);
     ASSERT_TRUE(fit.has_value());
     const NurbsCurve& c = fit->front().curve;
     EXPECT_EQ(c.point(c.start()), piece.points.front().at);
@@ -131,7 +131,7 @@ TEST(FairFit, SameCurveWithAnyNumberOfThreadsAndAnyScale) {
   RunContext one, four;
   one.threads = 1;
   four.threads = 4;
-  const auto a = fairFit(contour, {}, one), b = fairFit(contour, {}, four), c = fairFit(scaled, {}, one);
+  const auto a = fairFit(contour, {}, one), b = fairFit(contour, {}, four), c = test::fitInMillimetres(scaled, {}, one);
   ASSERT_TRUE(a && b && c);
   for (std::size_t i = 0; i < a->size(); ++i) {
     EXPECT_TRUE((*a)[i].curve == (*b)[i].curve);
@@ -152,7 +152,7 @@ TEST(FairFit, SameCurveWithAnyNumberOfThreadsAndAnyScale) {
 TEST(FairFit, RefusesNonsenseWithAMessage) {
   ConstructContour contour;
   contour.pixelMm = 0.0;
-  EXPECT_FALSE(fairFit(contour, {}, {}).has_value());
+  EXPECT_FALSE(test::fitInMillimetres(contour).has_value());
   contour.pixelMm = 1.0;
   EXPECT_TRUE(fairFit(contour, {}, {}).value().empty());
   contour.pieces.resize(1);

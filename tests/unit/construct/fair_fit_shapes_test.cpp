@@ -54,9 +54,8 @@ TEST(FairFit, LongLinesAskMoreOfABump) {
   };
   const auto asked = [](double px) {
     ConstructContour contour;
-    contour.pixelMm = 0.1;
     contour.pieces.resize(2);
-    for (ConstructPiece& piece : contour.pieces) piece.points = {{Vec2(0.0, 0.0)}, {Vec2(0.05 * px, 0.0)}};
+    for (ConstructPiece& piece : contour.pieces) piece.points = {{Vec2(0.0, 0.0)}, {Vec2(0.5 * px, 0.0)}};
     return costAsked(contour, {});
   };
   EXPECT_DOUBLE_EQ(asked(300.0), FairFitOptions().extremumSignificance);

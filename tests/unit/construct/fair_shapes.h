@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "core/construct/construct.h"
 #include "core/construct/fair/fair_fit.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -133,13 +134,24 @@ inline std::vector<FoundExtremum> extremaOf(const NurbsCurve& curve, bool closed
   return found;
 }
 
+/// The dense fair fit of a contour in mm.
+inline Result<std::vector<ConstructedPiece>> fitInMillimetres(const ConstructContour& contour,
+                                                              const FairFitOptions& options = {},
+                                                              const RunContext& context = {}) {
+  ConstructParams params;
+  params.light = false;
+  params.extremumSignificance = options.extremumSignificance;
+  params.knotRemovalTolerance = options.knotRemovalTolerance;
+  return construct(contour, params, context);
+}
+
 inline Result<std::vector<ConstructedPiece>> fitOne(std::vector<Vec2> points, bool closed, double pixelMm = 1.0) {
   ConstructContour contour;
   contour.pixelMm = pixelMm;
   contour.pieces.resize(1);
   contour.pieces[0].points = piecePoints(std::move(points));
   contour.pieces[0].closed = closed;
-  return fairFit(contour, {}, {});
+  return fitInMillimetres(contour);
 }
 
 }  // namespace batten::test

@@ -47,7 +47,7 @@ ConstructedPiece fitWith(const Shape& shape, double share, bool corners = false)
   piece.startIsCorner = piece.endIsCorner = corners;
   FairFitOptions options;
   options.knotRemovalTolerance = share;
-  auto fit = fairFit(contour, options, {});
+  auto fit = test::fitInMillimetres(contour, options);
   EXPECT_TRUE(fit.has_value());
   return fit ? std::move(fit->front()) : ConstructedPiece{};
 }

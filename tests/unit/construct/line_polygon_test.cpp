@@ -188,7 +188,7 @@ TEST(ConstructControlPolygon, APenStrokeUsesOnlyItsDrawnPoints) {
   piece.isDrawn = true;
   for (PiecePoint& p : piece.points) p.refined = false;
   for (const int i : drawn) piece.points[i].refined = true;
-  const auto made = constructControlPolygon(piece, 1.0, polygonParams(2), {}).value();
+  const auto made = constructControlPolygon(piece, polygonParams(2), {}).value();
   EXPECT_EQ(made.report.polygon.value().before, 5);
   EXPECT_EQ(made.report.polygon.value().after, 5);
   ASSERT_EQ(made.curve.controlPointCount(), 5);

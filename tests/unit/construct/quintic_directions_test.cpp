@@ -47,7 +47,7 @@ TEST(ConstructQuinticNurbs, DirectionsTakeUnevenStations) {
                                     [&](int k) { return k > 0 && k < 8 ? unit(random) : 0.0; });
   ConstructParams params;
   params.gradients = GradientUse::Directions;
-  const auto made = constructQuinticNurbs(piece, 1.0, params, {});
+  const auto made = constructQuinticNurbs(piece, params, {});
   ASSERT_TRUE(made);
   EXPECT_LT(deviation(made->curve, positionsOf(piece.points), true).max, 0.5);
   EXPECT_LT((made->curve.point(made->curve.start()) - piece.stations.front().point).norm(), 1e-9);

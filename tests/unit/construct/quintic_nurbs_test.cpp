@@ -127,7 +127,7 @@ struct Measured {
   int extrema = 0;
 };
 Measured measure(const ConstructPiece& piece, const ConstructParams& params) {
-  const auto made = constructQuinticNurbs(piece, 1.0, params, {});
+  const auto made = constructQuinticNurbs(piece, params, {});
   EXPECT_TRUE(made);
   if (!made) return {};
   return {deviation(made->curve, positionsOf(piece.points), true).rms,
@@ -162,7 +162,7 @@ TEST(ConstructQuinticNurbs, OpenEndsAreExact) {
   auto piece = test::pieceOf(test::ellipsePoint, 0.2, 2.0, 12, false);
   piece.startIsCorner = piece.endIsCorner = true;
   piece.points.front().at += Vec2(0.3, -0.2);
-  const auto made = constructQuinticNurbs(piece, 1.0, {}, {}).value();
+  const auto made = constructQuinticNurbs(piece, {}, {}).value();
   EXPECT_EQ(made.curve.point(made.curve.start()), piece.points.front().at);
   EXPECT_EQ(made.curve.point(made.curve.end()), piece.points.back().at);
   EXPECT_EQ(made.curve.degree(), 5);
@@ -174,7 +174,7 @@ TEST(ConstructQuinticNurbs, StationsInsideThePieceAreExtendedToItsEnds) {
   auto piece = test::pieceOf(test::ellipsePoint, 0.2, 2.0, 12, false);
   const auto groups = test::stationsOf(test::ellipsePoint, 0.28, 1.9, 11, false);
   piece.stations = groups;
-  const auto made = constructQuinticNurbs(piece, 1.0, {}, {}).value();
+  const auto made = constructQuinticNurbs(piece, {}, {}).value();
   EXPECT_EQ(made.curve.point(made.curve.start()), piece.points.front().at);
   EXPECT_EQ(made.curve.point(made.curve.end()), piece.points.back().at);
   EXPECT_LT(deviation(made.curve, positionsOf(piece.points), true).max, 0.5);
@@ -183,7 +183,7 @@ TEST(ConstructQuinticNurbs, StationsInsideThePieceAreExtendedToItsEnds) {
 TEST(ConstructQuinticNurbs, ClosedCurvesMeetWithAllDerivatives) {
   for (const int m : {6, 13, 40, 60}) {
     const auto piece = test::pieceOf(test::ellipsePoint, 0.0, 2 * pi, m, true);
-    const auto made = constructQuinticNurbs(piece, 1.0, {}, {}).value();
+    const auto made = constructQuinticNurbs(piece, {}, {}).value();
     const auto a = made.curve.derivatives(made.curve.start(), 4), b = made.curve.derivatives(made.curve.end(), 4);
     for (std::size_t d = 0; d < 5; ++d) EXPECT_LT((a[d] - b[d]).norm(), 1e-8 * (1.0 + a[d].norm())) << d;
     if (m >= 40) {
@@ -221,7 +221,7 @@ TEST(ConstructQuinticNurbs, AnythingGivesAFiniteCurveOrAnError) {
     ConstructParams params;
     params.gradients = static_cast<GradientUse>(random() % 3);
     params.magnitudeAsInPaper = random() % 4 == 0;
-    const auto made = constructQuinticNurbs(piece, 1.0, params, {});
+    const auto made = constructQuinticNurbs(piece, params, {});
     if (!made) {
       EXPECT_EQ(made.error().code, ErrorCode::Numerical);
       continue;

@@ -91,17 +91,17 @@ double largestJump(const NurbsCurve& curve) {
 
 TEST(ConstructTypical, IsTrueAndHasNoJumpOfCurvature) {
   const auto open = test::pieceOf(test::roofLine, 0, 900, 30, false);
-  const auto line = constructTypical(open, 1.0, {}, {}).value();
+  const auto line = constructTypical(open, {}, {}).value();
   EXPECT_LT(deviation(line.curve, positionsOf(open.points), true).max, 1.0);
   EXPECT_LT(largestJump(line.curve), 1e-6);
   EXPECT_EQ(line.curve.point(line.curve.start()), open.stations.front().point);
   EXPECT_EQ(line.curve.point(line.curve.end()), open.stations.back().point);
   const auto quarter = test::pieceOf(test::ellipsePoint, 0.1, 1.45, 10, false);
-  const auto arc = constructTypical(quarter, 1.0, {}, {}).value();
+  const auto arc = constructTypical(quarter, {}, {}).value();
   EXPECT_LT(deviation(arc.curve, positionsOf(quarter.points), true).max, 0.3);
   EXPECT_TRUE(curvatureExtrema(arc.curve, 5e-3 / extent(arc.curve), false).empty());
   const auto closed = test::pieceOf(test::ellipsePoint, 0, 2 * pi, 36, true);
-  const auto around = constructTypical(closed, 1.0, {}, {}).value();
+  const auto around = constructTypical(closed, {}, {}).value();
   EXPECT_LT(deviation(around.curve, positionsOf(closed.points), true).max, 1.0);
   EXPECT_LT(largestJump(around.curve), 1e-6);
   EXPECT_NEAR(curvature(around.curve, around.curve.start()).value(),
@@ -132,7 +132,7 @@ TEST(ConstructTypical, MakesMostOfASmoothLineOfTypicalCurves) {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0.0, 0.1);
     for (PiecePoint& p : piece.points) p.at += Vec2(noise(random), noise(random));
-    const auto made = constructTypical(piece, 1.0, {}, {}).value();
+    const auto made = constructTypical(piece, {}, {}).value();
     EXPECT_GE(typicalShare(made.report.segments), 0.6) << made.report.note << " seed " << seed;
     EXPECT_LT(deviation(made.curve, truth, true).rms, 0.1);
   }
@@ -145,7 +145,7 @@ TEST(ConstructTypical, ComesToRestOnAnOrdinaryLine) {
       test::pieceOf([](double t) { return Vec2(300.0 * std::cos(t), 90.0 * std::sin(t)); }, 0.0, 2.0 * pi, 36, true);
   const auto truth = positionsOf(piece.points);
   for (PiecePoint& p : piece.points) p.at += Vec2(noise(random), noise(random));
-  const auto made = constructTypical(piece, 1.0, {}, {}).value();
+  const auto made = constructTypical(piece, {}, {}).value();
   EXPECT_EQ(made.report.why, Termination::Converged);
   EXPECT_LT(deviation(made.curve, truth, true).rms, 0.1);
 }
@@ -162,7 +162,7 @@ TEST(ConstructTypical, AnythingGivesAFiniteCurveOrAnError) {
       piece.points.push_back({p});
       if (random() % 4 != 0) piece.stations.push_back({p, Vec2(where(random), where(random)), p, p});
     }
-    const auto made = constructTypical(piece, 1.0, {}, {});
+    const auto made = constructTypical(piece, {}, {});
     if (!made) {
       EXPECT_EQ(made.error().code, ErrorCode::Numerical);
       continue;

@@ -231,7 +231,7 @@ TypicalLine lineWithGap(double turnRad) {
     at += Vec2(std::cos(angle), std::sin(angle));
     angle += 0.5 * kappa;
   }
-  line.endMm = line.joints.back().point;
+  line.end = line.joints.back().point;
   return line;
 }
 

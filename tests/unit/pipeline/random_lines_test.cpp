@@ -114,7 +114,7 @@ void expectSoundConstruction(const ConstructedPiece& made, const ConstructPiece&
     EXPECT_LT((curve.point(curve.end()) - piece.points.back().at).norm(), 1e-9 * size);
   }
   for (const SegmentNote& note : made.report.segments) {
-    EXPECT_TRUE(std::isfinite(note.lengthMm) && std::isfinite(note.startKappa) && std::isfinite(note.endKappa));
+    EXPECT_TRUE(std::isfinite(note.length) && std::isfinite(note.startKappa) && std::isfinite(note.endKappa));
     if (note.typical) {
       EXPECT_TRUE(note.monotone);
     }

@@ -19,7 +19,7 @@ QString textOf(const GrowingStep& step) {
   const QString number = QString::number(step.segment + 1);
   const QString figures = QObject::tr("normals %1° apart, points %2 away")
                               .arg(step.deviationRad * kDegPerRad, 0, 'f', 1)
-                              .arg(shortMillimetres(step.distanceMm));
+                              .arg(shortMillimetres(step.distance));
   switch (step.kind) {
     case GrowingStep::Kind::Seed:
       return QObject::tr("Segment %1: seed").arg(number);
