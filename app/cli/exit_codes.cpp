@@ -31,7 +31,7 @@ struct ExitRow {
   const char* means;
 };
 
-/// The README has the same table.
+/// The help page on the command line has the same table.
 constexpr std::array kExitRows = {
     ExitRow{kDone, "success"},
     ExitRow{kWrongUsage, "wrong usage, or a recipe or manifest that cannot be used"},

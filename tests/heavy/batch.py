@@ -391,7 +391,7 @@ def check_report(way, place, manifest, told):
 
 
 def cost_of_sample():
-    """Prints what the sample costs by itself: the figures of README.md and of the help page on many drawings."""
+    """Prints what the sample costs by itself: the figures of the help page on many drawings."""
     samples = os.path.join(os.path.dirname(os.path.abspath(CLI)), "..", "share", "batten", "samples")
     if not os.path.exists(os.path.join(samples, "coupe-side.png")):
         print("the sample is not beside the program (target sample_sketch): its cost is not measured")

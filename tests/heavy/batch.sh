@@ -4,7 +4,7 @@
 # killed by -9 twice in the middle and started again. Then every page has to be told of once, with the outputs of single
 # calls, byte for byte, and the failures of single calls. Prints a table with pages a minute, processor time and memory, and
 # for comparison a loop of single calls; whether two jobs are 1.8 times as fast is judged where nothing else runs meanwhile. Also
-# prints what the sample sketch costs, the figures of README.md and of the help page on many drawings.
+# prints what the sample sketch costs, the figures of the help page on many drawings.
 #
 #   tests/heavy/batch.sh              200 pages
 #   BATTEN_BATCH_PAGES=40 BATTEN_BATCH_WAYS="slurm snakemake" BATTEN_BATCH_TIMEOUT=60 tests/heavy/batch.sh

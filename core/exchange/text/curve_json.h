@@ -10,7 +10,7 @@
 
 namespace batten {
 
-/// Curve JSON, "batten-curves" version 1 (see README); numbers with 17 significant digits.
+/// Curve JSON, "batten-curves" version 1 (help page on file formats); numbers with 17 significant digits.
 /// @return NoCurve if there is nothing to write, Cancelled.
 Result<std::string> writeCurveJson(const ExportDocument&, const RunContext& context = {});
 /// Reads curve JSON back: for the self-check after an export, and to compare curves. Damage and attacks end early
