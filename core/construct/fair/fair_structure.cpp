@@ -16,6 +16,7 @@ constexpr double kWindowShare = 0.25, kStretchShare = 0.8, kWindowMinPx = 8.0;
 constexpr double kWindowsApart = 0.45;  // of the distance of neighbouring extrema: half a window is no wider
 constexpr double kRecentre = 0.7;       // of the half width
 constexpr double kLocalReachPx = 640;   // far beyond any correlation that matters
+constexpr double kMostStretches = 4.0;  // widest windows: a slope of the curvature is followed no farther to either side
 constexpr int kRounds = 4;              // one solution and three recentrings
 
 double slopeAt(const FrameStation& s, const Eigen::VectorXd& c) { return s.slope + dot(s.slopeRow, c); }
@@ -190,7 +191,7 @@ FairStructure localExtrema(const FairFrame& frame, const Eigen::VectorXd& c) {
       FairExtremum e = crossing(stations, j, c, slope, next);
       const double sign = e.maximum ? -1.0 : 1.0;
       int left = j, right = j + 1;
-      const int reach = static_cast<int>(4.0 * kWidestWindowPx / stations.step);
+      const int reach = static_cast<int>(kMostStretches * kWidestWindowPx / stations.step);
       while (j - left < reach && stations.has(left) && sign * bendAt(stations[left], c) > 0.0) --left;
       while (right - j < reach && stations.has(right) && sign * bendAt(stations[right], c) > 0.0) ++right;
       e.stretch = 0.5 * (right - left - 1) * stations.step;

@@ -14,6 +14,8 @@ namespace {
 
 /// The slack of a monotone segment is never less than about this square over its unknown: it softens the border.
 constexpr double kSoftness = 0.01;
+/// A segment on the border of monotone curvature begins this far inside it [logarithm of the ratio].
+constexpr double kLeastRoom = 1e-3;
 constexpr double kLargestElementTurn = 0.85;
 constexpr double kLargestLogRatio = 1.7;
 constexpr double kLargestHermiteTurn = 0.4;
@@ -46,7 +48,7 @@ void PathElement::setLogRatio(double logRatio) {
     return;
   }
   const double border = std::log(std::cos(turn()));
-  const double room = std::max(border - (trend == Trend::Rising ? logRatio : -logRatio), 1e-3);
+  const double room = std::max(border - (trend == Trend::Rising ? logRatio : -logRatio), kLeastRoom);
   shape = room - kSoftness * kSoftness / room;
 }
 

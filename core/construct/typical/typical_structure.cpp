@@ -21,6 +21,14 @@ constexpr double kFloor = 0.04;
 /// [chi2] An extremum that costs less to remove goes.
 constexpr double kExtremumCost = 20.0;
 constexpr double kTurnCost = 8.0;
+/// Steps of a fit: of a change that is only tried, of one that divides, and of one that is to be kept or refused.
+constexpr int kTriedSteps = 12, kDividingSteps = 15, kKeptSteps = 25;
+/// Divisions in a row that bring nothing end the search, and extrema that are questioned at most.
+constexpr int kMostFailures = 3, kMostQuestioned = 40;
+/// Passes in which segments may change their kind or join.
+constexpr int kPasses = 3;
+/// Neighbouring points averaged to tell a systematic misfit: at least so many, and a part of those of the element.
+constexpr std::size_t kFewestAveraged = 6, kGroups = 5;
 /// Stretches along which the curvature changes more than e to this are not questioned.
 constexpr double kSureRise = 1.2;
 
@@ -41,7 +49,7 @@ std::vector<double> systematicMisfit(const TypicalPath& path, const PathFit& fit
   for (const PathFoot& foot : fit.feet) byElement[foot.element].push_back(foot.distance);
   std::vector<double> result;
   for (const auto& distances : byElement) {
-    const std::size_t size = std::max<std::size_t>(6, distances.size() / 5);
+    const std::size_t size = std::max(kFewestAveraged, distances.size() / kGroups);
     double sum = 0.0;
     for (std::size_t i = 0; i + size <= distances.size(); i += size) {
       double mean = 0.0;
@@ -121,7 +129,7 @@ class StructureSearch {
   void divideWhereNeeded(int most) {
     std::set<std::size_t> tried;
     int failures = 0;
-    for (int i = 0; i < most && failures < 3 && path_.elements.size() < kMostElements; ++i) {
+    for (int i = 0; i < most && failures < kMostFailures && path_.elements.size() < kMostElements; ++i) {
       if (context_.isCancelled() || fit_.rms < kFloor) return;
       const auto misfit = systematicMisfit(path_, fit_);
       std::optional<std::size_t> worst;
@@ -133,7 +141,7 @@ class StructureSearch {
       TypicalPath divided = path_;
       divided.split(*worst, placeToDivide(*worst));
       PathFit fit;
-      if (refit(divided, fit, 15) && score(divided, fit) < score(path_, fit_)) {
+      if (refit(divided, fit, kDividingSteps) && score(divided, fit) < score(path_, fit_)) {
         path_ = std::move(divided);
         fit_ = std::move(fit);
         watchOutliers();
@@ -167,7 +175,7 @@ class StructureSearch {
       }
       path_.elements[e].setTrend(path_.elements[e].logRatio() < 0.0 ? Trend::Rising : Trend::Falling);
     }
-    if (refit(path_, fit_, 25)) return true;
+    if (refit(path_, fit_, kKeptSteps)) return true;
     return false;
   }
 
@@ -203,7 +211,7 @@ class StructureSearch {
 
   void dropExtrema() {
     std::set<std::size_t> kept;
-    for (int i = 0; i < 40 && !context_.isCancelled(); ++i) {
+    for (int i = 0; i < kMostQuestioned && !context_.isCancelled(); ++i) {
       auto all = stretches();
       std::erase_if(all, [&](const Stretch& s) {
         return !s.hasNeighbour || s.rise > kSureRise || kept.contains(s.elements.front());
@@ -218,7 +226,7 @@ class StructureSearch {
       PathFit fit;
       const double noise =
           std::max(fit_.cost / static_cast<double>(std::max<std::size_t>(1, fit_.feet.size())), kFloor * kFloor);
-      if (refit(plain, fit, 25) && fit.cost - fit_.cost < kExtremumCost * noise) {
+      if (refit(plain, fit, kKeptSteps) && fit.cost - fit_.cost < kExtremumCost * noise) {
         path_ = std::move(plain);
         fit_ = std::move(fit);
       } else {
@@ -231,7 +239,7 @@ class StructureSearch {
   /// Hermite piece that bends one way, one element for two.
   /// @param kinds also changes the kind of elements; else only typical curves of one trend are joined.
   void simplify(bool kinds) {
-    for (int pass = 0; pass < 3 && !context_.isCancelled(); ++pass) {
+    for (int pass = 0; pass < kPasses && !context_.isCancelled(); ++pass) {
       bool changed = false;
       for (std::size_t e = 0; kinds && e < path_.elements.size(); ++e) {
         if (tryChange([&](TypicalPath& path) { return path.makeTypical(e); })) changed = true;
@@ -257,7 +265,7 @@ class StructureSearch {
       if (!sliver) return;
       auto without = withoutElement(path_, *sliver);
       PathFit fit;
-      if (!without || !refit(*without, fit, 25)) return;
+      if (!without || !refit(*without, fit, kKeptSteps)) return;
       path_ = std::move(*without);
       fit_ = std::move(fit);
     }
@@ -283,7 +291,7 @@ class StructureSearch {
     TypicalPath plain = path_;
     if (context_.isCancelled() || !change(plain)) return false;
     PathFit fit;
-    if (!refit(plain, fit, 12) || !(score(plain, fit) < score(path_, fit_))) return false;
+    if (!refit(plain, fit, kTriedSteps) || !(score(plain, fit) < score(path_, fit_))) return false;
     path_ = std::move(plain);
     fit_ = std::move(fit);
     return true;

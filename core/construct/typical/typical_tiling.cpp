@@ -28,10 +28,16 @@ constexpr double kLeastHermite = 45.0;
 /// No piece is shorter [units], however sharply the line turns: room for the fit above kShortestSegment.
 constexpr double kShortestTile = 2.0 * kShortestSegment;
 constexpr double kMostLogRatio = 1.2;
-constexpr double kLeastTileTurn =
-    1e-6;  // [rad] half the change of direction: a tile that is straight has a logarithm, too
+/// [rad] Half the change of direction of a tile: a straight one has a logarithm, too.
+constexpr double kLeastTileTurn = 1e-6;
 /// Room on the border of monotone curvature, so that the fit begins inside.
 constexpr double kBorderRoom = 1.02;
+/// Newton steps from a guess that is off by a few per cent.
+constexpr int kFootSteps = 4;
+/// The end of a piece is sought in steps of this part of its length.
+constexpr int kStepsAlong = 12;
+/// Places of a rest at the end of the line that is shared out with the piece before.
+constexpr int kShortRest = 4;
 
 struct Place {
   PathState state;
@@ -127,7 +133,7 @@ class Tiling {
     for (const int k : {(3 * i + j) / 4, (i + j) / 2, (i + 3 * j) / 4}) {
       const Vec2 p = at(k).state.point;
       double t = (at(k).s - at(i).s) / (at(j).s - at(i).s);
-      for (int round = 0; round < 4; ++round) {
+      for (int round = 0; round < kFootSteps; ++round) {
         const auto d = geometry.at(t, 2);
         if (!(d[1].squaredNorm() > 0.0)) return false;
         t = std::clamp(t + footStep(d[0] - p, d[1], d[2]), 0.0, 1.0);
@@ -142,7 +148,7 @@ class Tiling {
     const int end = turn_[i];
     int far = i;
     while (far < end && std::abs(at(far + 1).state.angleRad - at(i).state.angleRad) < kMostTurn) ++far;
-    for (int j = far; j > i; j -= std::max(1, (j - i) / 12)) {
+    for (int j = far; j > i; j -= std::max(1, (j - i) / kStepsAlong)) {
       if (fitsTypical(i, j)) return j;
     }
     return i;
@@ -177,7 +183,7 @@ class Tiling {
   int farthestHermite(int i) const {
     const int last = static_cast<int>(places_.size()) - 1;
     int best = nextPlace(i);
-    for (int j = best + 1; j <= last; j += std::max(1, (j - i) / 12)) {
+    for (int j = best + 1; j <= last; j += std::max(1, (j - i) / kStepsAlong)) {
       if (std::abs(at(j).state.angleRad - at(i).state.angleRad) > kMostTurn) break;
       TypicalPath one;
       one.elements.resize(1);
@@ -189,7 +195,7 @@ class Tiling {
     if (isAtEnd(best)) return last;
     // A short piece at the end is shared out.
     const int half = (i + last + 1) / 2;
-    const bool isShared = last - best < best - i && best < last && last - best < 4 &&
+    const bool isShared = last - best < best - i && best < last && last - best < kShortRest &&
                           std::min(between(i, half), between(half, last)) >= kShortestTile;
     return isShared ? half : best;
   }

@@ -22,6 +22,12 @@ namespace {
 /// Cut-off waves are tried in these steps, from this many blocks or spans on.
 constexpr double kWaveStep = 1.2;
 constexpr double kShortestSpans = 2.0, kShortestBlocks = 4.0;
+/// Up to this many lengths of the curve: such a wave leaves no more than a straight line would.
+constexpr double kLongestWave = 4.0;
+/// Blocks that must be left over for the noise to be told from the misfit.
+constexpr double kFewestOver = 6.0;
+/// [costs of an extremum] A score worse than the best by more ends the search: longer waves only make it worse.
+constexpr double kHopeless = 3.0;
 /// What a degree of freedom has to be worth: 2 is Mallows' Cp; more, because noise of neighbours is never quite
 /// independent.
 constexpr double kDegreeCost = 3.0;
@@ -143,12 +149,12 @@ class NeededFairing {
     const double count = static_cast<double>(blocks_.blocks.size());
     std::vector<Vec2> points = setup_.points;
     std::vector<SpanPlace> feet = setup_.start.places;
-    for (double wave = shortestWave(); wave < 4.0 * setup_.start.length && !context_.isCancelled(); wave *= kWaveStep) {
+    for (double wave = shortestWave(); wave < kLongestWave * setup_.start.length && !context_.isCancelled(); wave *= kWaveStep) {
       auto state = smoothed(wave, points, feet);
       if (!state) break;
       const double misfit = blocks_.misfit(setup_, *state), degrees = freedom(wave);
       if (!(noise_ > 0.0)) {
-        if (count - degrees < 6.0) continue;
+        if (count - degrees < kFewestOver) continue;
         noise_ = std::max(misfit / (count - degrees), leastNoise_);
       }
       const double score = misfit / noise_ + kDegreeCost * degrees,
@@ -156,7 +162,7 @@ class NeededFairing {
       if (away <= kFarthest * std::sqrt(noise_)) {
         found.push_back({state->points, 0, away, score});
         if (score < found[best].score) best = found.size() - 1;
-        if (score > found[best].score + 3.0 * kExtremumCost) break;
+        if (score > found[best].score + kHopeless * kExtremumCost) break;
       }
       points = std::move(state->points);
       feet = state->feet();

@@ -23,8 +23,8 @@ constexpr double kNielsen = 1e-9;        // a smaller alpha is 0
 constexpr double kStraightShare = 1e-3;  // of the largest curvature: less is straight
 constexpr double kAlphaStep = 0.5;
 constexpr int kAlphaSteps = 20;  // of golden section: alpha to 1e-4
-constexpr int kEndSteps = 40;
-constexpr double kEndConverged = 1e-12;
+constexpr LevenbergOptions kEndFit{
+    .iterations = 40, .failure = 5.0, .mostDamping = 1e8, .smallDecrease = 1e-12, .smallSteps = 1, .smallStepsDamped = 1};
 constexpr double kMostLog = 24.0, kMostLogStep = 1.0;
 constexpr int kNodesPerStretch = 32;
 
@@ -154,12 +154,8 @@ class EndsProblem final : public LevenbergProblem {
 LogAesthetic withEnds(const LogAesthetic& fit, std::span<const double> x, std::span<const double> kappa, bool freeStart,
                       bool freeEnd) {
   EndsProblem problem(fit, x, kappa, {freeStart, freeEnd});
-  LevenbergOptions options;
-  options.iterations = freeStart || freeEnd ? kEndSteps : 0;
-  options.failure = 5.0;
-  options.mostDamping = 1e8;
-  options.smallDecrease = kEndConverged;
-  options.smallSteps = options.smallStepsDamped = 1;
+  LevenbergOptions options = kEndFit;
+  if (!freeStart && !freeEnd) options.iterations = 0;
   levenbergMarquardt(problem, options, RunContext{});
   return problem.result();
 }
