@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kArmPx = 6.0;       // chords whose directions are compared
 constexpr double kArmPoints = 3.0;   // and where points are sparse: chords of fewer have no direction
-constexpr int kFewestPoints = 5;
+constexpr int kFewestTurningPoints = 5;
 constexpr double kFewestArms = 3.0;  // of line: shorter ones have no turn that two chords could tell
 constexpr double kSharpRad = 0.6;    // between the two chords: an arc of less than 10 px radius, or a corner
 constexpr double kMarginPx = 3.0;    // of line on either side that blur has rounded
@@ -75,7 +75,7 @@ Course courseOf(const ConstructPiece& piece, double gatePx) {
 std::vector<double> turning(const Course& course, double arm) {
   const int n = course.count();
   std::vector<double> angle(course.p.size(), 0.0);
-  if (n < kFewestPoints || course.total < kFewestArms * arm) return angle;
+  if (n < kFewestTurningPoints || course.total < kFewestArms * arm) return angle;
   int back = course.closed ? -n : 0, front = 0;
   for (int i = 0; i < n; ++i) {
     const double here = course.s[i];

@@ -33,7 +33,7 @@ constexpr double kLeastTileTurn = 1e-6;
 /// Room on the border of monotone curvature, so that the fit begins inside.
 constexpr double kBorderRoom = 1.02;
 /// Newton steps from a guess that is off by a few per cent.
-constexpr int kFootSteps = 4;
+constexpr int kTileFootSteps = 4;
 /// The end of a piece is sought in steps of this part of its length.
 constexpr int kStepsAlong = 12;
 /// Places of a rest at the end of the line that is shared out with the piece before.
@@ -133,7 +133,7 @@ class Tiling {
     for (const int k : {(3 * i + j) / 4, (i + j) / 2, (i + 3 * j) / 4}) {
       const Vec2 p = at(k).state.point;
       double t = (at(k).s - at(i).s) / (at(j).s - at(i).s);
-      for (int round = 0; round < kFootSteps; ++round) {
+      for (int round = 0; round < kTileFootSteps; ++round) {
         const auto d = geometry.at(t, 2);
         if (!(d[1].squaredNorm() > 0.0)) return false;
         t = std::clamp(t + footStep(d[0] - p, d[1], d[2]), 0.0, 1.0);

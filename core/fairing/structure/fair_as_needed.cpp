@@ -27,7 +27,7 @@ constexpr double kLongestWave = 4.0;
 /// Blocks that must be left over for the noise to be told from the misfit.
 constexpr double kFewestOver = 6.0;
 /// [costs of an extremum] A score worse than the best by more ends the search: longer waves only make it worse.
-constexpr double kHopeless = 3.0;
+constexpr double kMuchWorse = 3.0;
 /// What a degree of freedom has to be worth: 2 is Mallows' Cp; more, because noise of neighbours is never quite
 /// independent.
 constexpr double kDegreeCost = 3.0;
@@ -162,7 +162,7 @@ class NeededFairing {
       if (away <= kFarthest * std::sqrt(noise_)) {
         found.push_back({state->points, 0, away, score});
         if (score < found[best].score) best = found.size() - 1;
-        if (score > found[best].score + kHopeless * kExtremumCost) break;
+        if (score > found[best].score + kMuchWorse * kExtremumCost) break;
       }
       points = std::move(state->points);
       feet = state->feet();
