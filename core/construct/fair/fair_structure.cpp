@@ -16,8 +16,9 @@ constexpr double kWindowShare = 0.25, kStretchShare = 0.8, kWindowMinPx = 8.0;
 constexpr double kWindowsApart = 0.45;  // of the distance of neighbouring extrema: half a window is no wider
 constexpr double kRecentre = 0.7;       // of the half width
 constexpr double kLocalReachPx = 640;   // far beyond any correlation that matters
-constexpr double kMostStretches = 4.0;  // widest windows: a slope of the curvature is followed no farther to either side
-constexpr int kRounds = 4;              // one solution and three recentrings
+constexpr double kMostStretches =
+    4.0;                    // widest windows: a slope of the curvature is followed no farther to either side
+constexpr int kRounds = 4;  // one solution and three recentrings
 
 double slopeAt(const FrameStation& s, const Eigen::VectorXd& c) { return s.slope + dot(s.slopeRow, c); }
 double bendAt(const FrameStation& s, const Eigen::VectorXd& c) { return s.bend + dot(s.bendRow, c); }

@@ -14,8 +14,8 @@
 namespace batten {
 namespace {
 
-constexpr double kArmPx = 6.0;       // chords whose directions are compared
-constexpr double kArmPoints = 3.0;   // and where points are sparse: chords of fewer have no direction
+constexpr double kArmPx = 6.0;      // chords whose directions are compared
+constexpr double kArmPoints = 3.0;  // and where points are sparse: chords of fewer have no direction
 constexpr int kFewestTurningPoints = 5;
 constexpr double kFewestArms = 3.0;  // of line: shorter ones have no turn that two chords could tell
 constexpr double kSharpRad = 0.6;    // between the two chords: an arc of less than 10 px radius, or a corner

@@ -75,7 +75,8 @@ double TargetSteps::weightOf(int step) const {
 
 /// From the sketch to the target: each step starts from the one before, which lies near.
 void TargetSteps::follow(double mostMm) {
-  TargetStep from{0.0, setup_.points, setup_.start.places, LevenbergOptions{}.damping, 0.0, 0.0, 0, Termination::NotRun};
+  TargetStep from{0.0, setup_.points,      setup_.start.places, LevenbergOptions{}.damping, 0.0, 0.0,
+                  0,   Termination::NotRun};
   if (!steps_.empty()) from = steps_.front();
   early_ = false;
   std::reverse(steps_.begin(), steps_.end());

@@ -149,7 +149,8 @@ class NeededFairing {
     const double count = static_cast<double>(blocks_.blocks.size());
     std::vector<Vec2> points = setup_.points;
     std::vector<SpanPlace> feet = setup_.start.places;
-    for (double wave = shortestWave(); wave < kLongestWave * setup_.start.length && !context_.isCancelled(); wave *= kWaveStep) {
+    for (double wave = shortestWave(); wave < kLongestWave * setup_.start.length && !context_.isCancelled();
+         wave *= kWaveStep) {
       auto state = smoothed(wave, points, feet);
       if (!state) break;
       const double misfit = blocks_.misfit(setup_, *state), degrees = freedom(wave);

@@ -23,8 +23,12 @@ constexpr double kNielsen = 1e-9;        // a smaller alpha is 0
 constexpr double kStraightShare = 1e-3;  // of the largest curvature: less is straight
 constexpr double kAlphaStep = 0.5;
 constexpr int kAlphaSteps = 20;  // of golden section: alpha to 1e-4
-constexpr LevenbergOptions kEndFit{
-    .iterations = 40, .failure = 5.0, .mostDamping = 1e8, .smallDecrease = 1e-12, .smallSteps = 1, .smallStepsDamped = 1};
+constexpr LevenbergOptions kEndFit{.iterations = 40,
+                                   .failure = 5.0,
+                                   .mostDamping = 1e8,
+                                   .smallDecrease = 1e-12,
+                                   .smallSteps = 1,
+                                   .smallStepsDamped = 1};
 constexpr double kMostLog = 24.0, kMostLogStep = 1.0;
 constexpr int kNodesPerStretch = 32;
 
