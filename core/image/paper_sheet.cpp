@@ -15,6 +15,7 @@
 #include "core/image/sheet_cells.h"
 #include "core/image/sheet_edges.h"
 #include "core/image/sheet_levels.h"
+#include "core/image/sheet_step.h"
 
 namespace batten {
 namespace {
@@ -127,13 +128,18 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     if (shaded->isOne(patch)) continue;
     const double apart =
         std::max({std::fabs(mean[0] - level), std::fabs(mean[1] - sheetMean[1]), std::fabs(mean[2] - sheetMean[2])});
-    if (apart >= kSheetContrast || roughness > kMostRoughness) beside.setTo(255, patch);
+    if (apart < kSheetContrast && roughness <= kMostRoughness) continue;
+    if (isStepBetween(sheet, patch, cells)) beside.setTo(255, patch);
   }
   return beside;
 }
 
+int cellsOf(const cv::Size& size, double shareOfDiagonal) {
+  return std::max(1, static_cast<int>(std::lround(shareOfDiagonal * std::hypot(size.width, size.height))));
+}
+
 cv::Mat discOf(const cv::Size& size, double shareOfDiagonal) {
-  const int radius = std::max(1, static_cast<int>(std::lround(shareOfDiagonal * std::hypot(size.width, size.height))));
+  const int radius = cellsOf(size, shareOfDiagonal);
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
@@ -277,7 +283,8 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
     ++areas[label];
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
-  const cv::Mat1b even = filledSheet(labels == largest);
+  const cv::Mat1b even =
+      filledSheet(slowlyContinued(filledSheet(labels == largest), cells, cellsOf(labels.size(), kNeckShare)));
   std::optional<cv::Mat1b> beside = cellsBeside(even, cells);
   if (!beside) return std::nullopt;
   for (int label = 0; label < std::ssize(areas); ++label) {

@@ -74,13 +74,43 @@ double gainLimit(const GreyImage& grey, const cv::Mat1b& gains, const PaperColou
   return std::max(least, static_cast<double>(middle) + kGainPerNoise * robustSigma(samples));
 }
 
+constexpr int kEdgePx = 4;           // within which ink ends
+constexpr double kMostBeyond = 0.6;  // of the least gain, that far from the ink: a tint that fades in has no edge
+
 struct ColouredPiece {
   int border = 0, darkBorder = 0;  ///< [px]
+  int beyond = 0;                  ///< [px] kEdgePx away.
+  double gainBeyond = 0.0;         ///< [grey] their sum.
   double gain = 0.0, depth = 0.0;  ///< [grey] sums: what is gained, and what the grey has already.
 };
 
+/// Adds to every piece what the pixels kEdgePx away from it gain.
+void addBeyond(const cv::Mat1b& gains, const cv::Mat1b& mask, const cv::Mat1i& labels,
+               std::vector<ColouredPiece>& pieces) {
+  const auto grown = [&](int px) {
+    cv::Mat1b out;
+    cv::dilate(mask, out, cv::getStructuringElement(cv::MORPH_RECT, {2 * px + 1, 2 * px + 1}));
+    return out;
+  };
+  const cv::Mat1b far = grown(kEdgePx) & (grown(kEdgePx - 1) == 0);
+  for (int y = 0; y < far.rows; ++y) {
+    const std::uint8_t* isFar = far.ptr(y);
+    for (int x = 0; x < far.cols; ++x) {
+      if (isFar[x] == 0) continue;
+      int label = 0;
+      for (int j = std::max(0, y - kEdgePx); j <= std::min(far.rows - 1, y + kEdgePx) && label == 0; ++j) {
+        for (int i = std::max(0, x - kEdgePx); i <= std::min(far.cols - 1, x + kEdgePx) && label == 0; ++i)
+          label = labels(j, i);
+      }
+      ++pieces[label].beyond;
+      pieces[label].gainBeyond += gains(y, x);
+    }
+  }
+}
+
 /// Which pieces of `mask` are ink that gains, as a mask.
-cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv::Mat1b& mask,
+/// @param least [grey] what the pixels of the mask gain at least.
+cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv::Mat1b& mask, double least,
                         const PaperColour& paper) {
   cv::Mat1b dark(mask.size());
   for (int y = 0; y < grey.height; ++y) {
@@ -108,12 +138,15 @@ cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv:
       if (dark(y, x) != 0) ++piece.darkBorder;
     }
   }
+  addBeyond(gains, mask, labels, pieces);
   std::vector<std::uint8_t> isTaken(pieces.size(), 0);
   for (int i = 1; i < count; ++i) {
     const ColouredPiece& piece = pieces[i];
     const bool isInk = stats(i, cv::CC_STAT_AREA) >= kLeastArea &&
                        std::max(stats(i, cv::CC_STAT_WIDTH), stats(i, cv::CC_STAT_HEIGHT)) >= kLeastSide;
-    isTaken[i] = isInk && piece.darkBorder <= kMostDarkBorder * piece.border && piece.gain >= kLeastRise * piece.depth;
+    const bool hasEdge = piece.gainBeyond <= kMostBeyond * least * piece.beyond;
+    isTaken[i] = isInk && hasEdge && piece.darkBorder <= kMostDarkBorder * piece.border &&
+                 piece.gain >= kLeastRise * piece.depth;
   }
   cv::Mat1b taken = std::move(dark);  // its memory: a large page holds no mask more than it needs
   for (int y = 0; y < grey.height; ++y) {
@@ -132,9 +165,10 @@ std::optional<ColouredInk> darkenColouredInk(const GreyImage& grey, const Colour
   cv::Mat1b smoothed;
   cv::blur(gainPicture(grey, colour, paper, context), smoothed, {3, 3});
   if (context.isCancelled()) return std::nullopt;
-  const cv::Mat1b mask = smoothed > gainLimit(grey, smoothed, paper);
+  const double least = gainLimit(grey, smoothed, paper);
+  const cv::Mat1b mask = smoothed > least;
   if (context.isCancelled() || cv::countNonZero(mask) == 0) return std::nullopt;
-  cv::Mat1b taken = gainingPieces(grey, smoothed, mask, paper);
+  cv::Mat1b taken = gainingPieces(grey, smoothed, mask, least, paper);
   if (context.isCancelled() || cv::countNonZero(taken) == 0) return std::nullopt;
   cv::dilate(taken, taken, cv::Mat(), {-1, -1}, kRimPx);
   ColouredInk result;

@@ -18,8 +18,8 @@ struct ColouredInk {
 /// Coloured ink as dark as the channel that shows it best: yellow marker is as bright as paper in the grey, but dark in
 /// blue. Each channel is divided by its paper and the darkest taken, for pieces of coloured ink that gain a quarter of
 /// contrast or more. Not for areas coloured in within dark lines, which would swallow the lines, nor for the coloured
-/// fringes of dark lines: both lie against dark ink along a quarter of their border or more. Everything else keeps its
-/// grey, bit by bit.
+/// fringes of dark lines: both lie against dark ink along a quarter of their border or more. Nor for light of another
+/// colour, which fades in without an edge. Everything else keeps its grey, bit by bit.
 /// @return absent: no coloured ink gains, the grey stays as it is; or the run was cancelled.
 std::optional<ColouredInk> darkenColouredInk(const GreyImage&, const ColourImage&, const RunContext&);
 

@@ -113,6 +113,28 @@ TEST(ColouredInk, LeavesAnAreaColouredInWithinItsOutline) {
   EXPECT_TRUE(prepared(scan).isUntouched());
 }
 
+// Light of another colour in a corner of the page, as of a lamp or a shadow, has no edge as ink has.
+TEST(ColouredInk, ATintThatFadesInIsNoInk) {
+  std::vector<float> fading;
+  for (int y = 0; y < kColourHeight; ++y) {
+    for (int x = 0; x < kColourWidth; ++x) {
+      const double away = std::hypot(x - 1.0 * kColourWidth, y - 1.0 * kColourHeight);
+      fading.push_back(static_cast<float>(std::clamp(1.0 - away / 260.0, 0.0, 1.0)));
+    }
+  }
+  constexpr std::array<double, 3> kBrown{0.8, 0.65, 0.4};
+  const auto marker = stroke({60, 100}, {540, 160}, 14);
+  const Scan scan = renderColourPage(page(), {{fading, kBrown}, {marker, kYellow}});
+  const PreparedPage made = prepared(scan);
+  ASSERT_TRUE(made.grey);
+  int darkened = 0;
+  for (int y = 250; y < kColourHeight; ++y) {
+    for (int x = 350; x < kColourWidth; ++x) darkened += made.grey->row(y)[x] != scan.grey.row(y)[x] ? 1 : 0;
+  }
+  EXPECT_EQ(darkened, 0);
+  EXPECT_GT(test::shareFound(marker, inkOf(scan, ColourUse::Darkest)), 0.97);
+}
+
 TEST(ColouredInk, TouchesOnlyTheSurroundingsOfColouredInk) {
   const auto marker = stroke({60, 100}, {540, 160}, 14), pen = stroke({60, 300}, {540, 260}, 5);
   const Scan scan = renderColourPage(warmPage(), {{marker, kYellow}, {pen, kBlack}});

@@ -199,6 +199,22 @@ TEST(PaperSheet, IsFoundOnTableAndCarpet) {
                       "shadow along the edge");
 }
 
+// Light that grazes rough paper shows its grain at one side only, and its lamp is nearer to the other: the sheet goes on
+// as long as nothing changes at once.
+TEST(PaperSheet, GrainThatGrowsUnderGrazingLightIsNoCarpet) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (y < 60.0) return {90.0, 3.0};
+    const double grazing = std::max(0.0, 1.0 - x / 600.0);  // up to the table along the left border
+    const bool isInk = isRing(x, y) || std::fabs(std::hypot(x - 120.0, y - 520.0) - 60.0) < 2.5;
+    return {isInk ? 40.0 : 235.0 - 40.0 * grazing, 2.0 + 24.0 * grazing};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  EXPECT_FALSE(sheet->inside.at(400 / sheet->cellPx, 30 / sheet->cellPx)) << "the table";
+  for (const auto& [x, y] : {std::pair(120, 460), std::pair(60, 520), std::pair(120, 580), std::pair(20, 620)})
+    EXPECT_TRUE(sheet->inside.at(x / sheet->cellPx, y / sheet->cellPx)) << x << ", " << y;
+}
+
 TEST(PaperSheet, KnowsItsCorners) {
   const auto sheet = sheetOf(photo([](double x, double y) -> PhotoPixel {
     return depthInSheet(x, y) < 0.0 ? PhotoPixel{110.0, 2.0} : PhotoPixel{};

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/sheet_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/image/shaded_paper.h"
+
+namespace batten {
+namespace {
+
+constexpr int kNearCells = 3;         // to either side of the border: the edge itself, its shadow and its ragged course
+constexpr int kFarCells = 10;         // beyond which shading has time to change
+constexpr int kAlongCells = 25;       // of the border that are taken together
+constexpr float kStepOfGrain = 1.5f;  // times as rough as on the other side
+constexpr double kLeastOfBorder = 0.5;
+constexpr int kGrowCells = 3;         // at a time
+constexpr int kLookCells = 5;         // of which a cell's look is the mean: one by itself is noisy
+constexpr double kLeastGrown = 2e-4;  // of the picture, in one round
+
+cv::Mat1b grownBy(const cv::Mat1b& mask, int cells) {
+  cv::Mat1b out;
+  cv::dilate(mask, out, cv::getStructuringElement(cv::MORPH_RECT, {2 * cells + 1, 2 * cells + 1}));
+  return out;
+}
+
+/// Means of what lies in a band, within half of `across` cells of every place.
+struct BandMeans {
+  cv::Mat1f count, rough;
+  cv::Mat3f colour;
+
+  BandMeans(const cv::Mat1b& band, int across, const SheetCells& cells) {
+    const auto sumOf = [&](const cv::Mat& values, cv::Mat& out) {
+      cv::Mat within = cv::Mat::zeros(values.size(), values.type());
+      values.copyTo(within, band);
+      cv::boxFilter(within, out, -1, {across, across}, {-1, -1}, false, cv::BORDER_CONSTANT);
+    };
+    sumOf(cv::Mat1f(band.size(), 1.0f), count);
+    sumOf(cells.rough, rough);
+    sumOf(cells.colour, colour);
+  }
+  bool isKnown(const cv::Point& p) const { return count(p) > 0.5f; }
+  float roughAt(const cv::Point& p) const { return rough(p) / count(p); }
+  cv::Vec3f colourAt(const cv::Point& p) const { return colour(p) * (1.0f / count(p)); }
+};
+
+/// On one side of a border, near it but not at it.
+BandMeans besideBorder(const cv::Mat1b& side, const cv::Mat1b& other, const SheetCells& cells) {
+  return {side & grownBy(other, kFarCells) & (grownBy(other, kNearCells) == 0), kAlongCells, cells};
+}
+
+bool isStep(const BandMeans& a, const BandMeans& b, const cv::Point& p) {
+  const cv::Vec3f apart = a.colourAt(p) - b.colourAt(p);
+  if (std::max({std::fabs(apart[0]), std::fabs(apart[1]), std::fabs(apart[2])}) > kMostSheetStep) return true;
+  const auto grain = static_cast<float>(kLeastGrain);
+  const auto [smooth, rough] = std::minmax({std::max(a.roughAt(p), grain), std::max(b.roughAt(p), grain)});
+  return rough >= kStepOfGrain * smooth;
+}
+
+}  // namespace
+
+bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCells& cells) {
+  const BandMeans ofSheet = besideBorder(sheet, patch, cells), ofPatch = besideBorder(patch, sheet, cells);
+  const cv::Mat1b border = patch & grownBy(sheet, 1);
+  int seen = 0, steps = 0;
+  for (int j = 0; j < border.rows; ++j) {
+    for (int i = 0; i < border.cols; ++i) {
+      const cv::Point p(i, j);
+      if (border(p) == 0 || !ofSheet.isKnown(p) || !ofPatch.isKnown(p)) continue;
+      ++seen;
+      steps += isStep(ofSheet, ofPatch, p) ? 1 : 0;
+    }
+  }
+  return steps > 0 && steps >= kLeastOfBorder * seen;
+}
+
+cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells, int neckCells) {
+  const BandMeans look(cv::Mat1b(sheet.size(), 255), kLookCells, cells);
+  const auto least = static_cast<int>(kLeastGrown * static_cast<double>(sheet.total()));
+  cv::Mat1b grown = sheet.clone();
+  for (int added = least + 1; added > least;) {
+    const BandMeans beside(grown, kAlongCells, cells);
+    const cv::Mat1b next = grownBy(grown, kGrowCells) & (grown == 0);
+    added = 0;
+    for (int j = 0; j < next.rows; ++j) {
+      for (int i = 0; i < next.cols; ++i) {
+        const cv::Point p(i, j);
+        if (next(p) == 0 || !beside.isKnown(p) || isStep(look, beside, p)) continue;
+        grown(p) = 255;
+        ++added;
+      }
+    }
+  }
+  cv::Mat1b broad = grown & (sheet == 0);
+  cv::morphologyEx(broad, broad, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * neckCells + 1, 2 * neckCells + 1}), {-1, -1}, 1,
+                   cv::BORDER_REPLICATE);
+  return sheet | broad;
+}
+
+}  // namespace batten
