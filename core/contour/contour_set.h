@@ -99,6 +99,7 @@ struct ContourReport {
   int droppedShort = 0;           ///< Shorter than the smallest length.
   int droppedHoles = 0;           ///< Inner borders, in outline mode without them.
   int droppedMargins = 0;         ///< Lines along the border of the page: the margin of the scanner.
+  int droppedFaint = 0;           ///< Specks much fainter than the strokes around.
   double refinedShare = 0;        ///< Part of the points that were placed on the grey values, 0..1.
   std::optional<double> widthPx;  ///< [px] Stroke width, the unit of EdgeParams::mergeWidths; absent: no strokes.
   bool isGrouped = false;         ///< The lines are curves that were meant by lines drawn over more than once.

@@ -14,6 +14,7 @@
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/chosen_ink.h"
+#include "core/contour/faint_marks.h"
 #include "core/contour/fine_lines.h"
 #include "core/contour/ink_split.h"
 #include "core/contour/line_choices.h"
@@ -59,6 +60,9 @@ void tellDropped(ContourSet& set, const EdgeParams& edges) {
   if (report.droppedHoles > 0 && edges.internal == InnerBorders::Automatic)
     addNote(set, countedWere(report.droppedHoles, "inner border", "inner borders") +
                      " dropped: edges.internal=on keeps them.");
+  if (report.droppedFaint > 0)
+    addNote(set, countedWere(report.droppedFaint, "speck", "specks") +
+                     " dropped, much fainter than the strokes around; contours.min_widths=2 keeps them.");
   if (report.droppedMargins > 0)
     addNote(set, countedWere(report.droppedMargins, "line along the page border", "lines along the page border") +
                      " dropped.");
@@ -126,6 +130,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.droppedShort += from.report.droppedShort;
   to.report.droppedHoles += from.report.droppedHoles;
   to.report.droppedMargins += from.report.droppedMargins;
+  to.report.droppedFaint += from.report.droppedFaint;
   to.report.isGrouped = to.report.isGrouped || from.report.isGrouped;
   to.report.widthPx = std::max(to.report.widthPx, from.report.widthPx);
   if (to.report.note.empty()) to.report.note = std::move(from.report.note);
@@ -177,6 +182,11 @@ Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParam
   return set;
 }
 
+// Whether the user says how short a line may be.
+bool hasOwnLengths(const ContourParams& params) {
+  return params.minLengthPx > 0.0 || params.minWidths != ContourParams{}.minWidths;
+}
+
 // What a page is made of, before sub-pixel placement of the outlines; centre lines come placed.
 struct FoundLines {
   ContourSet set;
@@ -225,6 +235,15 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   split->known.reset();
   context.report(0.3);
   found.blots = findBlots(*split, *lines, params.minWidths, context);
+  int faint = 0;
+  if (!hasOwnLengths(params)) {
+    const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
+    const FaintMarks dropped = faintMarks(marks, ink, *lines, grey, split->penPx.value_or(0.0), context);
+    found.blots = without(std::move(found.blots), dropped.ink);
+    split->shapes = without(std::move(split->shapes), dropped.ink);
+    split->strokes = without(std::move(split->strokes), dropped.ink);
+    faint = dropped.count;
+  }
   if (edges.mode == EdgeMode::Centreline) {
     found.blots = chosenOf(found.blots, found.regions, edges);
   } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {
@@ -245,6 +264,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   Result<ContourSet> borders = bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &grainy, context);
   if (!borders) return fail(borders.error());
   borders->report.droppedHoles += texture;
+  borders->report.droppedFaint = faint;
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);
   found.set = std::move(*borders);
   const std::size_t all = lines->contours.size();
@@ -255,11 +275,6 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
     addNote(found.set,
             "Ink that was painted for a centre line is too short and wide for one: it was traced by its outline.");
   return found;
-}
-
-// Whether the user says how short a line may be.
-bool hasOwnLengths(const ContourParams& params) {
-  return params.minLengthPx > 0.0 || params.minWidths != ContourParams{}.minWidths;
 }
 
 // Where lines cross that are wider than the paper between them no stroke has a middle of its own: the borders of the

@@ -15,7 +15,7 @@ namespace batten {
 namespace {
 
 constexpr double kNoiseRadius = 70.0;
-const Vec2 kCentre(100.3, 99.6);
+const Vec2 kNoisyCentre(100.3, 99.6);
 
 /// The page with white noise whose standard deviation grows from left to right.
 GreyImage noisy(const GreyImage& clean, double left, double right, unsigned seed) {
@@ -40,10 +40,10 @@ struct Halves {
     for (std::size_t i = 0; i < c.points.size(); ++i) {
       ASSERT_TRUE(c.points[i].sigmaPx);
       if (!c.points[i].refined) continue;
-      const double across = c.points[i].at.x() - kCentre.x();
+      const double across = c.points[i].at.x() - kNoisyCentre.x();
       if (std::abs(across) < 0.4 * radius) continue;
       const int side = across > 0.0 ? 1 : 0;
-      const double e = (c.points[i].at - kCentre).norm() - radius;
+      const double e = (c.points[i].at - kNoisyCentre).norm() - radius;
       missed[side] += e * e;
       said[side] += static_cast<double>(c.points[i].sigmaPx.value()) * c.points[i].sigmaPx.value();
       ++count[side];
@@ -57,7 +57,7 @@ TEST(PointSigmas, SayHowFarBordersScatter) {
   s.ink = 130.0;
   s.slope = -0.25;
   const GreyImage clean = test::renderShape(
-      [](double x, double y) { return std::hypot(x - kCentre.x(), y - kCentre.y()) < kNoiseRadius; }, s);
+      [](double x, double y) { return std::hypot(x - kNoisyCentre.x(), y - kNoisyCentre.y()) < kNoiseRadius; }, s);
   auto set = crackContours(test::thresholdMask(clean, 155.0), false, 100.0, {});
   ASSERT_TRUE(set.has_value());
   ASSERT_FALSE(set->contours.empty());
@@ -75,7 +75,7 @@ TEST(PointSigmas, SayHowFarCentreLinesScatter) {
   test::RenderSettings s;
   s.ink = 110.0;
   const GreyImage clean = test::renderShape(
-      [](double x, double y) { return std::abs(std::hypot(x - kCentre.x(), y - kCentre.y()) - kNoiseRadius) < 2.5; },
+      [](double x, double y) { return std::abs(std::hypot(x - kNoisyCentre.x(), y - kNoisyCentre.y()) - kNoiseRadius) < 2.5; },
       s);
   const BitImage ink = test::thresholdMask(clean, 170.0);
   Halves halves;

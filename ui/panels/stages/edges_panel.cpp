@@ -174,6 +174,10 @@ void EdgesPanel::refresh() {
                        "way.")});
   if (report.droppedMargins > 0)
     rows.push_back({tr("Scanner margins dropped"), {{grouped(report.droppedMargins)}}, {}});
+  if (report.droppedFaint > 0)
+    rows.push_back({tr("Faint specks dropped"),
+                    {{grouped(report.droppedFaint)}},
+                    tr("Much fainter than the strokes around them.")});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines dropped"), {{grouped(report.droppedHoles)}}, {}});
   qint64 fallback = 0;
   for (const Contour& contour : set->contours)
