@@ -21,6 +21,7 @@ constexpr double kGainPerNoise = 5.0;     // standard deviations of the paper's 
 constexpr float kPaperBrightness = 0.8f;  // of the paper around: what the noise is measured on
 constexpr float kDarkInk = 0.7f;          // of the paper around: darker is ink that the grey sees
 constexpr int kGainSamples = 20000;
+constexpr double kMostTint = 0.8;  // of what ink must gain: a place of the paper of another colour; more is a wash
 constexpr int kLeastArea = 12, kLeastSide = 8;  // [px] smaller pieces of colour are dust or noise
 constexpr double kMostDarkBorder = 0.25;
 constexpr double kLeastRise = 0.25;  // of the contrast in grey
@@ -57,21 +58,67 @@ cv::Mat1b gainPicture(const GreyImage& grey, const ColourImage& colour, const Pa
   return gains;
 }
 
-/// What coloured ink must gain to stand out of the noise of the colours, on the picture of smoothed gains.
-double gainLimit(const GreyImage& grey, const cv::Mat1b& gains, const PaperColour& paper) {
-  const std::int64_t count = static_cast<std::int64_t>(grey.width) * grey.height;
-  const std::int64_t stride = std::max<std::int64_t>(1, count / kGainSamples) | 1;  // in step with no even pattern
-  std::vector<float> samples;
-  for (std::int64_t i = 0; i < count; i += stride) {
-    const int x = static_cast<int>(i % grey.width), y = static_cast<int>(i / grey.width);
-    if (static_cast<float>(grey.level(x, y)) >= kPaperBrightness * paper.paperAt(x, y))
+/// The spread of what paper gains, whatever else lies there: on the side that is calmer. Coloured ink gains more than
+/// paper, so that it lies on one side of the values of a place, or where it covers most, paper on the other.
+double calmerSigma(std::vector<float>& values) {
+  constexpr double kOuter = 0.1, kInner = 0.4;  // of the ranks
+  // Between them, of a normal variable: above. Below, noise of the darkest of three channels has a shorter tail.
+  constexpr double kSigmasAbove = 1.03, kSigmasBelow = 0.6;
+  const auto at = [&](double share) { return static_cast<double>(lowerQuantile(values, share)); };
+  return std::min((at(kInner) - at(kOuter)) / kSigmasBelow, (at(1.0 - kOuter) - at(1.0 - kInner)) / kSigmasAbove);
+}
+
+/// What coloured ink must gain to stand out of the noise of the colours around it, on the picture of smoothed gains.
+class GainLimits {
+ public:
+  GainLimits(const GreyImage& grey, const cv::Mat1b& gains, const PaperColour& paper)
+      : width_(grey.width), height_(grey.height), least_(kLeastGain * paper.paperLevel) {
+    const std::int64_t count = static_cast<std::int64_t>(grey.width) * grey.height;
+    const std::int64_t stride = std::max<std::int64_t>(1, count / kGainSamples) | 1;  // in step with no even pattern
+    std::vector<float> samples;
+    std::array<std::vector<float>, kPlaces * kPlaces> ofPlace;
+    for (std::int64_t i = 0; i < count; i += stride) {
+      const int x = static_cast<int>(i % grey.width), y = static_cast<int>(i / grey.width);
+      if (static_cast<float>(grey.level(x, y)) < kPaperBrightness * paper.paperAt(x, y)) continue;
       samples.push_back(static_cast<float>(gains(y, x)));
+      ofPlace[rowOf(y) * kPlaces + columnOf(x)].push_back(static_cast<float>(gains(y, x)));
+    }
+    limits_.fill(least_);
+    if (samples.empty()) return;
+    const float middle = upperMedian(samples);
+    for (float& sample : samples) sample -= middle;
+    const double sigma = robustSigma(samples);
+    for (int i = 0; i < kPlaces * kPlaces; ++i) {
+      const bool isKnown = std::ssize(ofPlace[i]) >= kFewestSamples;
+      const double own = isKnown ? calmerSigma(ofPlace[i]) : 0.0;
+      const double limit = std::max(least_, static_cast<double>(middle) + kGainPerNoise * std::max(sigma, own));
+      const double tint = isKnown ? static_cast<double>(upperMedian(ofPlace[i]) - middle) : 0.0;
+      limits_[i] = limit + std::clamp(tint, 0.0, kMostTint * limit);
+    }
   }
-  const double least = kLeastGain * paper.paperLevel;
-  if (samples.empty()) return least;
-  const float middle = upperMedian(samples);
-  for (float& sample : samples) sample -= middle;
-  return std::max(least, static_cast<double>(middle) + kGainPerNoise * robustSigma(samples));
+
+  double at(int x, int y) const { return limits_[rowOf(y) * kPlaces + columnOf(x)]; }
+
+ private:
+  static constexpr int kPlaces = 8;          // across and down the page
+  static constexpr int kFewestSamples = 60;  // of a place: its noise within a fifth
+
+  int columnOf(int x) const { return static_cast<int>(std::int64_t{x} * kPlaces / width_); }
+  int rowOf(int y) const { return static_cast<int>(std::int64_t{y} * kPlaces / height_); }
+
+  int width_, height_;
+  double least_;
+  std::array<double, kPlaces * kPlaces> limits_{};
+};
+
+cv::Mat1b gainingPixels(const cv::Mat1b& gains, const GainLimits& limits, const RunContext& context) {
+  cv::Mat1b mask(gains.size());
+  parallelFor(context, gains.rows, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < gains.cols; ++x) mask(y, x) = gains(y, x) > limits.at(x, y) ? 255 : 0;
+    }
+  });
+  return mask;
 }
 
 constexpr int kEdgePx = 4;           // within which ink ends
@@ -80,12 +127,12 @@ constexpr double kMostBeyond = 0.6;  // of the least gain, that far from the ink
 struct ColouredPiece {
   int border = 0, darkBorder = 0;  ///< [px]
   int beyond = 0;                  ///< [px] kEdgePx away.
-  double gainBeyond = 0.0;         ///< [grey] their sum.
+  double gainBeyond = 0.0;         ///< Sum of what they gain, in parts of the least gain of ink there.
   double gain = 0.0, depth = 0.0;  ///< [grey] sums: what is gained, and what the grey has already.
 };
 
 /// Adds to every piece what the pixels kEdgePx away from it gain.
-void addBeyond(const cv::Mat1b& gains, const cv::Mat1b& mask, const cv::Mat1i& labels,
+void addBeyond(const cv::Mat1b& gains, const cv::Mat1b& mask, const cv::Mat1i& labels, const GainLimits& limits,
                std::vector<ColouredPiece>& pieces) {
   const auto grown = [&](int px) {
     cv::Mat1b out;
@@ -103,14 +150,13 @@ void addBeyond(const cv::Mat1b& gains, const cv::Mat1b& mask, const cv::Mat1i& l
           label = labels(j, i);
       }
       ++pieces[label].beyond;
-      pieces[label].gainBeyond += gains(y, x);
+      pieces[label].gainBeyond += gains(y, x) / limits.at(x, y);
     }
   }
 }
 
 /// Which pieces of `mask` are ink that gains, as a mask.
-/// @param least [grey] what the pixels of the mask gain at least.
-cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv::Mat1b& mask, double least,
+cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv::Mat1b& mask, const GainLimits& limits,
                         const PaperColour& paper) {
   cv::Mat1b dark(mask.size());
   for (int y = 0; y < grey.height; ++y) {
@@ -138,13 +184,13 @@ cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv:
       if (dark(y, x) != 0) ++piece.darkBorder;
     }
   }
-  addBeyond(gains, mask, labels, pieces);
+  addBeyond(gains, mask, labels, limits, pieces);
   std::vector<std::uint8_t> isTaken(pieces.size(), 0);
   for (int i = 1; i < count; ++i) {
     const ColouredPiece& piece = pieces[i];
     const bool isInk = stats(i, cv::CC_STAT_AREA) >= kLeastArea &&
                        std::max(stats(i, cv::CC_STAT_WIDTH), stats(i, cv::CC_STAT_HEIGHT)) >= kLeastSide;
-    const bool hasEdge = piece.gainBeyond <= kMostBeyond * least * piece.beyond;
+    const bool hasEdge = piece.gainBeyond <= kMostBeyond * piece.beyond;
     isTaken[i] = isInk && hasEdge && piece.darkBorder <= kMostDarkBorder * piece.border &&
                  piece.gain >= kLeastRise * piece.depth;
   }
@@ -165,10 +211,10 @@ std::optional<ColouredInk> darkenColouredInk(const GreyImage& grey, const Colour
   cv::Mat1b smoothed;
   cv::blur(gainPicture(grey, colour, paper, context), smoothed, {3, 3});
   if (context.isCancelled()) return std::nullopt;
-  const double least = gainLimit(grey, smoothed, paper);
-  const cv::Mat1b mask = smoothed > least;
+  const GainLimits limits(grey, smoothed, paper);
+  const cv::Mat1b mask = gainingPixels(smoothed, limits, context);
   if (context.isCancelled() || cv::countNonZero(mask) == 0) return std::nullopt;
-  cv::Mat1b taken = gainingPieces(grey, smoothed, mask, least, paper);
+  cv::Mat1b taken = gainingPieces(grey, smoothed, mask, limits, paper);
   if (context.isCancelled() || cv::countNonZero(taken) == 0) return std::nullopt;
   cv::dilate(taken, taken, cv::Mat(), {-1, -1}, kRimPx);
   ColouredInk result;

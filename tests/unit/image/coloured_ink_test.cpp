@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "core/image/binarize.h"
 #include "core/image/page_preparation.h"
@@ -130,6 +131,35 @@ TEST(ColouredInk, ATintThatFadesInIsNoInk) {
   int darkened = 0;
   for (int y = 250; y < kColourHeight; ++y) {
     for (int x = 350; x < kColourWidth; ++x) darkened += made.grey->row(y)[x] != scan.grey.row(y)[x] ? 1 : 0;
+  }
+  EXPECT_EQ(darkened, 0);
+  EXPECT_GT(test::shareFound(marker, inkOf(scan, ColourUse::Darkest)), 0.97);
+}
+
+// A camera's colours are noisier where a page is dark.
+TEST(ColouredInk, NoiseOfTheColoursIsMeasuredByPlace) {
+  const auto marker = stroke({60, 100}, {420, 160}, 14);
+  Scan scan = renderColourPage(page(), {{marker, kYellow}});
+  constexpr int kNoisyFrom = 460, kGrainPx = 4;
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 14.0);
+  for (int y = 0; y < kColourHeight; y += kGrainPx) {
+    for (int x = kNoisyFrom; x < kColourWidth; x += kGrainPx) {
+      const int more = static_cast<int>(std::lround(noise(random)));
+      for (int j = y; j < y + kGrainPx; ++j) {
+        for (int i = x; i < x + kGrainPx; ++i) {
+          Rgb8& pixel = scan.colour.row(j)[i];
+          pixel.red = static_cast<std::uint8_t>(std::clamp(pixel.red + more, 0, 255));
+          pixel.blue = static_cast<std::uint8_t>(std::clamp(pixel.blue - more, 0, 255));
+        }
+      }
+    }
+  }
+  const PreparedPage made = prepared(scan);
+  ASSERT_TRUE(made.grey);
+  int darkened = 0;
+  for (int y = 0; y < kColourHeight; ++y) {
+    for (int x = kNoisyFrom; x < kColourWidth; ++x) darkened += made.grey->row(y)[x] != scan.grey.row(y)[x] ? 1 : 0;
   }
   EXPECT_EQ(darkened, 0);
   EXPECT_GT(test::shareFound(marker, inkOf(scan, ColourUse::Darkest)), 0.97);
