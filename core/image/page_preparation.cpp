@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "core/base/number_text.h"
+#include "core/image/binding_holes.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/colour/coloured_ink.h"
 #include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/remove_rulings.h"
+#include "core/image/sheet_cells.h"
 #include "core/image/threshold/region_values.h"
 
 namespace batten {
@@ -106,6 +108,18 @@ void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& con
   page.notes.push_back(rulingNote(page.rulings));
 }
 
+void paintOverHoles(const Scan& scan, const SheetCells& cells, PreparedPage& page, const RunContext& context) {
+  const std::optional<BindingHoles> holes = findBindingHoles(cells);
+  if (!holes) return;
+  BitImage inside(cells.columns, cells.rows);
+  for (int j = 0; j < cells.rows; ++j) {
+    for (int i = 0; i < cells.columns; ++i) inside.set(i, j, !holes->cells.at(i, j));
+  }
+  page.grey = paintedOver(greyOf(scan, page), inside, cells.sizePx, context);
+  page.notes.push_back("A row of " + std::to_string(holes->count) +
+                       " binding holes was removed; paper.sheet=off keeps it.");
+}
+
 void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context) {
   if (scan.rectification) {
     page.sheet = sheetWithinRim(scan.grey.width, scan.grey.height);
@@ -115,7 +129,10 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
                          "paper.sheet=off keeps it.");
     return;
   }
-  auto sheet = findPaperSheet(scan.grey, scan.colour, context);
+  const SheetCells cells = sheetCellsOf(scan.grey, scan.colour, context);
+  if (context.isCancelled()) return;
+  paintOverHoles(scan, cells, page, context);
+  auto sheet = findPaperSheet(cells, context);
   if (context.isCancelled() || !sheet) return;
   page.grey = onlyTheSheet(greyOf(scan, page), *sheet, context);
   page.notes.push_back(std::to_string(std::lround(100.0 * sheet->outsideShare)) +

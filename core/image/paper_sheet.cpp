@@ -13,6 +13,7 @@
 #include "core/image/push_pull.h"
 #include "core/image/shaded_paper.h"
 #include "core/image/sheet_cells.h"
+#include "core/image/sheet_drawn_edge.h"
 #include "core/image/sheet_edges.h"
 #include "core/image/sheet_levels.h"
 #include "core/image/sheet_step.h"
@@ -23,18 +24,15 @@ namespace {
 constexpr double kMostRoughness = 9.0;                   // [grey] between neighbours within a cell: carpet, wood, cloth
 constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
 constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
-constexpr double kLeastPatch = 0.004;     // of the picture: smaller patches at the border are ink that runs off it
-constexpr double kLeastAlongSide = 0.2;   // of a side of the picture that a patch beside the sheet takes
-constexpr double kSheetContrast = 12.0;   // [grey] of the patch against the sheet beside it
-constexpr double kMostKnown = 0.5;        // of a side of the picture
-constexpr int kBesideEdgeCells = 61;      // 30 to either side
-constexpr double kSheetRimShare = 0.006;  // of the diagonal: the sheet's edge and its shadow
-constexpr double kNeckShare = 0.01;       // of the diagonal: narrower parts of the sheet are torn edges and ring holes
-constexpr double kOutlineCells = 1.5;     // [cells] of the outline of the sheet: steps of its cells are none of it
+constexpr double kLeastAlongSide = 0.2;                  // of a side of the picture that a patch beside the sheet takes
+constexpr double kSheetContrast = 12.0;                  // [grey] of the patch against the sheet beside it
+constexpr double kMostKnown = 0.5;                       // of a side of the picture
+constexpr int kBesideEdgeCells = 61;                     // 30 to either side
+constexpr double kSheetRimShare = 0.006;                 // of the diagonal: the sheet's edge and its shadow
+constexpr double kOutlineCells = 1.5;  // [cells] of the outline of the sheet: steps of its cells are none of it
 // Of the hull's length: what its simplification to four corners may leave out, tried from the finest on.
 constexpr double kFinestQuadrilateral = 0.005, kCoarsestQuadrilateral = 0.08, kQuadrilateralStep = 0.0025;
 constexpr double kLeastQuadrilateral = 0.93;  // of the hull's area: else the sheet has other corners than these four
-constexpr double kPocketNeckShare = 0.02;     // of the diagonal: what hangs on the table by narrower parts is paper
 
 bool isOneSheet(const cv::Vec3f& a, const cv::Vec3f& b) {
   return std::fabs(a[0] - b[0]) <= kMostSheetStep && std::fabs(a[1] - b[1]) <= kMostSheetStep &&
@@ -134,53 +132,6 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
   return beside;
 }
 
-int cellsOf(const cv::Size& size, double shareOfDiagonal) {
-  return std::max(1, static_cast<int>(std::lround(shareOfDiagonal * std::hypot(size.width, size.height))));
-}
-
-cv::Mat discOf(const cv::Size& size, double shareOfDiagonal) {
-  const int radius = cellsOf(size, shareOfDiagonal);
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
-}
-
-/// The parts of a mask that touch another one.
-cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
-  cv::Mat1b near;
-  cv::dilate(other, near, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
-  cv::Mat1i labels;
-  std::vector<bool> touches(cv::connectedComponents(mask, labels, 8, CV_32S), false);
-  for (int j = 0; j < mask.rows; ++j) {
-    for (int i = 0; i < mask.cols; ++i) {
-      if (near(j, i) != 0) touches[labels(j, i)] = true;
-    }
-  }
-  cv::Mat1b out(mask.size(), static_cast<unsigned char>(0));
-  for (int j = 0; j < mask.rows; ++j) {
-    for (int i = 0; i < mask.cols; ++i) out(j, i) = labels(j, i) > 0 && touches[labels(j, i)] ? 255 : 0;
-  }
-  return out;
-}
-
-/// The outermost cells.
-cv::Mat1b borderOf(const cv::Size& size) {
-  cv::Mat1b border(size, 255);
-  border(cv::Rect(1, 1, size.width - 2, size.height - 2)) = 0;
-  return border;
-}
-
-/// What lies beside the sheet without what hangs on it by a narrow neck only: a shape whose outline was drawn up to the
-/// edge of the sheet encloses paper.
-cv::Mat1b withoutPockets(const cv::Mat1b& beside) {
-  const cv::Mat disc = discOf(beside.size(), kPocketNeckShare);
-  const cv::Mat1b border = borderOf(beside.size());
-  cv::Mat1b core, table, broad;
-  cv::erode(beside, core, disc, {-1, -1}, 1, cv::BORDER_REPLICATE);
-  cv::dilate(partsTouching(core, border), table, disc);
-  cv::dilate(core, broad, disc);
-  const cv::Mat1b narrow = beside & (broad == 0);
-  return table | partsTouching(narrow, table | border);
-}
-
 /// Share of what a mask holds at the border of the picture that another holds, too.
 double shareAtBorder(const cv::Mat1b& mask, const cv::Mat1b& other) {
   const cv::Mat1b border = borderOf(mask.size());
@@ -262,6 +213,7 @@ cv::Mat1b sheetWithoutNecks(const cv::Mat1b& beside) {
 /// All cells beside a sheet; absent where it is doubtful that there is a sheet. `even`: its even area, filled.
 std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& cells) {
   cv::Mat1b beside = besideTheSheet(even, cells);
+  beside = withoutTonesAtEdge(beside, even, cells);
   addBeyondEdges(beside, cells);
   if (cv::countNonZero(beside) == 0) return std::nullopt;
   const cv::Mat1b sheet = sheetWithoutNecks(beside);
@@ -302,10 +254,8 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
 
 }  // namespace
 
-std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
-  constexpr int kFewestCells = 40, kLeastCellPx = 2;
-  if (std::min(grey.width, grey.height) < kFewestCells * kLeastCellPx) return std::nullopt;
-  const SheetCells cells = sheetCellsOf(grey, colour, context);
+std::optional<PaperSheet> findPaperSheet(const SheetCells& cells, const RunContext& context) {
+  constexpr int kFewestCells = 40;
   if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
   const std::optional<cv::Mat1b> sheet = sheetOf(cells);
   if (!sheet) return std::nullopt;
@@ -323,6 +273,10 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
   }
   found.outsideShare = 1.0 - static_cast<double>(found.inside.count()) / static_cast<double>(sheet->total());
   return found;
+}
+
+std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
+  return findPaperSheet(sheetCellsOf(grey, colour, context), context);
 }
 
 PaperSheet sheetWithinRim(int widthPx, int heightPx) {
@@ -343,15 +297,18 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx) {
 
 GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const RunContext& context) {
   std::optional<GreyImage> even = pagesOnOneLevel(page, sheet.inside, sheet.cellPx, context);
-  GreyImage out = even ? std::move(*even) : page;
-  const int columns = sheet.inside.width, rows = sheet.inside.height;
-  std::vector<float> level = levelsOfCells(out, sheet.inside, sheet.cellPx, context), weight(level.size(), 0.0f);
+  return paintedOver(even ? std::move(*even) : page, sheet.inside, sheet.cellPx, context);
+}
+
+GreyImage paintedOver(GreyImage out, const BitImage& inside, int cellPx, const RunContext& context) {
+  const int columns = inside.width, rows = inside.height;
+  std::vector<float> level = levelsOfCells(out, inside, cellPx, context), weight(level.size(), 0.0f);
   std::vector<float> steps;
   for (int j = 0; j < rows && !context.isCancelled(); ++j) {
-    const std::uint16_t* row = out.row(j * sheet.cellPx);
+    const std::uint16_t* row = out.row(j * cellPx);
     for (int i = 0; i < columns; ++i) {
-      if (!sheet.inside.at(i, j)) continue;
-      const std::uint16_t* first = row + i * sheet.cellPx;
+      if (!inside.at(i, j)) continue;
+      const std::uint16_t* first = row + i * cellPx;
       steps.push_back(static_cast<float>(first[1] - first[0]));
       weight[std::ptrdiff_t{j} * columns + i] = 1.0f;
     }
@@ -368,10 +325,10 @@ GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const Run
   const std::vector<float> paper = pushPull(level, weight, columns, rows);
   parallelFor(context, out.height, kRowsPerBlock, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const RowBetweenCells row(paper, columns, sheet.cellPx, y);
-      const int cellRow = std::min(y / sheet.cellPx, rows - 1);
+      const RowBetweenCells row(paper, columns, cellPx, y);
+      const int cellRow = std::min(y / cellPx, rows - 1);
       for (int x = 0; x < out.width; ++x) {
-        if (sheet.inside.at(std::min(x / sheet.cellPx, columns - 1), cellRow)) continue;
+        if (inside.at(std::min(x / cellPx, columns - 1), cellRow)) continue;
         const double noise = grain * (grainAt(x, y) - kGrainMean) / kGrainSigma;
         out.row(y)[x] = static_cast<std::uint16_t>(std::clamp(row.at(x) + noise, 0.0, 65535.0));
       }

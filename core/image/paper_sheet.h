@@ -12,6 +12,8 @@
 
 namespace batten {
 
+struct SheetCells;
+
 /// The sheet of paper in a photograph or a scan that shows more than the sheet.
 struct PaperSheet {
   int cellPx = 1;               ///< [px] What one pixel of `inside` covers a side.
@@ -29,6 +31,7 @@ struct PaperSheet {
 /// a drawing on each. White paper on a white table is found by its
 /// straight edges (sheet_edges.h), unless the drawing goes on beyond them.
 std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
+std::optional<PaperSheet> findPaperSheet(const SheetCells&, const RunContext&);
 
 /// The page of a scan whose sheet fills it, without a narrow rim: the sheet's edge and the shadow along it.
 PaperSheet sheetWithinRim(int widthPx, int heightPx);
@@ -36,5 +39,9 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx);
 /// The page with all that lies beside the sheet painted over: the paper goes on, with its grain. Two pages of an open
 /// book are brought to one level of brightness.
 GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet&, const RunContext&);
+
+/// The page with the cells outside `inside` painted over: the paper around goes on in them, with its grain.
+/// @param inside squares of cellPx pixels.
+GreyImage paintedOver(GreyImage page, const BitImage& inside, int cellPx, const RunContext& context);
 
 }  // namespace batten

@@ -157,6 +157,30 @@ TEST(PaperSheet, AShapeDrawnUpToTheEdgeOfTheSheetEnclosesPaper) {
   EXPECT_FALSE(sheet->inside.at(800 / sheet->cellPx, 320 / sheet->cellPx));
 }
 
+// A tone drawn up to the table has the outline of the sheet against it, and another look.
+TEST(PaperSheet, AToneDrawnUpToTheEdgeOfTheSheetStays) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (x < 40.0 || x > 780.0 || y < 40.0 || y > 600.0) return {40.0, 2.0};
+    return x > 620.0 && std::fabs(y - 320.0) < 90.0 ? PhotoPixel{140.0, 8.0} : PhotoPixel{};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  for (const int x : {650, 700, 760}) EXPECT_TRUE(sheet->inside.at(x / sheet->cellPx, 320 / sheet->cellPx)) << x;
+  EXPECT_FALSE(sheet->inside.at(800 / sheet->cellPx, 320 / sheet->cellPx));
+}
+
+// What lies across the edge of the sheet, or where it is torn away, is no part of it.
+TEST(PaperSheet, ANotchThroughWhichTheTableShowsIsCutOff) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (x < 40.0 || x > 780.0 || y < 40.0 || y > 600.0) return {40.0, 2.0};
+    const bool isTorn = x > 740.0 && std::fabs(y - 320.0) < 60.0;
+    return isTorn ? PhotoPixel{40.0, 2.0} : PhotoPixel{};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  EXPECT_FALSE(sheet->inside.at(765 / sheet->cellPx, 320 / sheet->cellPx));
+}
+
 TEST(PaperSheet, ABlankCardBesideTheSheetIsCutOff) {
   const Scan scan = photo([](double x, double y) -> PhotoPixel {
     if (y > 60.0 && y < 580.0 && x > 60.0 && x < 500.0)

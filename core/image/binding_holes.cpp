@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/binding_holes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "core/base/statistics.h"
+
+namespace batten {
+namespace {
+
+constexpr double kDeepest = 0.1;        // of the page: holes lie no farther from its side
+constexpr double kLongestHole = 0.05;   // of the side
+constexpr float kDarkestPaper = 0.75f;  // of the paper of the page: what is darker is a hole, or ink
+constexpr int kFewestHoles = 8;
+constexpr double kLeastAlong = 0.5;                             // of the side, from the first hole to the last
+constexpr double kLeastSize = 0.6, kMostSize = 1.6;             // of the median hole, along the side
+constexpr double kLeastOfSpacing = 0.15, kMostOfSpacing = 0.8;  // a hole takes of the distance from one to the next
+constexpr double kSpacingError = 0.15;                          // of the spacing
+constexpr double kCellError = 1.0;                              // [cells]
+constexpr double kLeastEven = 0.8;                              // of the distances are one spacing, or two or three
+constexpr int kMostMissing = 2;                                 // holes between two that were found
+constexpr int kRimCells = 1;                                    // of a hole: its blurred edge
+
+struct Hole {
+  double along = 0.0, deep = 0.0;  ///< [cells] Its middle.
+  double length = 0.0, depth = 0.0;
+  cv::Rect box;
+};
+
+/// Dark pieces along one side of the page. `acrossPage`: the side runs across it.
+std::vector<Hole> darkPieces(const cv::Mat1b& dark, bool acrossPage, bool isFar) {
+  const int side = acrossPage ? dark.cols : dark.rows, across = acrossPage ? dark.rows : dark.cols;
+  const int depth = static_cast<int>(kDeepest * across), from = isFar ? across - depth : 0;
+  const cv::Rect strip = acrossPage ? cv::Rect(0, from, side, depth) : cv::Rect(from, 0, depth, side);
+  cv::Mat1i labels;
+  cv::Mat stats, centres;
+  const int count = cv::connectedComponentsWithStats(dark(strip), labels, stats, centres, 8, CV_32S);
+  std::vector<Hole> holes;
+  for (int k = 1; k < count; ++k) {
+    const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT) + strip.x, stats.at<int>(k, cv::CC_STAT_TOP) + strip.y,
+                       stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
+    const int innermost = acrossPage ? (isFar ? box.y - strip.y : strip.br().y - box.br().y)
+                                     : (isFar ? box.x - strip.x : strip.br().x - box.br().x);
+    const int length = acrossPage ? box.width : box.height;
+    if (innermost == 0 || length > kLongestHole * side) continue;  // goes on into the page, or along the side
+    const double x = box.x + 0.5 * box.width, y = box.y + 0.5 * box.height;
+    holes.push_back(
+        {acrossPage ? x : y, acrossPage ? y : x, 1.0 * length, 1.0 * (acrossPage ? box.height : box.width), box});
+  }
+  return holes;
+}
+
+/// Those that are about as long as most. How much of them lies on the page varies.
+void keepEqual(std::vector<Hole>& holes) {
+  std::vector<double> lengths;
+  for (const Hole& hole : holes) lengths.push_back(hole.length);
+  const double length = upperMedian(lengths);
+  std::erase_if(holes, [&](const Hole& h) {
+    return h.length < std::min(kLeastSize * length, length - kCellError) ||
+           h.length > std::max(kMostSize * length, length + kCellError);
+  });
+}
+
+/// Those that meet the straight line of most: the median slope of pairs far apart, and the median place.
+void keepStraight(std::vector<Hole>& holes) {
+  std::vector<double> slopes, places, depths;
+  const std::ptrdiff_t half = std::ssize(holes) / 2;
+  for (std::ptrdiff_t i = 0; i + half < std::ssize(holes); ++i) {
+    const Hole &a = holes[i], &b = holes[i + half];
+    if (b.along > a.along) slopes.push_back((b.deep - a.deep) / (b.along - a.along));
+  }
+  if (slopes.empty()) return;
+  const double slope = upperMedian(slopes);
+  for (const Hole& h : holes) {
+    places.push_back(h.deep - slope * h.along);
+    depths.push_back(h.depth);
+  }
+  const double place = upperMedian(std::vector<double>(places)), depth = upperMedian(depths);
+  std::erase_if(holes, [&](const Hole& h) {
+    return std::fabs(h.deep - slope * h.along - place) > std::max(kCellError, 0.5 * (depth + h.depth));
+  });
+}
+
+bool isEvenRow(const std::vector<Hole>& holes, int side) {
+  if (std::ssize(holes) < kFewestHoles || holes.back().along - holes.front().along < kLeastAlong * side) return false;
+  std::vector<double> distances, lengths;
+  for (std::size_t i = 0; i + 1 < holes.size(); ++i) distances.push_back(holes[i + 1].along - holes[i].along);
+  for (const Hole& h : holes) lengths.push_back(h.length);
+  const double spacing = upperMedian(std::vector<double>(distances)), length = upperMedian(lengths);
+  if (length < kLeastOfSpacing * spacing || length > kMostOfSpacing * spacing) return false;
+  const double error = std::max(kCellError, kSpacingError * spacing);
+  const auto even = std::ranges::count_if(distances, [&](double d) {
+    const double times = std::clamp(std::round(d / spacing), 1.0, 1.0 + kMostMissing);
+    return std::fabs(d - times * spacing) <= error;
+  });
+  return static_cast<double>(even) >= kLeastEven * static_cast<double>(distances.size());
+}
+
+}  // namespace
+
+std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
+  if (cells.colour.empty()) return std::nullopt;
+  std::vector<float> levels;
+  for (const cv::Vec3f& cell : cells.colour) levels.push_back(cell[0]);
+  const float limit = kDarkestPaper * upperMedian(levels);
+  cv::Mat1b dark(cells.rows, cells.columns);
+  for (int j = 0; j < cells.rows; ++j) {
+    for (int i = 0; i < cells.columns; ++i) dark(j, i) = cells.dark(j, i) < limit ? 255 : 0;
+  }
+  std::vector<Hole> found;
+  for (int side = 0; side < 4; ++side) {
+    const bool acrossPage = side % 2 == 0;
+    std::vector<Hole> holes = darkPieces(dark, acrossPage, side >= 2);
+    if (std::ssize(holes) < kFewestHoles) continue;
+    std::ranges::stable_sort(holes, {}, &Hole::along);
+    keepEqual(holes);
+    keepStraight(holes);
+    if (!isEvenRow(holes, acrossPage ? cells.columns : cells.rows)) continue;
+    if (!found.empty()) return std::nullopt;
+    found = std::move(holes);
+  }
+  if (found.empty()) return std::nullopt;
+  BindingHoles binding{BitImage(cells.columns, cells.rows), static_cast<int>(found.size())};
+  for (const Hole& hole : found) {
+    for (int j = std::max(0, hole.box.y - kRimCells); j < std::min(cells.rows, hole.box.br().y + kRimCells); ++j) {
+      for (int i = std::max(0, hole.box.x - kRimCells); i < std::min(cells.columns, hole.box.br().x + kRimCells); ++i)
+        binding.cells.set(i, j, true);
+    }
+  }
+  return binding;
+}
+
+}  // namespace batten

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "core/image/bits/bit_image.h"
+#include "core/image/sheet_cells.h"
+
+namespace batten {
+
+/// The holes of a spiral or comb binding.
+struct BindingHoles {
+  BitImage cells;  ///< Holes and their rims, of the size of the cells.
+  int count = 0;
+};
+
+/// Finds a row of at least eight dark holes of one size at one distance, straight along one side of the page and near
+/// it. Absent where two sides have such a row: that is a frame that was drawn or printed.
+std::optional<BindingHoles> findBindingHoles(const SheetCells& cells);
+
+}  // namespace batten

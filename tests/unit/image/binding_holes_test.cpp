@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "core/image/page_preparation.h"
+
+namespace batten {
+namespace {
+
+constexpr int kBoundWidth = 640, kBoundHeight = 900;
+
+bool isRingDrawn(double x, double y) { return std::fabs(std::hypot(x - 330.0, y - 420.0) - 140.0) < 2.0; }
+
+Scan boundPage(const std::function<bool(double, double)>& isHole) {
+  Scan scan;
+  scan.grey = GreyImage(kBoundWidth, kBoundHeight);
+  std::mt19937 random(11);
+  std::normal_distribution<double> noise(0.0, 1.5);
+  for (int y = 0; y < kBoundHeight; ++y) {
+    for (int x = 0; x < kBoundWidth; ++x) {
+      const double paper = 240.0 - 0.02 * y;
+      const bool isInk = isRingDrawn(x + 0.5, y + 0.5);
+      const double level = (isInk ? 60.0 : isHole(x + 0.5, y + 0.5) ? 70.0 : paper) + noise(random);
+      scan.grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * 257.0));
+    }
+  }
+  return scan;
+}
+
+/// Holes of 9 x 13 px, every 30 px down the page; from y = 600 on the page slips off them to the left.
+bool isBindingHole(double x, double y) {
+  const double middle = 14.0 - std::max(0.0, (y - 600.0) / 30.0);
+  return y > 20.0 && y < 885.0 && std::fabs(x - middle) < 4.5 && std::fabs(std::remainder(y - 40.0, 30.0)) < 6.5;
+}
+
+int darkPixelsOf(const GreyImage& page, int x0, int x1) {
+  int dark = 0;
+  for (int y = 0; y < page.height; ++y) {
+    for (int x = x0; x < x1; ++x) dark += page.level(x, y) < 170.0 ? 1 : 0;
+  }
+  return dark;
+}
+
+TEST(BindingHoles, ArePaintedOverAndTheDrawingStays) {
+  const Scan scan = boundPage(isBindingHole);
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page && page->grey);
+  EXPECT_EQ(darkPixelsOf(*page->grey, 0, 40), 0);
+  EXPECT_EQ(darkPixelsOf(*page->grey, 40, kBoundWidth), darkPixelsOf(scan.grey, 40, kBoundWidth));
+  ASSERT_EQ(page->notes.size(), 1u);
+  EXPECT_EQ(page->notes[0], "A row of 29 binding holes was removed; paper.sheet=off keeps it.");
+  PreparationParams off;
+  off.sheet = SheetUse::Off;
+  EXPECT_TRUE(preparePage(scan, off, {})->isUntouched());
+}
+
+TEST(BindingHoles, AreAtOneSideOfThePageOnly) {
+  const Scan frame = boundPage([](double x, double y) { return isBindingHole(x, y) || isBindingHole(640.0 - x, y); });
+  EXPECT_TRUE(preparePage(frame, {}, {})->isUntouched());
+}
+
+TEST(BindingHoles, AreNoUnevenMarksAndNoneFarFromTheSide) {
+  const Scan inside = boundPage([](double x, double y) { return isBindingHole(x - 100.0, y); });
+  EXPECT_TRUE(preparePage(inside, {}, {})->isUntouched()) << "far from the side";
+  const Scan letters = boundPage([](double x, double y) {
+    const int row = static_cast<int>(y / 24.0);
+    return y < 880.0 && std::fabs(x - 20.0) < 5.0 &&
+           std::fabs(y - 24.0 * row - 6.0 - row * row % 11) < 3.0 + row * 7 % 5;
+  });
+  EXPECT_TRUE(preparePage(letters, {}, {})->isUntouched()) << "letters";
+}
+
+}  // namespace
+}  // namespace batten
