@@ -212,8 +212,8 @@ cv::Mat1b sheetWithoutNecks(const cv::Mat1b& beside) {
 
 /// All cells beside a sheet; absent where it is doubtful that there is a sheet. `even`: its even area, filled.
 std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& cells) {
-  cv::Mat1b beside = besideTheSheet(even, cells);
-  beside = withoutTonesAtEdge(beside, even, cells);
+  const cv::Mat1b table = besideTheSheet(even, cells);
+  cv::Mat1b beside = table.clone();
   addBeyondEdges(beside, cells);
   if (cv::countNonZero(beside) == 0) return std::nullopt;
   const cv::Mat1b sheet = sheetWithoutNecks(beside);
@@ -223,7 +223,7 @@ std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& ce
   cv::findNonZero(sheet, places);
   cv::convexHull(places, hull);
   if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return std::nullopt;
-  return beside;
+  return withoutTonesAtEdge(table, even, cells) | (beside & (table == 0));
 }
 
 /// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book.

@@ -223,8 +223,8 @@ TEST(PaperSheet, IsFoundOnTableAndCarpet) {
                       "shadow along the edge");
 }
 
-// Light that grazes rough paper shows its grain at one side only, and its lamp is nearer to the other: the sheet goes on
-// as long as nothing changes at once.
+// Light that grazes rough paper shows its grain at one side only, and its lamp is nearer to the other: the sheet goes
+// on as long as nothing changes at once.
 TEST(PaperSheet, GrainThatGrowsUnderGrazingLightIsNoCarpet) {
   const Scan scan = photo([](double x, double y) -> PhotoPixel {
     if (y < 60.0) return {90.0, 3.0};
@@ -291,6 +291,14 @@ TEST(PaperSheet, IsNotLookedForInADrawing) {
       {"strokes that run off the page",
        [](double x, double y) -> PhotoPixel {
          return {std::fabs(y - 0.7 * x) < 6.0 ? 40.0 : 235.0, 2.0};
+       }},
+      {"heavy strokes that part the lower corners from the page",
+       [](double x, double y) -> PhotoPixel {
+         const double roots = std::fabs(y - 330.0 - 0.4 * std::fabs(x - 410.0)) - 14.0;
+         const double down = std::fabs(std::remainder(x - 60.0, 120.0)) - 7.0;
+         const bool isBelow = y > 330.0 + 0.4 * std::fabs(x - 410.0);
+         const bool isInk = roots < 0.0 || (isBelow && down < 0.0);
+         return isInk ? PhotoPixel{70.0, 40.0} : PhotoPixel{235.0, 2.0};
        }},
       {"a solid shape at the lower border",
        [](double x, double y) -> PhotoPixel {
