@@ -102,7 +102,8 @@ bool isEvenRow(const std::vector<Hole>& holes, int side) {
 }  // namespace
 
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
-  if (cells.colour.empty()) return std::nullopt;
+  constexpr int kFewestCells = 40;  // along the shorter side
+  if (std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
   std::vector<float> levels;
   for (const cv::Vec3f& cell : cells.colour) levels.push_back(cell[0]);
   const float limit = kDarkestPaper * upperMedian(levels);

@@ -112,6 +112,7 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
   }
   cv::Mat1b beside(sheet.size(), 0);
   const double level = cv::mean(cells.colour, sheet)[0];
+  const double grain = std::max(kMostRoughness, kSameGrain * cv::mean(cells.rough, sheet)[0]);
   for (int k = 1; k < count; ++k) {
     if (!isBeside(patches[k], sheet.size())) continue;
     const cv::Mat1b patch = labels == k;
@@ -120,7 +121,7 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     const double roughness = cv::mean(cells.rough, patch)[0];
     const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
     // Even paper that is brighter than what it encloses: that is a drawn solid, and no dark sheet on a table.
-    const bool isPaper = mean[0] >= level + kSolidContrast && roughness <= kMostRoughness;
+    const bool isPaper = mean[0] >= level + kSolidContrast && roughness <= grain;
     if (isPaper) continue;
     if (!shaded) shaded.emplace(sheet, cells);
     if (shaded->isOne(patch)) continue;
@@ -235,8 +236,9 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
     ++areas[label];
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
-  const cv::Mat1b even =
-      filledSheet(slowlyContinued(filledSheet(labels == largest), cells, cellsOf(labels.size(), kNeckShare)));
+  const cv::Mat1b evenAtOnce = filledSheet(labels == largest);
+  if (cv::countNonZero(evenAtOnce) < kLeastSheet * static_cast<double>(evenAtOnce.total())) return std::nullopt;
+  const cv::Mat1b even = filledSheet(slowlyContinued(evenAtOnce, cells, cellsOf(labels.size(), kNeckShare)));
   std::optional<cv::Mat1b> beside = cellsBeside(even, cells);
   if (!beside) return std::nullopt;
   for (int label = 0; label < std::ssize(areas); ++label) {

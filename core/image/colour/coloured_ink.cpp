@@ -121,7 +121,7 @@ cv::Mat1b gainingPixels(const cv::Mat1b& gains, const GainLimits& limits, const 
   return mask;
 }
 
-constexpr int kEdgePx = 4;           // within which ink ends
+constexpr int kEdgePx = 5;           // within which ink ends
 constexpr double kMostBeyond = 0.6;  // of the least gain, that far from the ink: a tint that fades in has no edge
 
 struct ColouredPiece {
@@ -131,27 +131,16 @@ struct ColouredPiece {
   double gain = 0.0, depth = 0.0;  ///< [grey] sums: what is gained, and what the grey has already.
 };
 
-/// Adds to every piece what the pixels kEdgePx away from it gain.
-void addBeyond(const cv::Mat1b& gains, const cv::Mat1b& mask, const cv::Mat1i& labels, const GainLimits& limits,
-               std::vector<ColouredPiece>& pieces) {
-  const auto grown = [&](int px) {
-    cv::Mat1b out;
-    cv::dilate(mask, out, cv::getStructuringElement(cv::MORPH_RECT, {2 * px + 1, 2 * px + 1}));
-    return out;
-  };
-  const cv::Mat1b far = grown(kEdgePx) & (grown(kEdgePx - 1) == 0);
-  for (int y = 0; y < far.rows; ++y) {
-    const std::uint8_t* isFar = far.ptr(y);
-    for (int x = 0; x < far.cols; ++x) {
-      if (isFar[x] == 0) continue;
-      int label = 0;
-      for (int j = std::max(0, y - kEdgePx); j <= std::min(far.rows - 1, y + kEdgePx) && label == 0; ++j) {
-        for (int i = std::max(0, x - kEdgePx); i <= std::min(far.cols - 1, x + kEdgePx) && label == 0; ++i)
-          label = labels(j, i);
-      }
-      ++pieces[label].beyond;
-      pieces[label].gainBeyond += gains(y, x) / limits.at(x, y);
-    }
+/// Adds to a piece what is gained kEdgePx beside one of its border pixels, outside all pieces.
+void addBeyond(const cv::Mat1b& gains, const cv::Mat1b& mask, const cv::Point& at, const GainLimits& limits,
+               ColouredPiece& piece) {
+  const cv::Rect page(0, 0, mask.cols, mask.rows);
+  for (const cv::Point step :
+       {cv::Point(kEdgePx, 0), cv::Point(-kEdgePx, 0), cv::Point(0, kEdgePx), cv::Point(0, -kEdgePx)}) {
+    const cv::Point to = at + step;
+    if (!page.contains(to) || mask(to) != 0) continue;
+    ++piece.beyond;
+    piece.gainBeyond += gains(to) / limits.at(to.x, to.y);
   }
 }
 
@@ -181,10 +170,10 @@ cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv:
                             (y > 0 && mask(y - 1, x) == 0) || (y + 1 < grey.height && mask(y + 1, x) == 0);
       if (!isBorder) continue;
       ++piece.border;
+      addBeyond(gains, mask, {x, y}, limits, piece);
       if (dark(y, x) != 0) ++piece.darkBorder;
     }
   }
-  addBeyond(gains, mask, labels, limits, pieces);
   std::vector<std::uint8_t> isTaken(pieces.size(), 0);
   for (int i = 1; i < count; ++i) {
     const ColouredPiece& piece = pieces[i];

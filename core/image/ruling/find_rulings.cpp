@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/plane.h"
+#include "core/image/ruling/margin_lines.h"
 #include "core/image/ruling/ruling_ink.h"
 #include "core/image/ruling/ruling_lattice.h"
 
@@ -169,8 +171,9 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
     return false;
   };
   int first = lattice.first, last = lattice.last;
-  while (lattice.first - first < 3 && isOnPage(first - 1)) --first;
-  while (last - lattice.last < 3 && isOnPage(last + 1)) ++last;
+  const int more = first < last ? 3 : 0;  // a margin has no neighbours
+  while (lattice.first - first < more && isOnPage(first - 1)) --first;
+  while (last - lattice.last < more && isOnPage(last + 1)) ++last;
   const double length = static_cast<double>(grey.width) * shrink;
   const int stations = static_cast<int>(std::ceil(length / kStationPx)) + 1;
   for (int k = first; k <= last; ++k) {
@@ -183,6 +186,22 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
     family.lines.push_back(std::move(line));
   }
   return family;
+}
+
+/// The margin of ruled paper: lines across the ruled ones, from border to border.
+void addMargins(const Plane& across, Plane&& down, const RulingLattice& ruled, bool runsDown, int shrink,
+                std::vector<RulingFamily>& families, const RunContext& context) {
+  const std::vector<RulingLattice> lines = findMarginLines({across, !runsDown}, ruled.spacing, context);
+  if (lines.empty() || context.isCancelled()) return;
+  if (!runsDown && down.width == 0) down = mirrored(across, context);
+  const Plane& along = runsDown ? across : down;
+  for (const RulingLattice& line : lines) {
+    const FoundLattice found{line, lookOf(along, line)};
+    const bool isLine = found.look.width <= std::max(2.0, kMostWidth * line.spacing) &&
+                        found.look.depth >= kLeastRulingDepth && inkAlongLines(along, line, context) >= kLeastInk;
+    const double border = std::min(shareAtBorder(along, found, true), shareAtBorder(along, found, false));
+    if (isLine && border >= kLeastAtBorder) families.push_back(familyOf(found, along, !runsDown, shrink));
+  }
 }
 
 }  // namespace
@@ -204,6 +223,12 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
   if (context.isCancelled()) return families;
   if (rows && isPrinted(across, *rows, columns)) families.push_back(familyOf(*rows, across, false, shrink));
   if (columns && isPrinted(down, *columns, rows)) families.push_back(familyOf(*columns, down, true, shrink));
+  if (families.size() == 1) {
+    const bool runsDown = families.front().runsDown;
+    addMargins(across, std::move(down), runsDown ? columns->lattice : rows->lattice, runsDown, shrink, families,
+               context);
+  }
+  if (context.isCancelled()) families.clear();
   return families;
 }
 

@@ -242,7 +242,8 @@ void appendPage(std::vector<Parameter>& table) {
   table.push_back(choice<RulingUse>(
       kThresholds,
       {"paper.rulings", "Ruled lines", "",
-       "Detects printed rulings and grids by their even spacing and removes them; strokes "
+       "Detects printed rulings and grids by their even spacing and removes them, and the margin of ruled paper; "
+       "strokes "
        "across them are kept."},
       {{"leave-out", "Remove", RulingUse::LeaveOut}, {"keep", "Keep", RulingUse::Keep}},
       [](auto& r) -> auto& { return r.preparation.rulings; }));

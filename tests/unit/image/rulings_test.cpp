@@ -135,6 +135,38 @@ TEST(Rulings, AreFoundWithTheirSpacing) {
   }
 }
 
+// A line down the page, straight and turned by as much as the ruling; `fromY` .. `toY` of the page.
+std::vector<float> marginAt(double x0, double fromY = 0.0, double toY = 1.0) {
+  return layer([&](double x, double y) {
+    if (y < fromY * kRuledHeight || y > toY * kRuledHeight) return 0.0f;
+    return covered(std::fabs(x - x0 - 0.01 * y), 2.0);
+  });
+}
+
+TEST(Rulings, TheMarginGoesWithThem) {
+  const std::vector<float> ruled = ruling({.turnedDeg = -0.6});
+  for (const double passes : {0.85, 0.6}) {
+    const auto found =
+        findRulings(paperWith({{ruled, light(0.8)}, {marginAt(84.0), light(passes)}, {drawing(), kPen}}).grey, {});
+    ASSERT_EQ(found.size(), 2u) << passes;
+    EXPECT_TRUE(found[1].runsDown);
+    ASSERT_EQ(found[1].lines.size(), 1u);
+    for (const Vec2& p : found[1].lines[0].coursePx) EXPECT_NEAR(p.x(), 84.0 + 0.01 * p.y(), 1.5);
+    const auto page =
+        preparePage(paperWith({{ruled, light(0.8)}, {marginAt(84.0), light(passes)}, {drawing(), kPen}}), {}, {});
+    ASSERT_TRUE(page && page->grey);
+    const Wrong wrong = wrongInk(inkOf(*page->grey));
+    EXPECT_EQ(wrong.beside, 0) << passes;
+    EXPECT_LT(wrong.missed, 0.02) << passes;
+  }
+}
+
+TEST(Rulings, LinesDownThePageThatEndOnItOrLieInTheMiddleAreDrawn) {
+  const std::vector<float> ruled = ruling({.turnedDeg = -0.6});
+  for (const auto& drawn : {marginAt(84.0, 0.1, 1.0), marginAt(84.0, 0.0, 0.9), marginAt(0.5 * kRuledWidth)})
+    EXPECT_EQ(findRulings(paperWith({{ruled, light(0.8)}, {drawn, kPen}, {drawing(), kPen}}).grey, {}).size(), 1u);
+}
+
 TEST(Rulings, AreTakenOutWithoutCuttingStrokes) {
   for (const double passes : {0.9, 0.75, 0.6}) {
     for (const double turned : {0.0, 2.5}) {

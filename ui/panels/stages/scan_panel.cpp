@@ -209,9 +209,12 @@ void ScanPanel::refreshPaper() {
     said << tr("Coloured ink was made darker on %1 % of the page.").arg(100.0 * page->colouredShare, 0, 'f', 1);
   for (const RulingFamily& family : page ? page->rulings : std::vector<RulingFamily>{}) {
     const int count = static_cast<int>(std::ssize(family.lines));
-    said << (family.runsDown ? tr("%1 vertical ruled lines were removed.")
-                             : tr("%1 horizontal ruled lines were removed."))
-                .arg(count);
+    if (count == 1)
+      said << (family.runsDown ? tr("A vertical ruled line was removed.") : tr("A horizontal ruled line was removed."));
+    else
+      said << (family.runsDown ? tr("%1 vertical ruled lines were removed.")
+                               : tr("%1 horizontal ruled lines were removed."))
+                  .arg(count);
   }
   if (page && page->sheet && !session_.scan()->rectification)
     said << tr("%1 % of the picture is outside the sheet and was cut off.")

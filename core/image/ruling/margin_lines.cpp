@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/ruling/margin_lines.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/base/statistics.h"
+
+namespace batten {
+namespace {
+
+constexpr double kFarthestMargin = 0.3;    // of the plane, from its side
+constexpr double kLeastSeen = 0.85;        // of the steps along it
+constexpr double kMostMarginMisfit = 2.5;  // [grid] of nine in ten places, off a cubic: paper bends, pens tremble
+constexpr std::size_t kMostMargins = 2;
+constexpr int kStep = 4;               // [grid] along the line
+constexpr int kLookFor = 3;            // [grid] to either side of where it is expected
+constexpr int kPaperBeside = 7;        // [grid] to either side: paper shows within
+constexpr float kLeastOfDepth = 0.4f;  // of the line's own depth, where it is seen
+constexpr double kSlopeInertia = 0.85;
+
+/// Follows one line through the plane.
+class MarginTrack {
+ public:
+  MarginTrack(const PlaneView& grey, double seedX, double seedY) : grey_(grey) {
+    if (const auto seed = look(static_cast<int>(seedX), seedY)) {
+      depth_ = seed->depth;
+      follow(static_cast<int>(seedX), seed->y, 1);
+      follow(static_cast<int>(seedX) - kStep, seed->y, -1);
+    }
+  }
+
+  /// A cubic in 2 x / width - 1; absent if the line is hidden too often, or bends otherwise.
+  std::optional<Eigen::Vector4d> course() const {
+    if (steps_ == 0 || static_cast<double>(xs_.size()) < kLeastSeen * steps_) return std::nullopt;
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (std::size_t i = 0; i < xs_.size(); ++i) {
+      const Eigen::Vector4d t = termsAt(xs_[i]);
+      normal += t * t.transpose();
+      right += ys_[i] * t;
+    }
+    const Eigen::Vector4d c = normal.ldlt().solve(right);
+    std::vector<double> misfits;
+    for (std::size_t i = 0; i < xs_.size(); ++i) misfits.push_back(std::fabs(c.dot(termsAt(xs_[i])) - ys_[i]));
+    constexpr double kNineInTen = 0.9;
+    if (lowerQuantile(misfits, kNineInTen) > kMostMarginMisfit) return std::nullopt;
+    return c;
+  }
+
+ private:
+  struct Look {
+    double y = 0.0;
+    float depth = 0.0f;
+  };
+
+  Eigen::Vector4d termsAt(double x) const {
+    const double u = 2.0 * x / grey_.width() - 1.0;
+    return {1.0, u, u * u, u * u * u};
+  }
+
+  /// The darkest place near an expected one, over kStep columns from x on. Absent at the border of the plane.
+  std::optional<Look> look(int x, double expected) const {
+    const int middle = static_cast<int>(std::lround(expected));
+    if (x < 0 || x + kStep > grey_.width() || middle < kPaperBeside || middle + kPaperBeside >= grey_.height())
+      return std::nullopt;
+    std::array<float, 2 * kPaperBeside + 1> levels{};
+    for (int i = 0; i < kStep; ++i) {
+      for (int d = -kPaperBeside; d <= kPaperBeside; ++d)
+        levels[d + kPaperBeside] += grey_.at(x + i, middle + d) / kStep;
+    }
+    const auto first = levels.begin() + kPaperBeside - kLookFor;
+    const auto darkest = std::min_element(first, first + 2 * kLookFor + 1);
+    const float paper = *std::max_element(levels.begin(), levels.end());
+    Look found{0.0, paper - *darkest};
+    double sum = 0.0, weight = 0.0;
+    for (auto it = std::max(levels.begin(), darkest - 1); it <= std::min(levels.end() - 1, darkest + 1); ++it) {
+      sum += static_cast<double>(paper - *it) * static_cast<double>(it - levels.begin());
+      weight += static_cast<double>(paper - *it);
+    }
+    found.y = middle - kPaperBeside + (weight > 0.0 ? sum / weight : kPaperBeside) + 0.5;
+    return found;
+  }
+
+  void follow(int x, double y, int direction) {
+    double slope = 0.0;  // a step
+    for (; x >= 0 && x + kStep <= grey_.width(); x += direction * kStep) {
+      ++steps_;
+      const double expected = y + slope;
+      const auto found = look(x, expected - 0.5);
+      if (found && found->depth >= kLeastOfDepth * depth_) {
+        slope = kSlopeInertia * slope + (1.0 - kSlopeInertia) * (found->y - y);
+        y = found->y;
+        xs_.push_back(x + 0.5 * kStep);
+        ys_.push_back(y);
+      } else {
+        y = expected;
+      }
+    }
+  }
+
+  const PlaneView& grey_;
+  float depth_ = 0.0f;
+  int steps_ = 0;
+  std::vector<double> xs_, ys_;
+};
+
+}  // namespace
+
+std::vector<RulingLattice> findMarginLines(const PlaneView& grey, double spacing, const RunContext& context) {
+  const RulingStretches found = findRulingStretches(grey, context);
+  std::vector<RulingLattice> margins;
+  for (std::size_t strip = 0; strip < found.strips.size(); ++strip) {
+    const double x = (static_cast<double>(strip) + 0.5) * found.stripWidth;
+    for (const double place : found.strips[strip]) {
+      if (context.isCancelled()) return {};
+      const double y = place + found.slope * x;
+      if (std::min(y, found.height - y) > kFarthestMargin * found.height) continue;
+      const bool isKnown = std::ranges::any_of(
+          margins, [&](const RulingLattice& line) { return std::fabs(line.at(0.0, x) - y) <= kPaperBeside; });
+      if (isKnown) continue;
+      const auto course = MarginTrack(grey, x, y).course();
+      if (!course) continue;
+      RulingLattice line;
+      line.halfWidth = 0.5 * found.width;
+      constexpr std::array<int, 4> kPowersOfX{0, 2, 5, 9};  // of the terms of a lattice
+      for (int i = 0; i < 4; ++i) line.coefficients[kPowersOfX[i]] = (*course)[i];
+      line.spacing = spacing;
+      line.isSeen = {true};
+      margins.push_back(line);
+    }
+  }
+  if (margins.size() > kMostMargins) margins.clear();
+  return margins;
+}
+
+}  // namespace batten

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/image/ruling/ruling_lattice.h"
+#include "core/image/ruling/ruling_stretches.h"
+
+namespace batten {
+
+/// Lines that may be the margin of ruled paper, each as a lattice of one line: they run along x through the whole
+/// plane, straight, and nearer to a side than to the middle. None where there are more than two of them.
+/// @param spacing [grid] of the ruled lines across them.
+std::vector<RulingLattice> findMarginLines(const PlaneView& grey, double spacing, const RunContext& context);
+
+}  // namespace batten
