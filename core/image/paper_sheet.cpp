@@ -236,9 +236,11 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
     ++areas[label];
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
-  const cv::Mat1b evenAtOnce = filledSheet(labels == largest);
-  if (cv::countNonZero(evenAtOnce) < kLeastSheet * static_cast<double>(evenAtOnce.total())) return std::nullopt;
-  const cv::Mat1b even = filledSheet(slowlyContinued(evenAtOnce, cells, cellsOf(labels.size(), kNeckShare)));
+  cv::Mat1b even = filledSheet(labels == largest);
+  const int area = cv::countNonZero(even);
+  if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;
+  if (area < kMostSheet * static_cast<double>(even.total()))
+    even = filledSheet(slowlyContinued(even, cells, cellsOf(labels.size(), kNeckShare)));
   std::optional<cv::Mat1b> beside = cellsBeside(even, cells);
   if (!beside) return std::nullopt;
   for (int label = 0; label < std::ssize(areas); ++label) {

@@ -97,10 +97,13 @@ class GainLimits {
     }
   }
 
+  static constexpr int kPlaces = 8;  // across and down the page
+
   double at(int x, int y) const { return limits_[rowOf(y) * kPlaces + columnOf(x)]; }
+  /// The first pixel of a column of places; that of kPlaces is the width.
+  int startOf(int column) const { return static_cast<int>((std::int64_t{column} * width_ + kPlaces - 1) / kPlaces); }
 
  private:
-  static constexpr int kPlaces = 8;          // across and down the page
   static constexpr int kFewestSamples = 60;  // of a place: its noise within a fifth
 
   int columnOf(int x) const { return static_cast<int>(std::int64_t{x} * kPlaces / width_); }
@@ -115,7 +118,15 @@ cv::Mat1b gainingPixels(const cv::Mat1b& gains, const GainLimits& limits, const 
   cv::Mat1b mask(gains.size());
   parallelFor(context, gains.rows, kRowsPerBlock, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      for (int x = 0; x < gains.cols; ++x) mask(y, x) = gains(y, x) > limits.at(x, y) ? 255 : 0;
+      for (int column = 0; column < GainLimits::kPlaces; ++column) {
+        const int from = limits.startOf(column), to = limits.startOf(column + 1);
+        if (from == to) continue;  // a page of few pixels
+        // Gains are whole numbers.
+        const auto most = static_cast<std::uint8_t>(std::min(255.0, std::floor(limits.at(from, y))));
+        const std::uint8_t* in = gains.ptr(y);
+        std::uint8_t* out = mask.ptr(y);
+        for (int x = from; x < to; ++x) out[x] = in[x] > most ? 255 : 0;
+      }
     }
   });
   return mask;

@@ -243,8 +243,7 @@ void appendPage(std::vector<Parameter>& table) {
       kThresholds,
       {"paper.rulings", "Ruled lines", "",
        "Detects printed rulings and grids by their even spacing and removes them, and the margin of ruled paper; "
-       "strokes "
-       "across them are kept."},
+       "strokes across them are kept."},
       {{"leave-out", "Remove", RulingUse::LeaveOut}, {"keep", "Keep", RulingUse::Keep}},
       [](auto& r) -> auto& { return r.preparation.rulings; }));
   table.push_back(choice<SheetUse>(
