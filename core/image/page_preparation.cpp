@@ -116,6 +116,7 @@ void paintOverHoles(const Scan& scan, const SheetCells& cells, PreparedPage& pag
     for (int i = 0; i < cells.columns; ++i) inside.set(i, j, !holes->cells.at(i, j));
   }
   page.grey = paintedOver(greyOf(scan, page), inside, cells.sizePx, context);
+  page.bindingHoles = holes->count;
   page.notes.push_back("A row of " + std::to_string(holes->count) +
                        " binding holes was removed; paper.sheet=off keeps it.");
 }

@@ -50,6 +50,7 @@ struct PreparedPage {
   double colouredShare = 0.0;         ///< 0..1 of the page, taken by its darkest channel.
   std::vector<RulingFamily> rulings;  ///< What was taken out of it.
   std::optional<PaperSheet> sheet;    ///< What lies beside it was painted over.
+  int bindingHoles = 0;               ///< Painted over.
   std::optional<SheetView> view;      ///< How the sheet lies on a picture that is not rectified, where it is angled.
   std::vector<FoundInk> inks;         ///< Of a colour scan: all of them, also those that were dropped.
   double droppedShare = 0.0;          ///< 0..1 of the page: inks painted over.

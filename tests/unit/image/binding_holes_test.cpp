@@ -50,6 +50,7 @@ TEST(BindingHoles, ArePaintedOverAndTheDrawingStays) {
   ASSERT_TRUE(page && page->grey);
   EXPECT_EQ(darkPixelsOf(*page->grey, 0, 40), 0);
   EXPECT_EQ(darkPixelsOf(*page->grey, 40, kBoundWidth), darkPixelsOf(scan.grey, 40, kBoundWidth));
+  EXPECT_EQ(page->bindingHoles, 29);
   ASSERT_EQ(page->notes.size(), 1u);
   EXPECT_EQ(page->notes[0], "A row of 29 binding holes was removed; paper.sheet=off keeps it.");
   PreparationParams off;

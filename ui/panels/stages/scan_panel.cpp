@@ -216,6 +216,7 @@ void ScanPanel::refreshPaper() {
                                : tr("%1 horizontal ruled lines were removed."))
                   .arg(count);
   }
+  if (page && page->bindingHoles > 0) said << tr("%1 binding holes were removed.").arg(page->bindingHoles);
   if (page && page->sheet && !session_.scan()->rectification)
     said << tr("%1 % of the picture is outside the sheet and was cut off.")
                 .arg(100.0 * page->sheet->outsideShare, 0, 'f', 0);
