@@ -236,7 +236,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   context.report(0.3);
   found.blots = findBlots(*split, *lines, params.minWidths, context);
   int faint = 0;
-  if (!hasOwnLengths(params)) {
+  if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
     const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
     const FaintMarks dropped = faintMarks(marks, ink, *lines, grey, split->penPx.value_or(0.0), context);
     found.blots = without(std::move(found.blots), dropped.ink);

@@ -15,8 +15,10 @@ constexpr double kDeepest = 0.1;        // of the page: holes lie no farther fro
 constexpr double kLongestHole = 0.05;   // of the side
 constexpr float kDarkestPaper = 0.75f;  // of the paper of the page: what is darker is a hole, or ink
 constexpr int kFewestHoles = 8;
-constexpr double kLeastAlong = 0.5;                             // of the side, from the first hole to the last
-constexpr double kLeastSize = 0.6, kMostSize = 1.6;             // of the median hole, along the side
+constexpr double kLeastSpacing = 6.0;                // [cells] marks that are closer have no spacing that could be told
+constexpr double kLeastFilled = 0.6;                 // of its box: letters and outlines are not
+constexpr double kLeastAlong = 0.5;                  // of the side, from the first hole to the last
+constexpr double kLeastSize = 0.6, kMostSize = 1.6;  // of the median hole, along the side
 constexpr double kLeastOfSpacing = 0.15, kMostOfSpacing = 0.8;  // a hole takes of the distance from one to the next
 constexpr double kSpacingError = 0.15;                          // of the spacing
 constexpr double kCellError = 1.0;                              // [cells]
@@ -45,6 +47,7 @@ std::vector<Hole> darkPieces(const cv::Mat1b& dark, bool acrossPage, bool isFar)
     const int innermost = acrossPage ? (isFar ? box.y - strip.y : strip.br().y - box.br().y)
                                      : (isFar ? box.x - strip.x : strip.br().x - box.br().x);
     const int length = acrossPage ? box.width : box.height;
+    if (stats.at<int>(k, cv::CC_STAT_AREA) < kLeastFilled * box.area()) continue;
     if (innermost == 0 || length > kLongestHole * side) continue;  // goes on into the page, or along the side
     const double x = box.x + 0.5 * box.width, y = box.y + 0.5 * box.height;
     holes.push_back(
@@ -90,7 +93,7 @@ bool isEvenRow(const std::vector<Hole>& holes, int side) {
   for (std::size_t i = 0; i + 1 < holes.size(); ++i) distances.push_back(holes[i + 1].along - holes[i].along);
   for (const Hole& h : holes) lengths.push_back(h.length);
   const double spacing = upperMedian(std::vector<double>(distances)), length = upperMedian(lengths);
-  if (length < kLeastOfSpacing * spacing || length > kMostOfSpacing * spacing) return false;
+  if (spacing < kLeastSpacing || length < kLeastOfSpacing * spacing || length > kMostOfSpacing * spacing) return false;
   const double error = std::max(kCellError, kSpacingError * spacing);
   const auto even = std::ranges::count_if(distances, [&](double d) {
     const double times = std::clamp(std::round(d / spacing), 1.0, 1.0 + kMostMissing);

@@ -57,6 +57,7 @@ bool isNothingButRulings(const GreyImage& with, const GreyImage& without, const 
                          const RunContext& context) {
   double widthPx = 0.0, spacingPx = 0.0, depth = 1.0;
   for (const RulingFamily& family : families) {
+    if (family.lines.size() == 1) continue;  // a margin
     widthPx = std::max(widthPx, family.widthPx);
     spacingPx = std::max(spacingPx, family.spacingPx);
     depth = std::min(depth, family.depth);

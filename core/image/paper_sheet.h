@@ -26,10 +26,10 @@ struct PaperSheet {
 
 /// Finds the sheet: the largest even, bright area, if what lies beside it is of another brightness, colour or texture,
 /// reaches the border of the picture at a corner of it, begins at an edge (sheet_step.h), and leaves the sheet about
-/// convex. Absent where the paper fills the picture, and where that is doubtful: a drawing with a dark ground is no table, nor is paper behind a fold or in
-/// a shadow, which is darker but has the sheet's colour and grain. Of an open book both pages are the sheet if there is
-/// a drawing on each. White paper on a white table is found by its
-/// straight edges (sheet_edges.h), unless the drawing goes on beyond them.
+/// convex. Absent where the paper fills the picture, and where that is doubtful: a drawing with a dark ground is no
+/// table, nor is paper behind a fold or in a shadow, which is darker but has the sheet's colour and grain. Of an open
+/// book both pages are the sheet if there is a drawing on each. White paper on a white table is found by its straight
+/// edges (sheet_edges.h), unless the drawing goes on beyond them.
 std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
 std::optional<PaperSheet> findPaperSheet(const SheetCells&, const RunContext&);
 

@@ -72,6 +72,7 @@ cv::Mat1b withoutTonesAtEdge(const cv::Mat1b& beside, const cv::Mat1b& even, con
   // Paper between close strokes is of the tone.
   cv::morphologyEx(drawn, drawn, cv::MORPH_CLOSE, discOf(drawn.size(), kNeckShare));
   cv::morphologyEx(drawn, drawn, cv::MORPH_OPEN, discOf(drawn.size(), kNeckShare));
+  drawn &= within & (table == 0);
   cv::Mat1i labels;
   cv::Mat stats, centres;
   const int count = cv::connectedComponentsWithStats(drawn, labels, stats, centres, 8, CV_32S);

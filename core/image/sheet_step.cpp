@@ -63,15 +63,19 @@ bool isStep(const BandMeans& a, const BandMeans& b, const cv::Point& p) {
 bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCells& cells) {
   const BandMeans ofSheet = besideBorder(sheet, patch, cells), ofPatch = besideBorder(patch, sheet, cells);
   const cv::Mat1b border = patch & grownBy(sheet, 1);
-  int seen = 0, steps = 0;
+  int seen = 0, steps = 0, all = 0;
   for (int j = 0; j < border.rows; ++j) {
     for (int i = 0; i < border.cols; ++i) {
       const cv::Point p(i, j);
-      if (border(p) == 0 || !ofSheet.isKnown(p) || !ofPatch.isKnown(p)) continue;
+      if (border(p) == 0) continue;
+      ++all;
+      if (!ofSheet.isKnown(p) || !ofPatch.isKnown(p)) continue;
       ++seen;
       steps += isStep(ofSheet, ofPatch, p) ? 1 : 0;
     }
   }
+  // A narrow strip, as the dark rim of a scan, shows nothing beyond its edge: what it is like as a whole decides.
+  if (seen < kLeastOfBorder * all) return true;
   return steps > 0 && steps >= kLeastOfBorder * seen;
 }
 
@@ -79,7 +83,8 @@ cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells, int n
   const BandMeans look(cv::Mat1b(sheet.size(), 255), kLookCells, cells);
   const auto least = static_cast<int>(kLeastGrown * static_cast<double>(sheet.total()));
   cv::Mat1b grown = sheet.clone();
-  for (int added = least + 1; added > least;) {
+  const int mostRounds = std::max(sheet.rows, sheet.cols) / kGrowCells;
+  for (int added = least + 1, round = 0; added > least && round < mostRounds; ++round) {
     const BandMeans beside(grown, kAlongCells, cells);
     const cv::Mat1b next = grownBy(grown, kGrowCells) & (grown == 0);
     added = 0;

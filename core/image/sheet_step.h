@@ -9,11 +9,12 @@ namespace batten {
 
 /// Whether a sheet ends at a patch beside it: along half of their common border or more, brightness, tint or grain
 /// differ at once, within a few cells. Paper in slanting light changes as much, but slowly. Masks are of the size of
-/// the cells, not 0 inside. False where the two do not touch.
+/// the cells, not 0 inside. True where most of a patch is too narrow to be looked at.
 bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCells& cells);
 
-/// The sheet with what it becomes slowly: grain grows coarser and paper darker under slanting light, but not within a few
-/// cells. What is added is broader than a neck of `neckCells`: the blur along an edge is no more of the sheet than it was.
+/// The sheet with what it becomes slowly: grain grows coarser and paper darker under slanting light, but not within a
+/// few cells. What is added is broader than a neck of `neckCells`: the blur along an edge is no more of the sheet than
+/// it was.
 cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells, int neckCells);
 
 }  // namespace batten

@@ -200,6 +200,7 @@ void addMargins(const Plane& across, Plane&& down, const RulingLattice& ruled, b
     const bool isLine = found.look.width <= std::max(2.0, kMostWidth * line.spacing) &&
                         found.look.depth >= kLeastRulingDepth && inkAlongLines(along, line, context) >= kLeastInk;
     const double border = std::min(shareAtBorder(along, found, true), shareAtBorder(along, found, false));
+    if (found.look.depth > std::max(kDarkRuling, families.front().depth)) continue;  // drawn with a pen
     if (isLine && border >= kLeastAtBorder) families.push_back(familyOf(found, along, !runsDown, shrink));
   }
 }

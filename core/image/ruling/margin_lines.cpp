@@ -14,6 +14,7 @@ namespace batten {
 namespace {
 
 constexpr double kFarthestMargin = 0.3;    // of the plane, from its side
+constexpr double kMostBend = 0.02;         // of its length: a ruled line on paper that curls
 constexpr double kLeastSeen = 0.85;        // of the steps along it
 constexpr double kMostMarginMisfit = 2.5;  // [grid] of nine in ten places, off a cubic: paper bends, pens tremble
 constexpr std::size_t kMostMargins = 2;
@@ -49,6 +50,7 @@ class MarginTrack {
     for (std::size_t i = 0; i < xs_.size(); ++i) misfits.push_back(std::fabs(c.dot(termsAt(xs_[i])) - ys_[i]));
     constexpr double kNineInTen = 0.9;
     if (lowerQuantile(misfits, kNineInTen) > kMostMarginMisfit) return std::nullopt;
+    if (std::fabs(c[2]) + std::fabs(c[3]) > kMostBend * grey_.width()) return std::nullopt;
     return c;
   }
 
@@ -131,7 +133,10 @@ std::vector<RulingLattice> findMarginLines(const PlaneView& grey, double spacing
       for (int i = 0; i < 4; ++i) line.coefficients[kPowersOfX[i]] = (*course)[i];
       line.spacing = spacing;
       line.isSeen = {true};
-      margins.push_back(line);
+      const auto isBesideSide = [&](double at) {
+        return std::min(at, found.height - at) <= kFarthestMargin * found.height;
+      };
+      if (isBesideSide(line.at(0.0, 0.0)) && isBesideSide(line.at(0.0, found.width))) margins.push_back(line);
     }
   }
   if (margins.size() > kMostMargins) margins.clear();

@@ -10,7 +10,7 @@
 namespace batten {
 
 /// Lines that may be the margin of ruled paper, each as a lattice of one line: they run along x through the whole
-/// plane, straight, and nearer to a side than to the middle. None where there are more than two of them.
+/// plane, nearly straight, in the outer three tenths. None where there are more than two of them.
 /// @param spacing [grid] of the ruled lines across them.
 std::vector<RulingLattice> findMarginLines(const PlaneView& grey, double spacing, const RunContext& context);
 
