@@ -13,9 +13,9 @@ struct FaintMarks {
   int count = 0;
 };
 
-/// Pieces of `marks` shorter than three pen widths that would be no ink at the threshold of the strokes around them: grain of the paper and dirt, on
-/// regions whose own threshold follows nothing but that. A dot of the same pen or pencil is about as dark as its
-/// strokes. None where there are no lines to compare with.
+/// Pieces of `marks` shorter than three pen widths that would be no ink at the threshold of the strokes around them:
+/// grain of the paper and dirt, on regions whose own threshold follows nothing but that. A dot of the same pen or
+/// pencil is about as dark as its strokes. None where there are no lines to compare with.
 /// @param ink all ink: what is not, is paper. @param penPx [px] the width of the strokes.
 FaintMarks faintMarks(const BitImage& marks, const BitImage& ink, const ContourSet& lines, const GreyImage& grey,
                       double penPx, const RunContext& context);

@@ -75,7 +75,9 @@ TEST(PointSigmas, SayHowFarCentreLinesScatter) {
   test::RenderSettings s;
   s.ink = 110.0;
   const GreyImage clean = test::renderShape(
-      [](double x, double y) { return std::abs(std::hypot(x - kNoisyCentre.x(), y - kNoisyCentre.y()) - kNoiseRadius) < 2.5; },
+      [](double x, double y) {
+        return std::abs(std::hypot(x - kNoisyCentre.x(), y - kNoisyCentre.y()) - kNoiseRadius) < 2.5;
+      },
       s);
   const BitImage ink = test::thresholdMask(clean, 170.0);
   Halves halves;
