@@ -111,7 +111,8 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     }
   }
   cv::Mat1b beside(sheet.size(), 0);
-  const double level = cv::mean(cells.colour, sheet)[0];
+  const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
+  const double level = sheetMean[0];
   const double grain = std::max(kMostRoughness, kSameGrain * cv::mean(cells.rough, sheet)[0]);
   for (int k = 1; k < count; ++k) {
     if (!isBeside(patches[k], sheet.size())) continue;
@@ -119,7 +120,6 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     cv::Scalar mean, spread;
     cv::meanStdDev(cells.colour, mean, spread, patch);
     const double roughness = cv::mean(cells.rough, patch)[0];
-    const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
     // Even paper that is brighter than what it encloses: that is a drawn solid, and no dark sheet on a table.
     const bool isPaper = mean[0] >= level + kSolidContrast && roughness <= grain;
     if (isPaper) continue;
@@ -227,6 +227,13 @@ std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& ce
   return withoutTonesAtEdge(table, even, cells) | (beside & (table == 0));
 }
 
+/// An even area with what it becomes slowly, but for narrow parts: the blur along its edge.
+cv::Mat1b withSlowChanges(const cv::Mat1b& even, const SheetCells& cells) {
+  cv::Mat1b added = slowlyContinued(even, cells) & (even == 0);
+  cv::morphologyEx(added, added, cv::MORPH_OPEN, discOf(added.size(), kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  return filledSheet(even | added);
+}
+
 /// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book.
 std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
   const cv::Mat1i labels = joinCells(cells);
@@ -239,8 +246,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
   cv::Mat1b even = filledSheet(labels == largest);
   const int area = cv::countNonZero(even);
   if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;
-  if (area < kMostSheet * static_cast<double>(even.total()))
-    even = filledSheet(slowlyContinued(even, cells, cellsOf(labels.size(), kNeckShare)));
+  if (area < kMostSheet * static_cast<double>(even.total())) even = withSlowChanges(even, cells);
   std::optional<cv::Mat1b> beside = cellsBeside(even, cells);
   if (!beside) return std::nullopt;
   for (int label = 0; label < std::ssize(areas); ++label) {

@@ -33,12 +33,8 @@ cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
 
 }  // namespace
 
-int cellsOf(const cv::Size& size, double shareOfDiagonal) {
-  return std::max(1, static_cast<int>(std::lround(shareOfDiagonal * std::hypot(size.width, size.height))));
-}
-
 cv::Mat discOf(const cv::Size& size, double shareOfDiagonal) {
-  const int radius = cellsOf(size, shareOfDiagonal);
+  const int radius = std::max(1, static_cast<int>(std::lround(shareOfDiagonal * std::hypot(size.width, size.height))));
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
@@ -67,7 +63,7 @@ cv::Mat1b withoutTonesAtEdge(const cv::Mat1b& beside, const cv::Mat1b& even, con
   cv::convexHull(places, hull);
   cv::Mat1b within(even.size(), static_cast<unsigned char>(0));
   cv::fillConvexPoly(within, hull, 255);
-  const cv::Mat1b table = slowlyContinued(beside & (within == 0), cells, 0);
+  const cv::Mat1b table = slowlyContinued(beside & (within == 0), cells);
   cv::Mat1b drawn = beside & within & (table == 0);
   // Paper between close strokes is of the tone.
   cv::morphologyEx(drawn, drawn, cv::MORPH_CLOSE, discOf(drawn.size(), kNeckShare));

@@ -11,8 +11,7 @@ inline constexpr double kLeastPatch =
     0.004;                                  ///< of the picture: smaller patches at the border are ink that runs off it
 inline constexpr double kNeckShare = 0.01;  ///< of the diagonal: narrower parts are torn edges and ring holes
 
-/// A share of the diagonal in cells, at least 1, and a disc of that radius.
-int cellsOf(const cv::Size& size, double shareOfDiagonal);
+/// A disc whose radius is a share of the diagonal, at least one cell.
 cv::Mat discOf(const cv::Size& size, double shareOfDiagonal);
 /// The outermost cells.
 cv::Mat1b borderOf(const cv::Size& size);

@@ -79,7 +79,7 @@ bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCe
   return steps > 0 && steps >= kLeastOfBorder * seen;
 }
 
-cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells, int neckCells) {
+cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells) {
   const BandMeans look(cv::Mat1b(sheet.size(), 255), kLookCells, cells);
   const auto least = static_cast<int>(kLeastGrown * static_cast<double>(sheet.total()));
   cv::Mat1b grown = sheet.clone();
@@ -97,11 +97,7 @@ cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells, int n
       }
     }
   }
-  cv::Mat1b broad = grown & (sheet == 0);
-  cv::morphologyEx(broad, broad, cv::MORPH_OPEN,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * neckCells + 1, 2 * neckCells + 1}), {-1, -1}, 1,
-                   cv::BORDER_REPLICATE);
-  return sheet | broad;
+  return grown;
 }
 
 }  // namespace batten

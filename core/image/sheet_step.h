@@ -13,8 +13,7 @@ namespace batten {
 bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCells& cells);
 
 /// The sheet with what it becomes slowly: grain grows coarser and paper darker under slanting light, but not within a
-/// few cells. What is added is broader than a neck of `neckCells`: the blur along an edge is no more of the sheet than
-/// it was.
-cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells, int neckCells);
+/// few cells. The blur along an edge may be of it.
+cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells);
 
 }  // namespace batten

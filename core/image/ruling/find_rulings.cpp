@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -188,21 +187,17 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   return family;
 }
 
-/// The margin of ruled paper: lines across the ruled ones, from border to border.
-void addMargins(const Plane& across, Plane&& down, const RulingLattice& ruled, bool runsDown, int shrink,
-                std::vector<RulingFamily>& families, const RunContext& context) {
-  const std::vector<RulingLattice> lines = findMarginLines({across, !runsDown}, ruled.spacing, context);
-  if (lines.empty() || context.isCancelled()) return;
-  if (!runsDown && down.width == 0) down = mirrored(across, context);
-  const Plane& along = runsDown ? across : down;
-  for (const RulingLattice& line : lines) {
-    const FoundLattice found{line, lookOf(along, line)};
-    const bool isLine = found.look.width <= std::max(2.0, kMostWidth * line.spacing) &&
-                        found.look.depth >= kLeastRulingDepth && inkAlongLines(along, line, context) >= kLeastInk;
-    const double border = std::min(shareAtBorder(along, found, true), shareAtBorder(along, found, false));
-    if (found.look.depth > std::max(kDarkRuling, families.front().depth)) continue;  // drawn with a pen
-    if (isLine && border >= kLeastAtBorder) families.push_back(familyOf(found, along, !runsDown, shrink));
-  }
+/// A line across ruled ones that is their margin: thin, whole, from border to border, and no darker than a ruling.
+std::optional<FoundLattice> judgedMargin(const Plane& along, const RulingLattice& line, double depthOfRuling,
+                                         const RunContext& context) {
+  FoundLattice found{line, lookOf(along, line)};
+  const LineLook& look = found.look;
+  if (look.width > std::max(2.0, kMostWidth * line.spacing) || look.depth < kLeastRulingDepth) return std::nullopt;
+  if (look.depth > std::max(kDarkRuling, depthOfRuling)) return std::nullopt;  // drawn with a pen
+  if (inkAlongLines(along, line, context) < kLeastInk) return std::nullopt;
+  if (std::min(shareAtBorder(along, found, true), shareAtBorder(along, found, false)) < kLeastAtBorder)
+    return std::nullopt;
+  return found;
 }
 
 }  // namespace
@@ -213,10 +208,12 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
   const Plane across = shrinkGrey(image, shrink, context);
   if (context.isCancelled()) return {};
   std::optional<FoundLattice> rows, columns;
-  if (auto lattice = findRulingLattice({across, false}, context)) rows = judged(across, std::move(*lattice), context);
+  const RulingStretches ofRows = findRulingStretches({across, false}, context);
+  if (auto lattice = findRulingLattice(ofRows, context)) rows = judged(across, std::move(*lattice), context);
   if (context.isCancelled()) return {};
   Plane down;  // few pages have lines that run down, and only they need it
-  if (auto lattice = findRulingLattice({across, true}, context)) {
+  const RulingStretches ofColumns = findRulingStretches({across, true}, context);
+  if (auto lattice = findRulingLattice(ofColumns, context)) {
     down = mirrored(across, context);
     columns = judged(down, std::move(*lattice), context);
   }
@@ -226,8 +223,15 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
   if (columns && isPrinted(down, *columns, rows)) families.push_back(familyOf(*columns, down, true, shrink));
   if (families.size() == 1) {
     const bool runsDown = families.front().runsDown;
-    addMargins(across, std::move(down), runsDown ? columns->lattice : rows->lattice, runsDown, shrink, families,
-               context);
+    const double depth = families.front().depth;
+    const auto lines = findMarginLines({across, !runsDown}, runsDown ? ofRows : ofColumns,
+                                       (runsDown ? columns : rows)->lattice.spacing, context);
+    if (!lines.empty() && !runsDown && down.width == 0) down = mirrored(across, context);
+    const Plane& along = runsDown ? across : down;
+    for (const RulingLattice& line : lines) {
+      if (auto margin = judgedMargin(along, line, depth, context))
+        families.push_back(familyOf(*margin, along, !runsDown, shrink));
+    }
   }
   if (context.isCancelled()) families.clear();
   return families;

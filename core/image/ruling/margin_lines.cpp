@@ -113,8 +113,8 @@ class MarginTrack {
 
 }  // namespace
 
-std::vector<RulingLattice> findMarginLines(const PlaneView& grey, double spacing, const RunContext& context) {
-  const RulingStretches found = findRulingStretches(grey, context);
+std::vector<RulingLattice> findMarginLines(const PlaneView& grey, const RulingStretches& found, double spacing,
+                                           const RunContext& context) {
   std::vector<RulingLattice> margins;
   for (std::size_t strip = 0; strip < found.strips.size(); ++strip) {
     const double x = (static_cast<double>(strip) + 0.5) * found.stripWidth;

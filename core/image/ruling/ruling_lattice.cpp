@@ -264,8 +264,7 @@ double RulingLattice::at(double k, double x) const {
   return Eigen::Map<const Terms>(coefficients.data()).dot(t) + slope * x;
 }
 
-std::optional<RulingLattice> findRulingLattice(const PlaneView& grey, const RunContext& context) {
-  const RulingStretches found = findRulingStretches(grey, context);
+std::optional<RulingLattice> findRulingLattice(const RulingStretches& found, const RunContext& context) {
   if (context.isCancelled() || found.strips.empty()) return std::nullopt;
   const double spacing = commonSpacing(found, found.height, context);
   if (spacing <= 0.0) return std::nullopt;

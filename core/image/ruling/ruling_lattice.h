@@ -29,6 +29,6 @@ struct RulingLattice {
 
 /// The lattice of thin dark lines across the plane (they run along x, sloped by at most 1 in 5), if there is one that
 /// has at least five lines, more than half of its lines seen, and fills half of the plane both ways.
-std::optional<RulingLattice> findRulingLattice(const PlaneView& grey, const RunContext& context);
+std::optional<RulingLattice> findRulingLattice(const RulingStretches& found, const RunContext& context);
 
 }  // namespace batten
