@@ -160,6 +160,31 @@ TEST(RasterLayer, FlattenedPaperIsWhiteAndInkKeepsItsShare) {
   }
 }
 
+TEST(RasterLayer, AColourScanIsShownInItsColoursAtEveryZoom) {
+  auto scan = std::make_shared<Scan>(*ramp(1600, 900));
+  scan->colour = ColourImage(1600, 900);
+  for (int y = 0; y < 900; ++y)
+    for (int x = 0; x < 1600; ++x) scan->colour.row(y)[x] = x < 800 ? Rgb8{200, 30, 40} : Rgb8{20, 60, 180};
+  RasterContent content;
+  content.showsPicture = true;
+  content.pageWidth = 1600, content.pageHeight = 900;
+  const auto colourAt = [&](double zoom, int x) {
+    QImage out(static_cast<int>(1600 * zoom), 4, QImage::Format_RGB32);
+    renderRaster(content, zoom, QRect(0, 0, out.width(), out.height()), out);
+    return out.pixel(static_cast<int>(x * zoom), 2);
+  };
+  for (const auto& pyramid : {coarsePyramid(scan), buildPyramid(scan, RunContext{})}) {
+    content.pyramid = pyramid;
+    for (const double zoom : {0.1, 0.4, 1.0, 5.0}) {
+      EXPECT_EQ(colourAt(zoom, 300), qRgb(200, 30, 40)) << zoom;
+      EXPECT_EQ(colourAt(zoom, 1300), qRgb(20, 60, 180)) << zoom;
+    }
+  }
+  content.tones.emplace();  // the log picture is one of grey values
+  content.tones->fill(77);
+  EXPECT_EQ(colourAt(0.4, 300), qRgb(77, 77, 77));
+}
+
 TEST(CurveShapes, SampledLinesStayWithinTheTolerance) {
   const auto curve = NurbsCurve::make(3, {0, 0, 0, 0, 1, 2, 2, 2, 2}, {{0, 0}, {2, 30}, {20, 40}, {30, -10}, {60, 5}});
   ASSERT_TRUE(curve);

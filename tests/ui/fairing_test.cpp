@@ -15,6 +15,7 @@
 #include "core/fairing/target_advice.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/targets/shape_view.h"
 #include "ui/panels/targets/shape_window.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/plots/plot_editing.h"
@@ -254,6 +255,13 @@ TEST_F(FairingWindow, ShapesAreComparedAndTheTableShowsAllSixProfiles) {
   ASSERT_GT(first->count(), 1);
   second->setCurrentIndex(first->currentIndex());
   EXPECT_EQ(figures->rows()[0].cells[0].text, QStringLiteral("1.0000")) << "a curve is like itself";
+  const auto* view = shapes->findChild<ShapeView*>();
+  ASSERT_NE(view, nullptr);
+  EXPECT_EQ(view->accessibleName(), QStringLiteral("Radius over arc length"));
+  EXPECT_THAT(view->accessibleDescription().toStdString(),
+              testing::MatchesRegex("From 0 to 1\\.[0-9]+ times the mean\\."));
+  shapes->findChild<QAbstractButton*>(QStringLiteral("shapes.quantity.curvature"))->click();
+  EXPECT_EQ(view->accessibleName(), QStringLiteral("Curvature over arc length"));
   shapes->close();
 }
 

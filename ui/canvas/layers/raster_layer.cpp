@@ -58,17 +58,44 @@ void renderBits(const BitImage& bits, double zoom, const QRect& device, const Bi
   }
 }
 
-void renderPage(const RasterContent& content, double zoom, const QRect& device, QImage& out) {
-  const Cover none;
-  std::vector<std::uint8_t> grey;
-  if (content.showsPicture && content.pyramid) {
-    grey.resize(std::ptrdiff_t{device.width()} * device.height());
-    sampleGrey(*content.pyramid, zoom, device, grey.data());
-  }
+/// The scan in its own colours: tones and paper are read from grey values.
+bool isShownInColour(const RasterContent& content) {
+  return !content.tones && !content.paper && content.pyramid && !content.pyramid->scan->colour.isEmpty();
+}
+
+/// What a picture of grey values looks like after tones and paper. @param grey of the rectangle, row by row.
+void shadeGrey(const RasterContent& content, double zoom, const QRect& device, const std::vector<std::uint8_t>& grey,
+               std::vector<QRgb>& out) {
   std::array<QRgb, 256> palette{};
   for (std::size_t v = 0; v < palette.size(); ++v) {
     const int tone = content.tones ? (*content.tones)[v] : static_cast<int>(v);
     palette[v] = qRgb(tone, tone, tone);
+  }
+  std::ptrdiff_t at = 0;
+  for (int j = 0; j < device.height(); ++j) {
+    const double y = (device.y() + j + 0.5) / zoom;
+    for (int i = 0; i < device.width(); ++i, ++at) {
+      int value = grey[at];
+      if (content.paper) {
+        const double paper = std::max(1.0, content.paper->at((device.x() + i + 0.5) / zoom, y));
+        value = static_cast<int>(std::min(255.0, 255.0 * value / paper + 0.5));
+      }
+      out[at] = palette[value];
+    }
+  }
+}
+
+void renderPage(const RasterContent& content, double zoom, const QRect& device, QImage& out) {
+  std::vector<QRgb> picture;
+  if (content.showsPicture && content.pyramid) {
+    picture.resize(std::ptrdiff_t{device.width()} * device.height());
+    if (isShownInColour(content)) {
+      sampleColours(*content.pyramid, zoom, device, picture.data());
+    } else {
+      std::vector<std::uint8_t> grey(picture.size());
+      sampleGrey(*content.pyramid, zoom, device, grey.data());
+      shadeGrey(content, zoom, device, grey, picture);
+    }
   }
   const QRgb desk = colors::desk(content.isDark);
   for (int j = 0; j < device.height(); ++j) {
@@ -78,12 +105,7 @@ void renderPage(const RasterContent& content, double zoom, const QRect& device, 
     for (int i = 0; i < device.width(); ++i) {
       const double x = (device.x() + i + 0.5) / zoom;
       const bool onPage = onRow && x >= 0.0 && x < content.pageWidth;
-      const std::ptrdiff_t at = std::ptrdiff_t{j} * device.width() + i;
-      if (onPage && content.paper && !grey.empty()) {
-        const double paper = std::max(1.0, content.paper->at(x, y));
-        grey[at] = static_cast<std::uint8_t>(std::min(255.0, 255.0 * grey[at] / paper + 0.5));
-      }
-      line[i] = !onPage ? desk : grey.empty() ? colors::kPaper : palette[grey[at]];
+      line[i] = !onPage ? desk : picture.empty() ? colors::kPaper : picture[std::ptrdiff_t{j} * device.width() + i];
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QRect>
+#include <QRgb>
 #include <QSize>
 #include <cstdint>
 #include <memory>
@@ -12,17 +13,20 @@
 
 namespace batten {
 
-/// One level of a pyramid: 8-bit grey in tiles of 256 x 256, each level half the size of the one before.
+/// One level of a pyramid: 8-bit grey, and colours where the scan has them, in tiles of 256 x 256, each level half the
+/// size of the one before.
 struct TileLevel {
   static constexpr int kTile = 256;
   int shift = 0;  ///< One pixel covers 2^shift scan pixels a side.
   int width = 0, height = 0, tilesAcross = 0;
   std::vector<std::uint8_t> tiles;  ///< Tile by tile, row by row within a tile.
+  std::vector<Rgb8> colours;        ///< In the same order; empty for a scan without colour.
   std::ptrdiff_t index(int x, int y) const {
     const std::ptrdiff_t tile = std::ptrdiff_t{y >> 8} * tilesAcross + (x >> 8);
     return (tile << 16) + ((y & 255) << 8) + (x & 255);
   }
   std::uint8_t at(int x, int y) const { return tiles[index(x, y)]; }
+  const Rgb8& colourAt(int x, int y) const { return colours[index(x, y)]; }
 };
 
 /// The scan at halved sizes, for painting at any zoom without touching the whole page. The scan itself is level 0 and
@@ -45,5 +49,7 @@ std::shared_ptr<const TilePyramid> buildPyramid(std::shared_ptr<const Scan>, con
 /// pixel centres, one per pixel cell above a zoom of 3 so that pixels can be told apart. Outside the page: not written.
 /// @param out device.width() * device.height() bytes.
 void sampleGrey(const TilePyramid&, double zoom, const QRect& device, std::uint8_t* out);
+/// The same for the colours of a scan that has them. @pre !scan->colour.isEmpty()
+void sampleColours(const TilePyramid&, double zoom, const QRect& device, QRgb* out);
 
 }  // namespace batten

@@ -207,13 +207,15 @@ void ScanPanel::refreshPaper() {
   const auto& page = session_.output().page;
   if (page && page->colouredShare > 0.0)
     said << tr("Coloured ink was made darker on %1 % of the page.").arg(100.0 * page->colouredShare, 0, 'f', 1);
-  for (const RulingFamily& family : page ? page->rulings : std::vector<RulingFamily>{}) {
-    const int count = static_cast<int>(std::ssize(family.lines));
+  // Families of one direction, as lines and their margin, are counted together.
+  for (const bool runsDown : {false, true}) {
+    int count = 0;
+    for (const RulingFamily& family : page ? page->rulings : std::vector<RulingFamily>{})
+      if (family.runsDown == runsDown) count += static_cast<int>(std::ssize(family.lines));
     if (count == 1)
-      said << (family.runsDown ? tr("A vertical ruled line was removed.") : tr("A horizontal ruled line was removed."));
-    else
-      said << (family.runsDown ? tr("%1 vertical ruled lines were removed.")
-                               : tr("%1 horizontal ruled lines were removed."))
+      said << (runsDown ? tr("A vertical ruled line was removed.") : tr("A horizontal ruled line was removed."));
+    else if (count > 1)
+      said << (runsDown ? tr("%1 vertical ruled lines were removed.") : tr("%1 horizontal ruled lines were removed."))
                   .arg(count);
   }
   if (page && page->bindingHoles > 0) said << tr("%1 binding holes were removed.").arg(page->bindingHoles);

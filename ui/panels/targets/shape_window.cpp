@@ -4,8 +4,6 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPainter>
-#include <QPainterPath>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "core/fairing/target_advice.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/targets/shape_view.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/theme/theme.h"
@@ -218,54 +217,6 @@ void ShapeWindow::refreshTable() {
                      "tolerance, adds extrema, moves nothing or is too dissimilar.")
                       .arg(degreeName(nearest))
                 : QString());
-}
-
-void ShapeView::show(const ShapeComparison& comparison, bool radius) {
-  first_ = radius ? comparison.first.radius : comparison.first.curvature;
-  second_ = radius ? comparison.second.radius : comparison.second.curvature;
-  // S does not see the size of the values, so both are drawn at equal mean size.
-  const auto normalise = [](std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double v : values) sum += v * v;
-    const double size = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
-    for (double& v : values) v = size > 0 ? v / size : 0.0;
-  };
-  normalise(first_);
-  normalise(second_);
-  update();
-}
-
-void ShapeView::paintEvent(QPaintEvent*) {
-  const Theme& theme = themeOf(palette());
-  QPainter painter(this);
-  painter.setRenderHint(QPainter::Antialiasing);
-  const QRectF box = QRectF(rect()).adjusted(1, 8, -1, -8);
-  painter.setPen(QPen(theme.line, 1));
-  painter.drawLine(QPointF(box.left(), box.bottom()), QPointF(box.right(), box.bottom()));
-  if (first_.size() < 2 || second_.size() != first_.size()) return;
-  double low = 0.0, high = 0.0;
-  for (const auto* values : {&first_, &second_}) {
-    std::vector<double> sorted = *values;
-    std::sort(sorted.begin(), sorted.end());
-    // One spike must not flatten the rest.
-    low = std::min(low, sorted[sorted.size() / 50]);
-    high = std::max(high, sorted[sorted.size() - 1 - sorted.size() / 50]);
-  }
-  const double size = std::max(high - low, 1e-12);
-  const auto yOf = [&](double v) { return box.bottom() - std::clamp((v - low) / size, -0.03, 1.03) * box.height(); };
-  if (low < 0) painter.drawLine(QPointF(box.left(), yOf(0)), QPointF(box.right(), yOf(0)));
-  const auto draw = [&](const std::vector<double>& values, const QPen& pen) {
-    QPainterPath path;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const QPointF at(box.left() + box.width() * static_cast<double>(i) / static_cast<double>(values.size() - 1),
-                       yOf(values[i]));
-      i == 0 ? path.moveTo(at) : path.lineTo(at);
-    }
-    painter.setPen(pen);
-    painter.drawPath(path);
-  };
-  draw(first_, QPen(theme.accent, 2));
-  draw(second_, QPen(theme.amber, 1.6, Qt::DashLine));
 }
 
 }  // namespace batten

@@ -54,18 +54,4 @@ class ShapeWindow : public QDialog {
   QLabel* recommendation_;
 };
 
-/// Two normalised profiles over each other.
-class ShapeView : public QWidget {
-  Q_OBJECT
- public:
-  explicit ShapeView(QWidget* parent) : QWidget(parent) { setMinimumHeight(170); }
-  void show(const ShapeComparison& comparison, bool radius);
-
- protected:
-  void paintEvent(QPaintEvent*) override;
-
- private:
-  std::vector<double> first_, second_;
-};
-
 }  // namespace batten
