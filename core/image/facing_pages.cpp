@@ -129,11 +129,7 @@ class GutterShading {
           const std::vector<float>& bin = bins[index(d, k)];
           values.insert(values.end(), bin.begin(), bin.end());
         }
-        if (values.empty()) continue;
-        const auto rank =
-            values.begin() + static_cast<std::ptrdiff_t>(kPaperRankBesideGutter * double(values.size() - 1));
-        std::nth_element(values.begin(), rank, values.end());
-        levels_[index(d, s)] = *rank;
+        if (!values.empty()) levels_[index(d, s)] = lowerQuantile(values, kPaperRankBesideGutter);
       }
     }
     // Between the page and the gutter, and beyond its edges, the nearest distance that holds cells counts.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "core/base/statistics.h"
 
@@ -73,11 +74,8 @@ cv::Vec3f medianOf(const FromSide& from, int place, int first, int last) {
     for (int k = 0; k < channels; ++k) values[k][c] = cell[k];
   }
   cv::Vec3f median(0.0f, 0.0f, 0.0f);
-  for (int k = 0; k < channels; ++k) {
-    const auto middle = values[k].begin() + count / 2;
-    std::nth_element(values[k].begin(), middle, values[k].begin() + count);
-    median[k] = *middle;
-  }
+  for (int k = 0; k < channels; ++k)
+    median[k] = upperMedian(std::span(values[k]).first(static_cast<std::size_t>(count)));
   return median;
 }
 
