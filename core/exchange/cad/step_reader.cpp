@@ -31,7 +31,7 @@ struct StepTrim {
   bool forwards = true;
 };
 
-CadShape turned(CadShape shape) {
+CadShape reversed(CadShape shape) {
   if (auto* line = std::get_if<CadLine>(&shape)) std::swap(line->from, line->to);
   if (auto* line = std::get_if<CadPolyline>(&shape)) std::reverse(line->vertices.begin(), line->vertices.end());
   if (auto* curve = std::get_if<NurbsCurve>(&shape)) *curve = reversed(*curve);
@@ -211,7 +211,7 @@ class StepReader {
       if ((*segment)[1].text != "F") continue;
       const auto begin = drawing_.entities.begin() + static_cast<std::ptrdiff_t>(first);
       std::reverse(begin, drawing_.entities.end());
-      std::for_each(begin, drawing_.entities.end(), [](CadEntity& e) { e.shape = turned(std::move(e.shape)); });
+      std::for_each(begin, drawing_.entities.end(), [](CadEntity& e) { e.shape = reversed(std::move(e.shape)); });
     }
     return true;
   }
