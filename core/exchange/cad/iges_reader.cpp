@@ -115,9 +115,9 @@ class IgesReader {
   Result<IgesMatrix> matrixOf(const IgesDirectoryEntry& entry) {
     constexpr int kDeepest = 8;
     IgesMatrix all;
-    int line = entry.matrix;
-    for (int depth = 0; line != 0; ++depth) {
-      const auto at = entryAt(line);
+    std::optional<int> line = entry.matrix;
+    for (int depth = 0; line; ++depth) {
+      const auto at = entryAt(*line);
       if (!at || depth == kDeepest || records_.entries[*at].type != kMatrix)
         return igesDamaged(entry.line, "its transformation is missing");
       auto known = matrices_.find(*at);
