@@ -42,7 +42,8 @@ struct BorderArc {
   std::ptrdiff_t middle;
 };
 
-void addArc(const BorderArc& arc, std::vector<BorderPlace>& border) {
+std::vector<BorderPlace> arcPlaces(const BorderArc& arc) {
+  std::vector<BorderPlace> border;
   const int steps = std::max(4, static_cast<int>(std::ceil(std::abs(arc.angle) / kArcStepRad)));
   const double turn = std::abs(arc.angle);
   for (int i = 0; i <= steps; ++i) {
@@ -55,6 +56,11 @@ void addArc(const BorderArc& arc, std::vector<BorderPlace>& border) {
          .begins = i == 0,
          .middle = arc.middle});
   }
+  return border;
+}
+
+void appendPlaces(const std::vector<BorderPlace>& places, std::vector<BorderPlace>& border) {
+  border.insert(border.end(), places.begin(), places.end());
 }
 
 /// One side of a stroke, in its direction of travel: +1 the left one.
@@ -66,8 +72,9 @@ std::vector<BorderPlace> sideOf(const StrokeMiddle& middle, double side) {
       const Vec2 &before = places[i - 1].along, &behind = places[i].along;
       const double turn = std::atan2(cross(before, behind), before.dot(behind));
       if (std::abs(turn) > kCornerRad && turn * side < 0.0) {
-        addArc({places[i].at, side * leftNormal(before), turn, 0.5 * places[i - 1].width, 0.5 * places[i].width, i},
-               border);
+        appendPlaces(arcPlaces({places[i].at, side * leftNormal(before), turn, 0.5 * places[i - 1].width,
+                                0.5 * places[i].width, i}),
+                     border);
       } else if (std::abs(turn) > kCornerRad && !border.empty()) {
         border.back().isBackwards = true;  // an inner corner: the borders of its sides cross
       }
@@ -263,7 +270,8 @@ void addOutline(StrokeMiddle middle, double tolerance, CancelCheck check, WidthO
   // Anticlockwise: the right side, round the end, the left side back, round the start.
   std::vector<BorderPlace> border = right;
   const auto addCap = [&](const MiddlePlace& end, const Vec2& from) {
-    if (end.width > 0.0) addArc({end.at, from, std::numbers::pi, 0.5 * end.width, 0.5 * end.width, 0}, border);
+    if (end.width > 0.0)
+      appendPlaces(arcPlaces({end.at, from, std::numbers::pi, 0.5 * end.width, 0.5 * end.width, 0}), border);
   };
   addCap(middle.places.back(), -leftNormal(middle.places.back().along));
   const auto back = turnedRound(left);
