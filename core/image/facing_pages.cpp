@@ -24,7 +24,7 @@ constexpr int kAlongCells = 10;                  // from one value along the gut
 constexpr int kAlongReach = 2;                   // values to either side that are counted with one
 constexpr double kPaperRankBesideGutter = 0.75;  // of the cells at one distance: at least a quarter is free of ink
 constexpr double kDarkestBesideGutter = 0.6, kDarkestFlat = 0.9;  // of the flat paper: what is darker was drawn
-constexpr double kBrightest = 1.1;
+constexpr double kBrightest = 1.1;                                // of the flat paper: no level is higher
 
 cv::Mat1b grown(const cv::Mat1b& mask, double shareOfDiagonal) {
   const int size = 2 * static_cast<int>(std::ceil(shareOfDiagonal * std::hypot(mask.cols, mask.rows))) + 1;

@@ -14,10 +14,10 @@ constexpr int kNearCells = 3;         // to either side of the border: the edge 
 constexpr int kFarCells = 10;         // beyond which shading has time to change
 constexpr int kAlongCells = 25;       // of the border that are taken together
 constexpr float kStepOfGrain = 1.5f;  // times as rough as on the other side
-constexpr double kLeastOfBorder = 0.5;
-constexpr int kGrowCells = 3;         // at a time
-constexpr int kLookCells = 5;         // of which a cell's look is the mean: one by itself is noisy
-constexpr double kLeastGrown = 2e-4;  // of the picture, in one round
+constexpr double kLeastOfBorder = 0.5;  // of the places of a border
+constexpr int kGrowCells = 3;           // at a time
+constexpr int kLookCells = 5;           // of which a cell's look is the mean: one by itself is noisy
+constexpr double kLeastGrown = 2e-4;    // of the picture, in one round
 
 cv::Mat1b grownBy(const cv::Mat1b& mask, int cells) {
   cv::Mat1b out;

@@ -22,7 +22,7 @@ namespace {
 
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
 constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
-constexpr double kTargetUsedShare = 0.95;
+constexpr double kTargetUsedShare = 0.95;  // of the tolerance: enough of it
 /// Ratios of weights: of equal curves, and by which a small one grows; share between two that no step comes nearer.
 constexpr double kSameWeight = 1.02, kWeightStep = 4.0, kNearestShare = 0.1;
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
@@ -39,6 +39,7 @@ constexpr double kMetShare = 0.9;
 struct ModificationNotes {
   const char *nothingNearer, *addsExtrema, *outOfReach, *inPart, *toTolerance;
 };
+// what the report says where a target is followed
 constexpr ModificationNotes kNotesOfTarget{
     "Unchanged: no curve within the tolerance is closer to this target without added curvature extrema. Raise the "
     "tolerance, split the profile, or use Smooth.",
@@ -46,6 +47,7 @@ constexpr ModificationNotes kNotesOfTarget{
     "The profile is far out of reach for this curve. Split it, or mark the corners.",
     "The profile was followed as far as possible without adding a curvature extremum.",
     "The profile was followed as far as the tolerance allows."};
+// and where the curve is filtered
 constexpr ModificationNotes kNotesOfFilter{
     "Unchanged: no curve within the tolerance is closer to the filtered curvature without added extrema. Raise the "
     "tolerance, choose another wavelength, or use Smooth.",

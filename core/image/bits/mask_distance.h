@@ -20,7 +20,7 @@ class MaskDistance {
   std::int32_t squared(int x, int y);
 
  private:
-  static constexpr int kStripRows = 64;
+  static constexpr int kStripRows = 64;          // computed at once
   static constexpr std::size_t kStripsKept = 8;  // for who goes up and down from a place, as far as 250 rows
 
   using Row = std::vector<std::int32_t>;

@@ -26,7 +26,7 @@ constexpr int kFewestPlaces = 2;
 constexpr int kPlacesNoted = 5;
 /// Lines that are gone may come back. So many are remembered; those that went first are forgotten first.
 constexpr std::ptrdiff_t kMostGone = 5000;
-constexpr double kPlaceRoundingPx = 0.1;
+constexpr double kPlaceRoundingPx = 0.1;  // places are stored in the recipe as short numbers
 const std::string kCurveNameBegin = "Curve ";
 
 std::vector<Vec2> placesOf(const Piece& piece) {
@@ -152,7 +152,7 @@ PieceNumbers numberPieces(const PieceSet& set, const CurveNumbers& known, const 
 std::string curveName(int number) { return kCurveNameBegin + std::to_string(number); }
 
 std::optional<int> numberOfCurveName(std::string_view name) {
-  constexpr int kMostNumber = 1'000'000;
+  constexpr int kMostNumber = 1'000'000;  // limit of input
   if (!name.starts_with(kCurveNameBegin)) return std::nullopt;
   const auto number = integerFromText(name.substr(kCurveNameBegin.size()));
   return number && *number >= 1 && *number <= kMostNumber && curveName(*number) == name ? number : std::nullopt;
