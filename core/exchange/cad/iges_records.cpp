@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kSectionColumn = 72;  // the letter of the section
 constexpr std::size_t kDataColumns = 64;    // of a line of parameters
 constexpr std::size_t kFieldColumns = 8;    // of a line of the directory
-constexpr int kLongestString = 1 << 20;
+constexpr int kLongestString = 1 << 20;     // characters: limit of input
 
 std::string_view fieldOf(std::string_view line, std::size_t index) {
   return line.substr(index * kFieldColumns, kFieldColumns);

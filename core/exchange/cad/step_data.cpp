@@ -13,7 +13,7 @@ Eigen::Vector3d vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v
 }  // namespace
 
 bool StepPlacement::isUpright() const {
-  constexpr double kSame = 1e-12;
+  constexpr double kSame = 1e-12;  // of directions: rounding
   return axes.determinant() > 0.0 && (axes.transpose() * axes).isIdentity(kSame);
 }
 

@@ -49,7 +49,7 @@ class StepReader {
     radiansPerUnit_ = units.radiansPerUnit;
     const std::vector<std::uint64_t> roots = findRoots();
     for (std::size_t i = 0; i < roots.size(); ++i) {
-      constexpr std::size_t kEvery = 256;
+      constexpr std::size_t kEvery = 256;  // between two looks at whether the run was cancelled
       if (i % kEvery == 0 && context_.isCancelled()) return cancelled();
       const std::size_t before = drawing_.entities.size();
       if (!take(roots[i], {}, 0)) {
@@ -250,7 +250,7 @@ class StepReader {
     auto from = angleOf(trim->from), to = angleOf(trim->to);
     if (!from || !to) return std::nullopt;
     if (!trim->forwards) std::swap(from, to);
-    constexpr double kSame = 1e-9;
+    constexpr double kSame = 1e-9;  // [rad] a smaller sweep is a whole turn
     double sweep = std::fmod(*to - *from, kFullTurnRad);
     if (sweep <= kSame) sweep += kFullTurnRad;
     return conicShape(*placed, half, *from, sweep);

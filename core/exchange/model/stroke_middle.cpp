@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kStepWidths = 0.125;  ///< Of the largest width, from place to place: turns of half a width have 12.
 constexpr int kFewestSteps = 8;        ///< Between two places where something may jump.
-constexpr int kMostSteps = 2000;
-constexpr double kSameShare = 1e-9;  ///< Of the length: places nearer to each other are one.
+constexpr int kMostSteps = 2000;       // Limits the size of an outline.
+constexpr double kSameShare = 1e-9;    ///< Of the length: places nearer to each other are one.
 
 /// Where the width changes its growth or the curve its polynomial, both ends included.
 std::vector<double> breaksOf(const NurbsCurve& curve, const WidthProfile& width, const ArcLength& length) {
@@ -35,7 +35,7 @@ std::vector<double> breaksOf(const NurbsCurve& curve, const WidthProfile& width,
 
 /// Whether a border would have another direction behind than before.
 bool isJump(const MiddlePlace& before, const MiddlePlace& behind) {
-  constexpr double kSameRad = 1e-6;
+  constexpr double kSameRad = 1e-6;  // rounding
   return (before.along - behind.along).norm() > kSameRad || std::abs(before.growth - behind.growth) > kSameRad;
 }
 

@@ -312,8 +312,8 @@ class MiddleWalk {
   }
 
  private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-  static constexpr std::ptrdiff_t kNear = 64;  ///< [places] to either side of the last one
+  static constexpr double kFar = std::numeric_limits<double>::infinity();  // mm
+  static constexpr std::ptrdiff_t kNear = 64;                              ///< [places] to either side of the last one
   /// Of the width: deeper in the ink a place is no border; of a stroke that grows by g the sides lie g^2 / 16 deep.
   static constexpr double kDeepShare = 0.01, kDeepPerGrowth = 0.125;
 
@@ -328,7 +328,7 @@ class MiddleWalk {
     const double length = std::max(chord.norm(), std::numeric_limits<double>::min());
     Foot foot{std::clamp((p - a.at).dot(chord) / (length * length), 0.0, 1.0)};
     Vec2 at = a.at;
-    constexpr int kLoopRounds = 4;
+    constexpr int kLoopRounds = 4;  // of Newton, from a near start
     for (int round = 0; round <= kLoopRounds; ++round) {
       const double t = foot.t, r = 1.0 - t;
       at = r * r * (1.0 + 2.0 * t) * a.at + t * t * (1.0 + 2.0 * r) * b.at +
@@ -391,7 +391,7 @@ class MiddleWalk {
 double distanceFromWidth(const std::vector<std::array<Vec2, 4>>& border, const ExportCurve& line, CancelCheck check) {
   const std::vector<StrokeMiddle> middles = strokeMiddles(line, check);
   if (middles.empty() || border.empty()) return std::numeric_limits<double>::infinity();
-  constexpr int kPlacesPerCubic = 4;
+  constexpr int kPlacesPerCubic = 4;  // where the border is compared
   MiddleWalk walk(middles);
   double worst = 0.0;
   for (const auto& c : border) {
