@@ -66,8 +66,8 @@ TEST_F(ReportContours, TellHowFarMergedStrokesLayApart) {
 
 TEST_F(ReportContours, ACurveIsNumberedFromOneAndKeepsItsNumberWhereItsPlacesInTheListsChange) {
   write("two.pgm", pageWithBars({{20, 220, 50}, {80, 300, 150}}));
-  ASSERT_EQ(run("trace " + file("two.pgm") + " -o " + file("o.json") + " --report " + file("r.json") +
-                " --save-recipe " + file("kept.json"))
+  ASSERT_EQ(run("trace " + file("two.pgm") + " --set edges.mode=centreline -o " + file("o.json") + " --report " +
+                file("r.json") + " --save-recipe " + file("kept.json"))
                 .code,
             0);
   const json curves = json::parse(test::readFile(file("r.json")))["curves"];

@@ -40,8 +40,8 @@ bool isJump(const MiddlePlace& before, const MiddlePlace& behind) {
 }
 
 /// @param before the last place of the piece that this one goes on from
-std::vector<MiddlePlace> placesOf(const ExportPiece& piece, const std::optional<MiddlePlace>& before,
-                                  CancelCheck check) {
+std::vector<MiddlePlace> middlePlaces(const ExportPiece& piece, const std::optional<MiddlePlace>& before,
+                                      CancelCheck check) {
   std::vector<MiddlePlace> places;
   const NurbsCurve& curve = piece.curve;
   const ArcLength length(curve);
@@ -88,7 +88,7 @@ std::vector<StrokeMiddle> strokeMiddles(const ExportCurve& line, CancelCheck che
     }
     if (!hasWidthBefore || !doMeet(line.pieces[i - 1].curve, piece.curve)) middles.emplace_back();
     std::vector<MiddlePlace>& places = middles.back().places;
-    const auto more = placesOf(piece, places.empty() ? std::nullopt : std::optional(places.back()), check);
+    const auto more = middlePlaces(piece, places.empty() ? std::nullopt : std::optional(places.back()), check);
     places.insert(places.end(), more.begin(), more.end());
     hasWidthBefore = true;
   }
