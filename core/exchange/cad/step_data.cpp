@@ -48,8 +48,8 @@ std::optional<StepPlacement> placementOf(const StepData& data, const StepValue& 
 std::optional<CadShape> conicShape(const StepPlacement& placed, const Vec2& half, double from, double sweep) {
   if (!(half.x() > 0.0) || !(half.y() > 0.0)) return std::nullopt;
   if (half.x() == half.y() && placed.isUpright()) {
-    const double turned = std::atan2(placed.axes(1, 0), placed.axes(0, 0));
-    return CadArc{placed.origin, half.x(), from + turned, sweep};
+    const double rotation = std::atan2(placed.axes(1, 0), placed.axes(0, 0));
+    return CadArc{placed.origin, half.x(), from + rotation, sweep};
   }
   const auto unit = curveOf(CadArc{Vec2::Zero(), 1.0, from, sweep});
   const Eigen::Matrix2d linear = placed.axes * half.asDiagonal();

@@ -20,7 +20,7 @@ constexpr double kCornerRad = 1e-3;       ///< Smaller turns from piece to piece
 constexpr double kArcStepRad = 0.1;       ///< Between the places of a round end.
 constexpr double kLoopReachWidths = 6.0;  ///< Along the stroke: so far from a tight turn its borders may cross.
 
-Vec2 turnedBy(const Vec2& v, double angle) {
+Vec2 rotated(const Vec2& v, double angle) {
   return {std::cos(angle) * v.x() - std::sin(angle) * v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.y()};
 }
 
@@ -48,7 +48,7 @@ std::vector<BorderPlace> arcPlaces(const BorderArc& arc) {
   const double turn = std::abs(arc.angle);
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    const Vec2 radius = turnedBy(arc.out, t * arc.angle);
+    const Vec2 radius = rotated(arc.out, t * arc.angle);
     const double length = std::lerp(arc.fromRadius, arc.toRadius, t), growth = (arc.toRadius - arc.fromRadius) / turn;
     border.push_back(
         {.at = arc.centre + length * radius,
@@ -214,7 +214,7 @@ class LoopRemoval {
   std::vector<Kept> kept_;
 };
 
-std::vector<BorderPlace> turnedRound(std::vector<BorderPlace> border) {
+std::vector<BorderPlace> reversedBorder(std::vector<BorderPlace> border) {
   std::reverse(border.begin(), border.end());
   for (BorderPlace& place : border) place.along = -place.along;
   // What began behind a place now begins at the one after it.
@@ -264,7 +264,7 @@ void addOutline(StrokeMiddle middle, double tolerance, CancelCheck check, WidthO
   const auto left = sideWithoutLoops(1.0), right = sideWithoutLoops(-1.0);
   if (middle.closed) {
     addLoop(right, tolerance, check, outline);
-    addLoop(turnedRound(left), tolerance, check, outline);
+    addLoop(reversedBorder(left), tolerance, check, outline);
     return;
   }
   // Anticlockwise: the right side, round the end, the left side back, round the start.
@@ -274,7 +274,7 @@ void addOutline(StrokeMiddle middle, double tolerance, CancelCheck check, WidthO
       appendPlaces(arcPlaces({end.at, from, std::numbers::pi, 0.5 * end.width, 0.5 * end.width, 0}), border);
   };
   addCap(middle.places.back(), -leftNormal(middle.places.back().along));
-  const auto back = turnedRound(left);
+  const auto back = reversedBorder(left);
   border.insert(border.end(), back.begin(), back.end());
   addCap(middle.places.front(), leftNormal(middle.places.front().along));
   addLoop(border, tolerance, check, outline);
