@@ -17,11 +17,11 @@
 namespace batten {
 namespace {
 
-constexpr int kWidth = 520;
-constexpr int kRow = 30;
-constexpr int kMostRows = 10;
+constexpr int kWidth = 520;    // px
+constexpr int kRow = 30;       // [px] height
+constexpr int kMostRows = 10;  // that are seen at once
 enum Role { ShortcutRole = Qt::UserRole, EnabledRole, HelpRole };
-constexpr const char* kWhyNot = "whyNot";
+constexpr const char* kWhyNot = "whyNot";  // property of an action: why it is disabled
 
 class ActionDelegate : public QStyledItemDelegate {
  public:

@@ -63,7 +63,7 @@ void MainWindow::makeActions() {
     connect(own(plot.text, {}, tr("Show this plot of the selected curve."), {}), &QAction::triggered, this,
             [this, tab = plot.tab] { parts_->plots->setTab(tab); });
   connect(own(tr("Plot: reverse"), QStringLiteral("reverse-plot"), tr("Reverse the plot of the selected curve."), {}),
-          &QAction::triggered, this, [this] { parts_->plots->setTurned(!parts_->plots->isTurned()); });
+          &QAction::triggered, this, [this] { parts_->plots->setReversed(!parts_->plots->isReversed()); });
   connect(own(tr("Compare shapes"), QStringLiteral("compare-shapes"),
               tr("Similarity of two curves, independent of size and position."), {}),
           &QAction::triggered, this, &MainWindow::showShapes);

@@ -16,7 +16,7 @@
 
 namespace batten {
 namespace {
-constexpr int kRecentFiles = 10;
+constexpr int kRecentFiles = 10;  // in the menu
 const QString kLowerKey = QStringLiteral("window/lower-height"), kPlotKey = QStringLiteral("window/plot");
 
 /// "coupe.png  –  ~/scans": the folder tells two files of one name apart.

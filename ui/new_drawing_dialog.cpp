@@ -19,9 +19,9 @@ namespace batten {
 namespace {
 
 const QSizeF kFormats[] = {{297, 210}, {210, 297}, {420, 297}};
-constexpr double kSmallestMm = 10.0, kLargestMm = 1500.0;
-constexpr double kLowestDpi = 50.0, kHighestDpi = 600.0, kUsualDpi = 150.0;
-constexpr double kMostPx = 20000.0;
+constexpr double kSmallestMm = 10.0, kLargestMm = 1500.0;                    // of a side
+constexpr double kLowestDpi = 50.0, kHighestDpi = 600.0, kUsualDpi = 150.0;  // range and what is offered
+constexpr double kMostPx = 20000.0;                                          // of a side: limit of a recipe
 
 }  // namespace
 

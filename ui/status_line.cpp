@@ -19,7 +19,7 @@
 namespace batten {
 namespace {
 
-constexpr int kMessageMs = 5000;
+constexpr int kMessageMs = 5000;  // that a message is shown
 
 QString decimal(double value, int decimals) {
   const double whole = std::trunc(value);

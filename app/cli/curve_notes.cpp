@@ -39,6 +39,7 @@ void add(std::vector<Kind>& kinds, const std::string& kind, const std::string& n
   same->curves.push_back(curve);
 }
 
+// how notes begin that are told once for all curves
 constexpr std::string_view kTurnsSharply = "Turns sharply at ", kFewTypical = "Typical curves make ";
 
 /// "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind; so are all shares of typical curves.

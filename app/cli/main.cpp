@@ -63,7 +63,7 @@ struct DrawingHelp {
   std::string scan, recipe, page, pages;
 };
 
-constexpr const char* kScanKinds = "PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP, PGM or PBM";
+constexpr const char* kScanKinds = "PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP, PGM or PBM";  // words of the help
 
 /// What the drawing is and what is followed on it.
 void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {

@@ -125,7 +125,7 @@ Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
 
 /// "100mm", "10 cm", "4in" as millimetres; nothing without a unit, since nobody could say which was meant.
 std::optional<double> lengthOf(std::string_view text) {
-  constexpr double kMillimetresPerCentimetre = 10.0;
+  constexpr double kMillimetresPerCentimetre = 10.0;  // by definition
   std::optional<double> unit;
   for (const auto& [word, mm] :
        {std::pair{"mm", 1.0}, {"cm", kMillimetresPerCentimetre}, {"in", kMillimetresPerInch}}) {

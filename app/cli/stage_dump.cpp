@@ -9,9 +9,10 @@
 namespace batten::cli {
 namespace {
 
-constexpr Colour kSketchColour{60, 110, 200};
-constexpr Colour kFairedColour{210, 40, 40};
-constexpr Colour kCornerColour{20, 150, 60};
+constexpr Colour kSketchColour{60, 110, 200};  // of lines in pictures
+constexpr Colour kFairedColour{210, 40, 40};   // of lines in pictures
+constexpr Colour kCornerColour{20, 150, 60};   // of marks in pictures
+// of neighbours, to tell them apart
 constexpr std::array<Colour, 6> kCycle = {Colour{200, 50, 50}, Colour{40, 110, 200}, Colour{20, 150, 60},
                                           Colour{190, 110, 0}, Colour{140, 60, 180}, Colour{0, 140, 150}};
 

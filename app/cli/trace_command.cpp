@@ -37,7 +37,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kDecimalsOfMs = 1;
+constexpr int kDecimalsOfMs = 1;  // tenths
 
 nlohmann::ordered_json explanationFigures(const Explanation& e) {
   constexpr int kDecimals = 4;  // a hundredth of a per cent

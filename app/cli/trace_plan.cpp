@@ -58,7 +58,7 @@ Result<void> checkScanName(const TraceArguments& arguments) {
 }
 
 Result<int> threadsOf(const TraceArguments& arguments) {
-  constexpr int kMostThreads = 1024;
+  constexpr int kMostThreads = 1024;  // limit of input
   if (!arguments.threads) return 0;
   const auto threads = integerFromText(*arguments.threads);
   if (threads && *threads >= 0 && *threads <= kMostThreads) return *threads;

@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 using SeriesJson = nlohmann::ordered_json;
-constexpr int kSeriesSamples = 201;
+constexpr int kSeriesSamples = 201;  // along a curve
 
 SeriesJson finiteOrNull(double value) { return std::isfinite(value) ? SeriesJson(value) : SeriesJson(nullptr); }
 

@@ -71,7 +71,7 @@ Vec2 pointAlong(const ImportedLine& line, const PointRange& range, double along)
 /// The numbers in the names that Batten gave ("Curve 3"): such a curve is Curve 3 again. Of several of one name the
 /// first is.
 CurveNumbers numbersOf(const ImportedFile& file, std::span<const NamedPart> parts, const PageFrame& frame) {
-  constexpr int kPlaces = 5;
+  constexpr int kPlaces = 5;  // noted along a line
   CurveNumbers numbers;
   std::set<int> given;
   const auto add = [&](const std::string& name, const auto& placeAt) {
@@ -102,7 +102,7 @@ CurveNumbers numbersOf(const ImportedFile& file, std::span<const NamedPart> part
 Recipe drawingOf(ImportedFile file, std::span<const NamedPart> parts) {
   constexpr double kLongerSidePx = 2000.0, kMargin = 0.05;  // of the longer side, around it
   constexpr double kLeastDpi = 1.0, kMostDpi = 100000.0;    // of a recipe
-  constexpr int kLeastSide = 16;
+  constexpr int kLeastSide = 16;                            // px
   Eigen::AlignedBox2d box = boxOf(file);
   if (box.isEmpty()) box.extend(Vec2(0.0, 0.0));
   const double longer = box.sizes().maxCoeff(), margin = kMargin * longer;
@@ -135,8 +135,8 @@ AddedImport withImport(Recipe recipe, ImportedFile file, const PageFrame& frame)
 }
 
 std::optional<double> millimetresOfImport(const ImportedFile& file) {
-  constexpr double kPxPerInchOfSvg = 96.0;
-  constexpr std::string_view kMillimetres = " mm";
+  constexpr double kPxPerInchOfSvg = 96.0;          // of CSS
+  constexpr std::string_view kMillimetres = " mm";  // end of a unit that is a number
   std::string_view unit = file.unit;
   if (unit.ends_with('?')) unit.remove_suffix(1);
   if (unit == "px") return kMillimetresPerInch / kPxPerInchOfSvg;

@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 ReportJson explanationToJson(const PipelineOutput& out, const Recipe& recipe, const Explanation& e) {
-  constexpr std::size_t kMostStretches = 20;
+  constexpr std::size_t kMostStretches = 20;  // that are listed, the longest
   ReportJson stretches = ReportJson::array();
   for (const InventedStretch& s : std::span(e.inventions).first(std::min(kMostStretches, e.inventions.size()))) {
     const std::string name = nameOfCurve(out, recipe, out.faired->curves[s.curve]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -41,8 +42,8 @@ ReportJson rangeToJson(std::vector<float> px, const PageFrame& frame) {
   for (std::ptrdiff_t i = 0; i <= steps; ++i) {
     along.push_back(numberToJson(static_cast<double>(px[steps == 0 ? 0 : i * last / steps])));
   }
-  std::sort(px.begin(), px.end());
-  const double middle = static_cast<double>(px[px.size() / 2]), most = static_cast<double>(px.back());
+  const auto most = static_cast<double>(*std::max_element(px.begin(), px.end()));
+  const auto middle = static_cast<double>(upperMedian(px));
   return {{"median_px", numberToJson(middle)},
           {"largest_px", numberToJson(most)},
           {"median_mm", numberToJson(frame.lengthToModel(middle))},

@@ -75,6 +75,7 @@ Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) 
 
 Result<ExportDocument> readCurveFile(const std::filesystem::path& path) {
   const auto format = formatOf(path).value_or(ExportFormat::Json);
+  // formats that can be read as curves
   constexpr std::array kRead = {ExportFormat::Json, ExportFormat::Svg, ExportFormat::Dxf, ExportFormat::Iges,
                                 ExportFormat::Step};
   if (std::find(kRead.begin(), kRead.end(), format) == kRead.end()) {

@@ -26,6 +26,7 @@ struct OptionRow {
   bool (*acts)(const ExportSettings&);
 };
 
+// every option and what it has an effect on
 constexpr std::array kOptionRows = {
     OptionRow{FormatOption::Unit, ".dxf, .igs, .step, .3dm, .csv and .poly.csv", hasUnit},
     OptionRow{FormatOption::Tolerance,

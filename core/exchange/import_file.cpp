@@ -24,7 +24,8 @@
 namespace batten {
 namespace {
 
-constexpr std::uint64_t kLargestImportBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kLargestImportBytes = std::uint64_t{64} << 20;  // limit of input
+// as they are listed in messages
 constexpr std::array<const char*, 9> kImportEndings = {".dxf", ".igs", ".iges", ".stp", ".step",
                                                        ".svg", ".csv", ".txt",  ".json"};
 

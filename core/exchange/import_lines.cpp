@@ -16,7 +16,7 @@
 namespace batten {
 namespace {
 
-constexpr double kSharpTurn = 35.0 * kRadPerDeg;
+constexpr double kSharpTurn = 35.0 * kRadPerDeg;  // a corner of points turns by as much
 /// Polylines of no more points are drawn corner by corner; of longer ones a corner has to stand out from its
 /// neighbours.
 constexpr std::ptrdiff_t kFewPoints = 16;

@@ -18,11 +18,11 @@
 namespace batten {
 namespace {
 
-constexpr double kPointsPerMm = 72.0 / kMillimetresPerInch;
-constexpr double kLargestPagePt = 14400.0;  ///< Of PDF without UserUnit: 5080 mm.
-constexpr int kPdfDecimals = 9;
-constexpr int kPdfPathDecimals = 12;  ///< As in SVG, for the curvature of short cubics.
-constexpr double kPdfGridMm = 1e-12;
+constexpr double kPointsPerMm = 72.0 / kMillimetresPerInch;  // the unit of PDF is 1/72 inch
+constexpr double kLargestPagePt = 14400.0;                   ///< Of PDF without UserUnit: 5080 mm.
+constexpr int kPdfDecimals = 9;                              // of places that are no paths
+constexpr int kPdfPathDecimals = 12;                         ///< As in SVG, for the curvature of short cubics.
+constexpr double kPdfGridMm = 1e-12;                         // as many decimals
 
 std::string pdfNumber(double value) { return fixedNumber(value, kPdfDecimals); }
 std::string pdfPoint(const Vec2& p) {
@@ -159,7 +159,7 @@ Result<PdfText> writePdf(const ExportDocument& document, const ExportSettings& s
 }
 
 Result<double> checkPdf(std::string_view bytes, const ExportDocument& document, const RunContext& context) {
-  constexpr std::string_view kBegin = "stream\n", kEnd = "\nendstream";
+  constexpr std::string_view kBegin = "stream\n", kEnd = "\nendstream";  // of the content, which is not compressed
   const auto begin = bytes.find(kBegin), end = bytes.find(kEnd);
   if (!bytes.starts_with("%PDF-") || begin == std::string_view::npos || end == std::string_view::npos || end < begin)
     return readsBackOtherwise("no content stream");

@@ -60,13 +60,13 @@ class TableReader {
   explicit TableReader(const RunContext& context) : context_(context) {}
 
   Result<PointFile> read(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // of UTF-8, before the text
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     for (std::size_t row = 1; !text.empty(); ++row) {
       const auto end = text.find('\n');
       const std::string_view line = trimmed(text.substr(0, end));
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-      constexpr std::size_t kEvery = 4096;
+      constexpr std::size_t kEvery = 4096;  // between two looks at whether the run was cancelled
       if (row % kEvery == 0 && context_.isCancelled()) return cancelled();
       if (line.starts_with('#')) {
         takeComment(line);
@@ -179,7 +179,7 @@ class TableReader {
   }
   void endLine() {
     auto& points = line_.points;
-    constexpr std::size_t kLeastLoop = 4;
+    constexpr std::size_t kLeastLoop = 4;  // a triangle and its first point again
     if (points.size() >= kLeastLoop && points.front() == points.back()) {
       points.pop_back();
       line_.closed = true;
@@ -245,7 +245,7 @@ Result<void> addLine(const PointJson& json, PointFile& file) {
   if (isNamed && !json.contains("points")) return noPoints("a line has no points");
   auto points = pointsOf(isNamed ? json["points"] : json);
   if (!points) return fail(points.error());
-  constexpr std::size_t kLeastLoop = 4;
+  constexpr std::size_t kLeastLoop = 4;  // a triangle and its first point again
   if (points->size() >= kLeastLoop && points->front() == points->back()) line.closed = true;
   if (line.closed && points->size() > 1 && points->front() == points->back()) points->pop_back();
   line.points = std::move(*points);

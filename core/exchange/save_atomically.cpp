@@ -15,8 +15,9 @@ namespace fs = std::filesystem;
 /// Links that lead to one another in more steps than the system follows lead in a circle.
 constexpr int kMostLinks = 40;
 
+// of the file that is written before it takes the name
 constexpr std::string_view kPrefix = ".batten-", kSuffix = ".saving";
-constexpr std::size_t kDigits = 16;
+constexpr std::size_t kDigits = 16;  // of its name
 
 tl::unexpected<Error> cannotWrite(const fs::path& path, const std::string& why, std::string detail = {}) {
   return fail(ErrorCode::CannotWrite, "Cannot write " + shownName(path) + ": " + why, std::move(detail));
@@ -75,7 +76,7 @@ constexpr int kNamesInUse = 4;
 
 /// An empty file beside the target, under a name that nothing has.
 tl::expected<ReplacingFile, std::error_code> fileBeside(const fs::path& target) {
-  constexpr int kAttempts = 100;
+  constexpr int kAttempts = 100;  // at a name that is free
   std::error_code error;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     auto file = ReplacingFile::create(target, savingName(target, attempt));

@@ -19,11 +19,11 @@
 namespace batten {
 namespace {
 
-constexpr double kStraight = 1e-9;  // of the extent
-constexpr double kJoins = 1e-6;     // of the extent
-constexpr double kTrifle = 1e-4;    // of a part
-constexpr int kNodesPerSection = 48;
-constexpr const char* kAddsAtCorners = "Unchanged: fairing its parts would add curvature extrema.";
+constexpr double kStraight = 1e-9;    // of the extent
+constexpr double kJoins = 1e-6;       // of the extent
+constexpr double kTrifle = 1e-4;      // of a part
+constexpr int kNodesPerSection = 48;  // of a profile that is copied to a section
+constexpr const char* kAddsAtCorners = "Unchanged: fairing its parts would add curvature extrema.";  // a note
 
 bool isStraightLine(const NurbsCurve& curve) {
   const Vec2 first = curve.controlPoints().front(), chord = curve.controlPoints().back() - first;
@@ -157,7 +157,7 @@ TargetOutcomes asItIs(const CornerSection& section, const TargetParams& params) 
 std::vector<ProfileNode> nodesOf(const TargetProfile& profile) {
   if (!profile.nodes.empty()) return profile.nodes;
   std::vector<ProfileNode> nodes;
-  constexpr double kStep = 1e-4;
+  constexpr double kStep = 1e-4;  // of the length: for a slope by differences
   for (int i = 0; i <= kNodesPerSection; ++i) {
     const double f = static_cast<double>(i) / kNodesPerSection;
     const double slope = (profile.curvatureAt(f + kStep) - profile.curvatureAt(f - kStep)) / (2.0 * kStep);

@@ -15,7 +15,7 @@
 namespace batten {
 namespace {
 
-constexpr int kFairnessSamples = 121;
+constexpr int kFairnessSamples = 121;  // at least, along a curve
 /// [mm] A tolerance that leaves a closed curve the four extrema that it must have.
 constexpr double kFewestExtremaMm = 20.0;
 /// Of the largest curvature: a curve whose curvature stays within this is a circle.

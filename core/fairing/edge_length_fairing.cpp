@@ -20,14 +20,15 @@
 namespace batten {
 namespace {
 
-constexpr int kPathDegree = 5;
+constexpr int kPathDegree = 5;  // of a path whose edge lengths can be moved
 /// Samples of the path's own curvature, and of the misfit.
 constexpr int kSamples = 801;
 /// Bisections of the share of the way to the profile, and the part of the tolerance that ends them.
 constexpr int kBisections = 12;
-constexpr double kUsedShare = 0.97;
+constexpr double kUsedShare = 0.97;  // of the tolerance
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kToleranceShare = 0.999;
+// measured at few for a guess, then at many
 constexpr int kFewPlaces = 100, kManyPlaces = 2000, kPlacesPerPiece = 64;
 
 /// The pieces of a path; empty for any other curve.

@@ -17,7 +17,7 @@ bool movesEdgeLengths(const FairingParams&);
 /// curvature without its short waves (low-pass mode). The path must be one of quintic pieces: knots of multiplicity 3
 /// or more; any other curve has its control points moved instead, and the note says so.
 ///
-/// As in the paper the end of a piece moves and what follows moves along; an open path is then turned and scaled onto
+/// As in the paper the end of a piece moves and what follows moves along; an open path is then rotated and scaled onto
 /// its end. Closed paths, and open ones with a held tangent, keep every joint where it is. Of both ways the one that
 /// comes nearer to the profile is taken. The profile is followed only as far as the tolerance allows: the specified
 /// curvature is a share of the way from the path's own. One curvature at every joint (G2), ends exactly where they

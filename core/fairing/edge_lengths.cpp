@@ -17,7 +17,7 @@ constexpr double kStay = 1e-4;
 
 /// Arc lengths at the samples by the trapezoid rule on ten times as many.
 std::vector<double> lengthsAt(const Quintic& q, int samples) {
-  constexpr int kFine = 10;
+  constexpr int kFine = 10;  // steps from sample to sample
   std::vector<double> lengths = {0.0};
   double length = 0.0, before = evaluate(q, 0.0).first.norm();
   const double step = 1.0 / ((samples - 1) * kFine);

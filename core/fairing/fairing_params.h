@@ -59,7 +59,7 @@ inline bool isPolynomial(FairingTarget target) {
   return target == FairingTarget::Recommended || degreeOf(target).has_value();
 }
 
-inline constexpr double kLeastAlpha = -3.0, kMostAlpha = 6.0;
+inline constexpr double kLeastAlpha = -3.0, kMostAlpha = 6.0;  // range of the log-aesthetic parameter alpha
 /// [mm] Of FairingParams::toleranceMm.
 inline constexpr double kLargestToleranceMm = 20.0;
 /// How many curvature extrema a monotone curve may keep.

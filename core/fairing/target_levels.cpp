@@ -139,7 +139,7 @@ class LevelFairing {
     return std::move(*best_);
   }
 
-  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // mm
   const std::shared_ptr<const FairingSetup>& setup_;
   const TargetLevels& levels_;
   int degree_;

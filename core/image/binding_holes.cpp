@@ -11,10 +11,10 @@
 namespace batten {
 namespace {
 
-constexpr double kDeepest = 0.1;        // of the page: holes lie no farther from its side
-constexpr double kLongestHole = 0.05;   // of the side
-constexpr float kDarkestPaper = 0.75f;  // of the paper of the page: what is darker is a hole, or ink
-constexpr int kFewestHoles = 8;
+constexpr double kDeepest = 0.1;                     // of the page: holes lie no farther from its side
+constexpr double kLongestHole = 0.05;                // of the side
+constexpr float kDarkestPaper = 0.75f;               // of the paper of the page: what is darker is a hole, or ink
+constexpr int kFewestHoles = 8;                      // of a binding, along one side
 constexpr double kLeastSpacing = 6.0;                // [cells] marks that are closer have no spacing that could be told
 constexpr double kLeastFilled = 0.6;                 // of its box: letters and outlines are not
 constexpr double kLeastAlong = 0.5;                  // of the side, from the first hole to the last

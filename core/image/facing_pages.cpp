@@ -24,7 +24,7 @@ constexpr int kAlongCells = 10;                  // from one value along the gut
 constexpr int kAlongReach = 2;                   // values to either side that are counted with one
 constexpr double kPaperRankBesideGutter = 0.75;  // of the cells at one distance: at least a quarter is free of ink
 constexpr double kDarkestBesideGutter = 0.6, kDarkestFlat = 0.9;  // of the flat paper: what is darker was drawn
-constexpr double kBrightest = 1.1;
+constexpr double kBrightest = 1.1;                                // of the flat paper: no level is higher
 
 cv::Mat1b grown(const cv::Mat1b& mask, double shareOfDiagonal) {
   const int size = 2 * static_cast<int>(std::ceil(shareOfDiagonal * std::hypot(mask.cols, mask.rows))) + 1;
@@ -93,8 +93,8 @@ class GutterShading {
     }
     collect(bins);
   }
-  /// 0: nothing is known there.
-  float at(int i, int j) const {
+  /// Absent where nothing is known.
+  std::optional<float> at(int i, int j) const {
     const float d = std::clamp(frame_.distance(j, i) - 0.5f, 0.0f, static_cast<float>(distances_ - 1));
     const float s = std::clamp(stationOf(i, j), 0.0f, static_cast<float>(stations_ - 1));
     const int d0 = std::min(static_cast<int>(d), distances_ - 2), s0 = std::min(static_cast<int>(s), stations_ - 2);
@@ -102,13 +102,14 @@ class GutterShading {
     float sum = 0.0f, weight = 0.0f;
     for (const int a : {0, 1}) {
       for (const int b : {0, 1}) {
-        const float level = levels_[index(d0 + a, s0 + b)], w = (a ? u : 1.0f - u) * (b ? v : 1.0f - v);
-        if (level <= 0.0f) continue;
-        sum += w * level;
+        const std::optional<float>& level = levels_[index(d0 + a, s0 + b)];
+        if (!level) continue;
+        const float w = (a ? u : 1.0f - u) * (b ? v : 1.0f - v);
+        sum += w * *level;
         weight += w;
       }
     }
-    return weight > 0.0f ? sum / weight : 0.0f;
+    return weight > 0.0f ? std::optional(sum / weight) : std::nullopt;
   }
 
  private:
@@ -120,7 +121,7 @@ class GutterShading {
     return std::clamp(static_cast<int>(std::lround(stationOf(i, j))), 0, stations_ - 1);
   }
   void collect(const std::vector<std::vector<float>>& bins) {
-    levels_.assign(bins.size(), 0.0f);
+    levels_.assign(bins.size(), std::nullopt);
     std::vector<float> values;
     for (int d = 0; d < distances_; ++d) {
       for (int s = 0; s < stations_; ++s) {
@@ -130,18 +131,16 @@ class GutterShading {
           values.insert(values.end(), bin.begin(), bin.end());
         }
         if (values.empty()) continue;
-        const auto rank =
-            values.begin() + static_cast<std::ptrdiff_t>(kPaperRankBesideGutter * double(values.size() - 1));
-        std::nth_element(values.begin(), rank, values.end());
-        levels_[index(d, s)] = *rank;
+        const float level = lowerQuantile(values, kPaperRankBesideGutter);
+        if (level > 0.0f) levels_[index(d, s)] = level;
       }
     }
     // Between the page and the gutter, and beyond its edges, the nearest distance that holds cells counts.
     for (int s = 0; s < stations_; ++s) {
       for (int d = 1; d < distances_; ++d)
-        if (levels_[index(d, s)] <= 0.0f) levels_[index(d, s)] = levels_[index(d - 1, s)];
+        if (!levels_[index(d, s)]) levels_[index(d, s)] = levels_[index(d - 1, s)];
       for (int d = distances_ - 2; d >= 0; --d)
-        if (levels_[index(d, s)] <= 0.0f) levels_[index(d, s)] = levels_[index(d + 1, s)];
+        if (!levels_[index(d, s)]) levels_[index(d, s)] = levels_[index(d + 1, s)];
     }
     leaveOutTones();
   }
@@ -149,15 +148,15 @@ class GutterShading {
   void leaveOutTones() {
     std::vector<float> outer;
     for (int s = 0; s < stations_; ++s)
-      if (const float level = levels_[index(distances_ - 1, s)]; level > 0.0f) outer.push_back(level);
+      if (const auto& level = levels_[index(distances_ - 1, s)]) outer.push_back(*level);
     if (outer.empty()) return;
     const double flat = static_cast<double>(upperMedian(outer));
     for (int s = 0; s < stations_; ++s) {
       float brightest = 0.0f;
       for (int d = 0; d < distances_; ++d) {
-        float& level = levels_[index(d, s)];
-        if (level <= 0.0f) continue;
-        brightest = std::max(brightest, level);
+        std::optional<float>& level = levels_[index(d, s)];
+        if (!level) continue;
+        brightest = std::max(brightest, *level);
         const double least = std::lerp(kDarkestBesideGutter, kDarkestFlat, d / (distances_ - 1.0)) * flat;
         level = static_cast<float>(std::clamp(static_cast<double>(brightest), least, kBrightest * flat));
       }
@@ -167,7 +166,7 @@ class GutterShading {
   GutterFrame frame_;
   int distances_ = 0, stations_ = 0;
   float reach_ = 0.0f;
-  std::vector<float> levels_;
+  std::vector<std::optional<float>> levels_;
 };
 
 }  // namespace
@@ -207,8 +206,8 @@ std::optional<GreyImage> pagesOnOneLevel(const GreyImage& page, const BitImage& 
     cv::dilate(pages->masks[k], around, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
     for (int j = 0; j < inside.height; ++j) {
       for (int i = 0; i < inside.width; ++i) {
-        const float level = around(j, i) != 0 ? shading.at(i, j) : 0.0f;
-        if (level > 0.0f) gain[std::ptrdiff_t{j} * inside.width + i] = target / level;
+        const std::optional<float> level = around(j, i) != 0 ? shading.at(i, j) : std::nullopt;
+        if (level) gain[std::ptrdiff_t{j} * inside.width + i] = target / *level;
       }
     }
   }

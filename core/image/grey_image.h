@@ -11,7 +11,7 @@ namespace batten {
 /// A grey picture, 16 bits a pixel whatever the file had: 0 = black, 65535 = white. 8-bit values are stored times 257,
 /// so that both depths share one path and `value / kGreyUnit` is the grey level 0..255 that all parameters speak of.
 struct GreyImage {
-  static constexpr double kGreyUnit = 257.0;
+  static constexpr double kGreyUnit = 257.0;  // of one level of 8 bits, as 255 times it is 65535
 
   int width = 0;
   int height = 0;

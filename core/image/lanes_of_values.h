@@ -10,7 +10,7 @@ namespace batten {
 /// As many values of 16 bits of each of several things: those of one make a lane, so that all lanes are sorted at once.
 class LanesOfValues {
  public:
-  static constexpr int kMiddle = 32768;
+  static constexpr int kMiddle = 32768;  // values are stored signed, around the middle of their 16 bits
 
   explicit LanesOfValues(int lanes) : lanes_(lanes) {}
   void clear() { values_.clear(); }

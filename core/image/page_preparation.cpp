@@ -44,8 +44,10 @@ std::string rulingNote(const std::vector<RulingFamily>& families) {
 constexpr int kPaperOneOf = 10;            // the brightest tenth of a region is its paper
 constexpr double kCrossingWidths = 2.0;    // [line widths] diagonal of what is left where two lines cross
 constexpr double kLeastDrawnShare = 0.01;  // of the pixels of the lines: a drawing on ruled paper has more
+// a note
 constexpr const char* kNothingButRulings =
     "The page contains only evenly spaced dark lines; they are treated as the drawing.";
+// an error
 constexpr const char* kNoMemory = "Not enough memory to prepare the page; scan at a lower resolution or crop.";
 constexpr int kRulingRounds = 3;  // the ruling of the back may shine through beside that of the front
 
@@ -148,7 +150,7 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
 }
 
 void addRectifyNotes(const Scan& scan, PreparedPage& page) {
-  constexpr double kDoubtfulAspect = 0.01, kNotableBendPx = 3.0;
+  constexpr double kDoubtfulAspect = 0.01, kNotableBendPx = 3.0;  // share and [px] above which a note says so
   if (!scan.rectifyNote.empty()) page.notes.push_back(scan.rectifyNote);
   if (!scan.rectification) return;
   const Rectification& made = *scan.rectification;

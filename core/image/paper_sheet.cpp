@@ -265,7 +265,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
 }  // namespace
 
 std::optional<PaperSheet> findPaperSheet(const SheetCells& cells, const RunContext& context) {
-  constexpr int kFewestCells = 40;
+  constexpr int kFewestCells = 40;  // of the picture along its shorter side
   if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
   const std::optional<cv::Mat1b> sheet = sheetOf(cells);
   if (!sheet) return std::nullopt;

@@ -12,12 +12,12 @@ namespace batten {
 namespace {
 
 BATTEN_HOT_LOOP void scaleRow(const std::uint16_t* in, float* __restrict out, int count) {
-  constexpr float kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);
+  constexpr float kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);  // to grey levels 0..255
   for (int i = 0; i < count; ++i) out[i] = static_cast<float>(in[i]) * kScale;
 }
 
 BATTEN_HOT_LOOP void addPairs(const std::uint16_t* a, const std::uint16_t* b, float* __restrict out, int count) {
-  constexpr float kScale = static_cast<float>(0.25 / GreyImage::kGreyUnit);
+  constexpr float kScale = static_cast<float>(0.25 / GreyImage::kGreyUnit);  // mean of four, in grey levels
   for (int i = 0; i < count; ++i) {
     const int sum = a[2 * i] + a[2 * i + 1] + b[2 * i] + b[2 * i + 1];
     out[i] = static_cast<float>(sum) * kScale;
@@ -40,14 +40,14 @@ BATTEN_HOT_LOOP void addFourRows(const std::uint16_t* const* rows, std::uint32_t
 /// Means of the sums by threes or fours, each over as many rows, as grey levels. Sum and divisor are whole numbers that
 /// a float holds exactly, so that one division gives the float nearest to the mean.
 BATTEN_HOT_LOOP void meansByThrees(const std::uint32_t* sums, float* __restrict out, int count) {
-  constexpr auto kDivisor = static_cast<float>(9.0 * GreyImage::kGreyUnit);
+  constexpr auto kDivisor = static_cast<float>(9.0 * GreyImage::kGreyUnit);  // nine values, to grey levels
   for (int i = 0; i < count; ++i) {
     const auto sum = static_cast<std::int32_t>(sums[3 * i] + sums[3 * i + 1] + sums[3 * i + 2]);
     out[i] = static_cast<float>(sum) / kDivisor;
   }
 }
 BATTEN_HOT_LOOP void meansByFours(const std::uint32_t* sums, float* __restrict out, int count) {
-  constexpr auto kDivisor = static_cast<float>(16.0 * GreyImage::kGreyUnit);
+  constexpr auto kDivisor = static_cast<float>(16.0 * GreyImage::kGreyUnit);  // sixteen values, to grey levels
   for (int i = 0; i < count; ++i) {
     const auto sum = static_cast<std::int32_t>(sums[4 * i] + sums[4 * i + 1] + sums[4 * i + 2] + sums[4 * i + 3]);
     out[i] = static_cast<float>(sum) / kDivisor;

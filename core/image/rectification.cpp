@@ -9,6 +9,7 @@
 namespace batten {
 namespace {
 
+// [mm] upright
 constexpr std::array kPaperSizes = {
     PaperSize{PaperFormat::A6, "a6", "A6", 105, 148},
     PaperSize{PaperFormat::A5, "a5", "A5", 148, 210},
@@ -21,7 +22,7 @@ constexpr std::array kPaperSizes = {
     PaperSize{PaperFormat::Legal, "legal", "Legal", 215.9, 355.6},
     PaperSize{PaperFormat::Tabloid, "tabloid", "Tabloid", 279.4, 431.8},
 };
-constexpr double kShortestSidePx = 32.0;
+constexpr double kShortestSidePx = 32.0;     // of a sheet: no corners are nearer to each other
 constexpr double kSharpestCornerDeg = 15.0;  // a sheet seen so flat shows no line across any more
 
 tl::unexpected<Error> bad(const char* message) { return fail(ErrorCode::BadParameter, message); }

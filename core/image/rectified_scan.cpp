@@ -22,7 +22,7 @@ constexpr double kMostCornerOutside = 0.1;  // of the longer side of the picture
 constexpr double kMostPagePixels = 2.0;     // of the page for one of the picture: the far part is made no larger
 constexpr double kLeastViewAngleDeg = 1.0;  // a drawing is as true by hand
 constexpr double kReachCells = 4.0;         // how exactly the sheet's cells tell its corners
-constexpr double kShortestPagePx = 32.0;
+constexpr double kShortestPagePx = 32.0;    // of a side: technical limit of a rectified page
 
 double areaOfSheet(const SheetCorners& c) { return 0.5 * cross(c[2] - c[0], c[3] - c[1]); }
 

@@ -13,8 +13,8 @@
 
 namespace batten {
 
-inline constexpr int kMostPages = 100000;
-inline constexpr double kCoarsestPdfDpi = 20.0, kFinestPdfDpi = 4800.0;
+inline constexpr int kMostPages = 100000;                                // limit of input
+inline constexpr double kCoarsestPdfDpi = 20.0, kFinestPdfDpi = 4800.0;  // [dpi] limits of input
 
 /// Which page of a file is read, and how finely a page is drawn that has no pixels of its own.
 struct PageChoice {

@@ -6,28 +6,29 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "core/base/statistics.h"
 
 namespace batten {
 namespace {
 
-constexpr double kDeepestEdge = 0.15;                    // of the picture: edges lie no farther from its side
-constexpr double kFirstPlace = 0.12, kLastPlace = 0.88;  // of the side: beyond them the next edge may cross it
-constexpr double kMostLean = 0.1;                        // tangent of the angle to the side
-constexpr int kAlongStep = 3;                            // cells between two places that are looked at
-constexpr int kNoneOf = 2;                               // cells to either side: the edge, its shadow, a line along it
-constexpr int kPaperCells = 7;                           // beyond them: what lies on this side of the edge
-constexpr int kFewestCells = 2;                          // of them, at the border of the picture
-constexpr int kNextDepth = kNoneOf + kPaperCells + 3;    // cells: where the paper goes on without a step
-constexpr float kMostStepSeen = 12.0f;                   // [grey] ink and things on the table do not count for more
-constexpr float kGreatestStep = 30.0f;                   // [grey] a darker table is told by its cells
-constexpr float kLeastStep = 2.5f;                       // [grey] in brightness or tint
-constexpr double kLeastShowing = 0.75;                   // of the places show the step
-constexpr float kLeastOfStep = 0.4f, kMostOfStep = 2.5f;
-constexpr float kLeastOwn = 0.5f;    // of the step: the rest may be shading
-constexpr float kLeastSharp = 0.6f;  // of the step, within the edge
-constexpr int kChannels = 3;
+constexpr double kDeepestEdge = 0.15;                     // of the picture: edges lie no farther from its side
+constexpr double kFirstPlace = 0.12, kLastPlace = 0.88;   // of the side: beyond them the next edge may cross it
+constexpr double kMostLean = 0.1;                         // tangent of the angle to the side
+constexpr int kAlongStep = 3;                             // cells between two places that are looked at
+constexpr int kNoneOf = 2;                                // cells to either side: the edge, its shadow, a line along it
+constexpr int kPaperCells = 7;                            // beyond them: what lies on this side of the edge
+constexpr int kFewestCells = 2;                           // of them, at the border of the picture
+constexpr int kNextDepth = kNoneOf + kPaperCells + 3;     // cells: where the paper goes on without a step
+constexpr float kMostStepSeen = 12.0f;                    // [grey] ink and things on the table do not count for more
+constexpr float kGreatestStep = 30.0f;                    // [grey] a darker table is told by its cells
+constexpr float kLeastStep = 2.5f;                        // [grey] in brightness or tint
+constexpr double kLeastShowing = 0.75;                    // of the places show the step
+constexpr float kLeastOfStep = 0.4f, kMostOfStep = 2.5f;  // of the step: a place that shows it
+constexpr float kLeastOwn = 0.5f;                         // of the step: the rest may be shading
+constexpr float kLeastSharp = 0.6f;                       // of the step, within the edge
+constexpr int kChannels = 3;                              // brightness and two of tint
 
 // The cells as seen from one side of the picture: `along` it, `deep` into the picture.
 struct FromSide {
@@ -73,11 +74,8 @@ cv::Vec3f medianOf(const FromSide& from, int place, int first, int last) {
     for (int k = 0; k < channels; ++k) values[k][c] = cell[k];
   }
   cv::Vec3f median(0.0f, 0.0f, 0.0f);
-  for (int k = 0; k < channels; ++k) {
-    const auto middle = values[k].begin() + count / 2;
-    std::nth_element(values[k].begin(), middle, values[k].begin() + count);
-    median[k] = *middle;
-  }
+  for (int k = 0; k < channels; ++k)
+    median[k] = upperMedian(std::span(values[k]).first(static_cast<std::size_t>(count)));
   return median;
 }
 

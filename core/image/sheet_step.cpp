@@ -14,10 +14,10 @@ constexpr int kNearCells = 3;         // to either side of the border: the edge 
 constexpr int kFarCells = 10;         // beyond which shading has time to change
 constexpr int kAlongCells = 25;       // of the border that are taken together
 constexpr float kStepOfGrain = 1.5f;  // times as rough as on the other side
-constexpr double kLeastOfBorder = 0.5;
-constexpr int kGrowCells = 3;         // at a time
-constexpr int kLookCells = 5;         // of which a cell's look is the mean: one by itself is noisy
-constexpr double kLeastGrown = 2e-4;  // of the picture, in one round
+constexpr double kLeastOfBorder = 0.5;  // of the places of a border
+constexpr int kGrowCells = 3;           // at a time
+constexpr int kLookCells = 5;           // of which a cell's look is the mean: one by itself is noisy
+constexpr double kLeastGrown = 2e-4;    // of the picture, in one round
 
 cv::Mat1b grownBy(const cv::Mat1b& mask, int cells) {
   cv::Mat1b out;
@@ -25,18 +25,18 @@ cv::Mat1b grownBy(const cv::Mat1b& mask, int cells) {
   return out;
 }
 
-/// Means of what lies in a band, within half of `across` cells of every place.
-struct BandMeans {
+/// Means of what lies in a strip, within half of `across` cells of every place.
+struct StripMeans {
   cv::Mat1f count, rough;
   cv::Mat3f colour;
 
-  BandMeans(const cv::Mat1b& band, int across, const SheetCells& cells) {
+  StripMeans(const cv::Mat1b& strip, int across, const SheetCells& cells) {
     const auto sumOf = [&](const cv::Mat& values, cv::Mat& out) {
       cv::Mat within = cv::Mat::zeros(values.size(), values.type());
-      values.copyTo(within, band);
+      values.copyTo(within, strip);
       cv::boxFilter(within, out, -1, {across, across}, {-1, -1}, false, cv::BORDER_CONSTANT);
     };
-    sumOf(cv::Mat1f(band.size(), 1.0f), count);
+    sumOf(cv::Mat1f(strip.size(), 1.0f), count);
     sumOf(cells.rough, rough);
     sumOf(cells.colour, colour);
   }
@@ -46,11 +46,11 @@ struct BandMeans {
 };
 
 /// On one side of a border, near it but not at it.
-BandMeans besideBorder(const cv::Mat1b& side, const cv::Mat1b& other, const SheetCells& cells) {
+StripMeans besideBorder(const cv::Mat1b& side, const cv::Mat1b& other, const SheetCells& cells) {
   return {side & grownBy(other, kFarCells) & (grownBy(other, kNearCells) == 0), kAlongCells, cells};
 }
 
-bool isStep(const BandMeans& a, const BandMeans& b, const cv::Point& p) {
+bool isStep(const StripMeans& a, const StripMeans& b, const cv::Point& p) {
   const cv::Vec3f apart = a.colourAt(p) - b.colourAt(p);
   if (std::max({std::fabs(apart[0]), std::fabs(apart[1]), std::fabs(apart[2])}) > kMostSheetStep) return true;
   const auto grain = static_cast<float>(kLeastGrain);
@@ -61,7 +61,7 @@ bool isStep(const BandMeans& a, const BandMeans& b, const cv::Point& p) {
 }  // namespace
 
 bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCells& cells) {
-  const BandMeans ofSheet = besideBorder(sheet, patch, cells), ofPatch = besideBorder(patch, sheet, cells);
+  const StripMeans ofSheet = besideBorder(sheet, patch, cells), ofPatch = besideBorder(patch, sheet, cells);
   const cv::Mat1b border = patch & grownBy(sheet, 1);
   int seen = 0, steps = 0, all = 0;
   for (int j = 0; j < border.rows; ++j) {
@@ -80,12 +80,12 @@ bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCe
 }
 
 cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells) {
-  const BandMeans look(cv::Mat1b(sheet.size(), 255), kLookCells, cells);
+  const StripMeans look(cv::Mat1b(sheet.size(), 255), kLookCells, cells);
   const auto least = static_cast<int>(kLeastGrown * static_cast<double>(sheet.total()));
   cv::Mat1b grown = sheet.clone();
   const int mostRounds = std::max(sheet.rows, sheet.cols) / kGrowCells;
   for (int added = least + 1, round = 0; added > least && round < mostRounds; ++round) {
-    const BandMeans beside(grown, kAlongCells, cells);
+    const StripMeans beside(grown, kAlongCells, cells);
     const cv::Mat1b next = grownBy(grown, kGrowCells) & (grown == 0);
     added = 0;
     for (int j = 0; j < next.rows; ++j) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes the pictures of the README from the real window: take_screenshots SAMPLE.png FOLDER
+// Takes the pictures of the README and of the software catalogues from the real window: take_screenshots SAMPLE.png
+// FOLDER
 #include <QApplication>
 #include <QCursor>
 #include <QDir>

@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "tests/bench/accuracy_measure.h"
 #include "tests/bench/accuracy_peers.h"
@@ -126,9 +127,9 @@ constexpr Goal kGoals[] = {{"outline", "clean", 0.012, 0.1, 0.02, 0}, {"outline"
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+  const std::ptrdiff_t n = std::ssize(values);
+  const double lower = elementOfRank(values, (n - 1) / 2);
+  return 0.5 * (lower + upperMedian(values));
 }
 
 double rmsOf(const std::vector<double>& values) {

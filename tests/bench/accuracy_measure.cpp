@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
 #include "tests/bench/truth_index.h"
 
@@ -119,9 +120,7 @@ class Comparison {
     for (const Vec2& p : curve.points) feet.push_back(index_.nearest(p));
     std::vector<double> distances;
     for (const Foot& f : feet) distances.push_back(f.distance);
-    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
-                     distances.end());
-    if (distances[distances.size() / 2] > kOutlierPx + border_) {  // another line of the page, not this shape
+    if (upperMedian(distances) > kOutlierPx + border_) {  // another line of the page, not this shape
       result.outlierPx += kSamplePx * static_cast<double>(curve.points.size());
       return;
     }

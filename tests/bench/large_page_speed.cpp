@@ -16,6 +16,7 @@
 
 #include "core/base/content_hash.h"
 #include "core/base/platform_memory.h"
+#include "core/base/statistics.h"
 #include "core/contour/centreline/skeleton.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/large_page.h"
@@ -45,10 +46,7 @@ struct SpeedRow {
   std::vector<double> cpu{}, wall{}, copies{};
 };
 
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
+double medianOf(std::vector<double> values) { return upperMedian(values); }
 
 RunContext twoThreads() {
   RunContext context;

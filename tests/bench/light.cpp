@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/construct/light/detail_curve.h"
 #include "core/construct/light/detail_line.h"
 #include "core/construct/light/light_curve.h"
@@ -68,11 +69,7 @@ struct Sum {
   int iterations = 0, tries = 0, sections = 0, denseSections = 0;
   std::vector<double> each;  ///< [ms] of every curve.
 
-  double medianMs() const {
-    std::vector<double> sorted = each;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
-  }
+  double medianMs() const { return each.empty() ? 0.0 : upperMedian(std::vector<double>(each)); }
 };
 
 void add(Sum& sum, const NurbsCurve& curve, bool closed, double tolerance, double step) {
@@ -130,8 +127,7 @@ void printShapes() {
                   sum.extrema, sum.asked, sum.worst, sum.ms);
       points.push_back(sum.points);
     }
-    std::sort(points.begin(), points.end());
-    std::printf("median %10d\n", points[points.size() / 2]);
+    std::printf("median %10d\n", upperMedian(points));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/construct/construct.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
@@ -120,10 +121,7 @@ Outcome measure(const OpenTruth& truth, const Recipe& recipe, double noise, unsi
   return out;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
+double median(std::vector<double> values) { return values.empty() ? 0.0 : upperMedian(values); }
 
 bool isIn(const std::string& list, const std::string& word) {
   std::stringstream in(list);

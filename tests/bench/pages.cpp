@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/bench/traced_lines.h"
@@ -167,9 +168,7 @@ int main(int argc, char** argv) {
                       ink.contrast, ink.noise, ink.blurPx, score.covered, score.falsePx);
       }
     }
-    std::nth_element(rms.begin(), rms.begin() + static_cast<std::ptrdiff_t>(rms.size() / 2), rms.end());
-    std::printf("%-14s %3d / %2d %10.3f %10.0f %8.3f\n", paper.name.c_str(), good, all, least, most,
-                rms[rms.size() / 2]);
+    std::printf("%-14s %3d / %2d %10.3f %10.0f %8.3f\n", paper.name.c_str(), good, all, least, most, upperMedian(rms));
     std::fflush(stdout);
     passes += good;
     pages += all;

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 
+#include "core/base/statistics.h"
 #include "core/curve/curvature.h"
 #include "tests/support/svg_paths.h"
 
@@ -198,9 +199,7 @@ SketchTruth::Figures SketchTruth::compare(const std::vector<CurvePoint>& curves)
   for (const double o : offsets) square += o * o;
   if (!offsets.empty()) {
     figures.rmsPx = std::sqrt(square / static_cast<double>(offsets.size()));
-    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-    std::nth_element(offsets.begin(), middle, offsets.end());
-    figures.medianPx = *middle;
+    figures.medianPx = upperMedian(offsets);
   }
   double covered = 0.0, all = 0.0;
   for (const Stroke& stroke : strokes_)

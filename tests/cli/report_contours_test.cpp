@@ -64,6 +64,37 @@ TEST_F(ReportContours, TellHowFarMergedStrokesLayApart) {
   EXPECT_NEAR(contours[0]["merged_half_spread"]["largest_px"].get<double>(), 6.0, 1.0);
 }
 
+TEST_F(ReportContours, ACurveIsNumberedFromOneAndKeepsItsNumberWhereItsPlacesInTheListsChange) {
+  write("two.pgm", pageWithBars({{20, 220, 50}, {80, 300, 150}}));
+  ASSERT_EQ(run("trace " + file("two.pgm") + " --set edges.mode=centreline -o " + file("o.json") + " --report " +
+                file("r.json") + " --save-recipe " + file("kept.json"))
+                .code,
+            0);
+  const json curves = json::parse(test::readFile(file("r.json")))["curves"];
+  ASSERT_EQ(curves.size(), 2u);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(curves[i]["index"], i);
+    EXPECT_EQ(curves[i]["piece"], i);
+    EXPECT_EQ(curves[i]["contour"], i + 1);
+    EXPECT_EQ(curves[i]["number"], i + 1);
+    EXPECT_EQ(curves[i]["name"], "Curve " + std::to_string(i + 1));
+  }
+  // The second alone: it comes first in the lists now, and is still Curve 2.
+  const double y = curves[1]["sketched"]["deviation_from_points"]["worst_point_px"][1].get<double>();
+  const std::string rows = y < 100.0 ? "0,0,320,100" : "0,100,320,100";
+  ASSERT_EQ(run("trace " + file("two.pgm") + " --recipe " + file("kept.json") + " --roi " + rows + " -o " +
+                file("o.json") + " --report " + file("alone.json"))
+                .code,
+            0);
+  const json alone = json::parse(test::readFile(file("alone.json")))["curves"];
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_EQ(alone[0]["index"], 0);
+  EXPECT_EQ(alone[0]["piece"], 0);
+  EXPECT_EQ(alone[0]["contour"], 1);
+  EXPECT_EQ(alone[0]["number"], 2);
+  EXPECT_EQ(alone[0]["name"], "Curve 2");
+}
+
 TEST_F(ReportContours, GiveAreasInPxAndMm) {
   ASSERT_EQ(run("trace " + scene() + " --dpi 254 -o " + file("o.json") + " --report " + file("r.json")).code, 0);
   const json contour = json::parse(test::readFile(file("r.json")))["contours"][0];

@@ -219,7 +219,7 @@ TEST_F(Alike, TheToolbarStandsStillWhenWorkIsUnsaved) {
   const int before = undo->x();
   ASSERT_NO_FATAL_FAILURE(changeSomething());
   ASSERT_TRUE(find<QLabel>("documentTitle")->text().endsWith(QStringLiteral("•")));
-  QTest::qWait(50);
+  ASSERT_TRUE(settleLayout());
   EXPECT_EQ(undo->x(), before);
 }
 

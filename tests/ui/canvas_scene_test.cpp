@@ -132,8 +132,7 @@ TEST(RasterLayer, ThinInkIsStillSeenFarAway) {
   RasterContent content;
   content.mask = bits;
   content.pageWidth = 4000, content.pageHeight = 400;
-  QImage out(400, 40, QImage::Format_RGB32);
-  renderRaster(content, 0.1, QRect(0, 0, 400, 40), out);
+  const QImage out = renderRaster(content, 0.1, QRect(0, 0, 400, 40));
   EXPECT_LT(qGray(out.pixel(200, 20)), qGray(out.pixel(100, 20)) - 10);
   EXPECT_EQ(out.pixel(199, 20), out.pixel(100, 20));
 }
@@ -152,8 +151,7 @@ TEST(RasterLayer, FlattenedPaperIsWhiteAndInkKeepsItsShare) {
   content.showsPicture = true;
   content.paper = paper;
   content.pageWidth = 64, content.pageHeight = 16;
-  QImage out(64 * 4, 16 * 4, QImage::Format_RGB32);
-  renderRaster(content, 4.0, QRect(0, 0, out.width(), out.height()), out);
+  const QImage out = renderRaster(content, 4.0, QRect(0, 0, 64 * 4, 16 * 4));
   for (const int x : {10, 56}) {
     EXPECT_EQ(qGray(out.pixel(4 * x + 2, 4 * 3 + 2)), 255);
     EXPECT_NEAR(qGray(out.pixel(4 * x + 2, 4 * 8 + 2)), 127.5, 1.0);

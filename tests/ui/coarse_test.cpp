@@ -82,8 +82,7 @@ TEST(RasterLayer, AMaskOfASmallerPageCoversTheWholePage) {
   content.pageWidth = content.pageHeight = 40;
   content.mask = coarse;
   content.maskFactor = 4;
-  QImage out(80, 80, QImage::Format_RGB32);
-  renderRaster(content, 2.0, QRect(0, 0, 80, 80), out);
+  const QImage out = renderRaster(content, 2.0, QRect(0, 0, 80, 80));
   EXPECT_GT(qRed(out.pixel(38, 70)), 200);
   EXPECT_LT(qRed(out.pixel(42, 70)), 60);
   EXPECT_LT(qRed(out.pixel(79, 2)), 60);

@@ -44,7 +44,7 @@ class Judging : public test::WindowFixture {
     auto* canvas = find<CurveCanvas>("canvas");
     QImage last;
     EXPECT_TRUE(waitUntil([&] {
-      QTest::qWait(60);
+      QTest::qWait(60);  // between two pictures that are compared: longer than the canvas takes to paint again
       const QImage now = canvas->grab().toImage();
       const bool isSame = now == last;
       last = now;

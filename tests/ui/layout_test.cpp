@@ -71,7 +71,7 @@ TEST_F(Layout, AHeightDrawnByHandStaysInALowWindow) {
   window_->setStage(PanelStage::Fairing);
   auto* canvas = find<CurveCanvas>("canvas");
   ASSERT_TRUE(waitUntil([&] { return window_->height() == 720 && find<QWidget>("plots")->isVisible(); }, 5000));
-  QTest::qWait(50);
+  ASSERT_TRUE(settleLayout());
   auto* handle = find<QSplitter>("centreSplitter")->handle(1);
   const QPoint at = handle->rect().center();
   QTest::mousePress(handle, Qt::LeftButton, {}, at);
@@ -183,7 +183,7 @@ TEST_F(Layout, TheTabsOfThePlotNeverLieOverOneAnother) {
   for (const int width : {1600, 1024, 960}) {
     window_->resize(width, 860);
     ASSERT_TRUE(waitUntil([&] { return window_->width() == width && find<QWidget>("plots")->isVisible(); }, 5000));
-    QTest::qWait(20);
+    ASSERT_TRUE(settleLayout());
     int right = 0;
     for (const char* name :
          {"plot.radius", "plot.curvature", "plot.slope", "plot.speed", "plot.deviation", "plot.reverse"}) {
@@ -204,7 +204,7 @@ TEST_F(Layout, TheFiguresOfAllTilesSayAlike) {
   for (const int width : {1600, 1024}) {
     window_->resize(width, 860);
     ASSERT_TRUE(waitUntil([&] { return window_->width() == width; }, 5000));
-    QTest::qWait(20);
+    ASSERT_TRUE(settleLayout());
     TargetTile::Figures least = TargetTile::Figures::All;
     for (const TargetTile* tile : window_->findChildren<TargetTile*>()) least = std::max(least, tile->roomFor());
     for (const TargetTile* tile : window_->findChildren<TargetTile*>()) EXPECT_EQ(tile->figures(), least) << width;

@@ -93,12 +93,12 @@ TEST_F(Lists, TheListOfCurvesUsesTheRoomThereIs) {
     window_->setStage(stage);
     auto* list = find<QWidget>(("panel." + key(stage).toStdString()).c_str())->findChild<CurveList*>();
     ASSERT_NE(list, nullptr);
-    QTest::qWait(50);
+    ASSERT_TRUE(settleLayout());
     EXPECT_EQ(list->verticalScrollBar()->value(), 0) << "the row selected is among the first ten";
     const int row = list->sizeHintForRow(0);
     window_->resize(1366, 700);
     ASSERT_TRUE(waitUntil([&] { return window_->height() == 700; }, 5000));
-    QTest::qWait(50);
+    ASSERT_TRUE(settleLayout());
     EXPECT_GE(list->height(), 10 * row);
     EXPECT_LT(list->height(), 11 * row) << "a low panel scrolls as a whole";
     // What is below a low window is reached by scrolling.
@@ -146,7 +146,7 @@ TEST_F(Lists, TheListOfCurvesStaysUnderTheMouseThatClicksIt) {
     ASSERT_TRUE(settle());
     ASSERT_EQ(session().selectedCurve(), row);
     ASSERT_TRUE(waitUntil([this] { return !session().isTargeting(); }));
-    QTest::qWait(30);
+    ASSERT_TRUE(settleLayout());
     places.insert(list->mapTo(window_.get(), QPoint(0, 0)).y());
     isSaid.insert(!fairingNote(*session().selected()).text.isEmpty());
   }

@@ -59,7 +59,7 @@ class Steady : public test::WindowFixture {
   CurveList* fairingList() { return find<QWidget>("panel.fairing")->findChild<CurveList*>(); }
   /// Where in the panel what can be clicked stands now.
   std::map<std::string, int> places() {
-    QTest::qWait(30);
+    EXPECT_TRUE(settleLayout());
     std::map<std::string, int> all;
     auto* panel = find<QWidget>("panel.fairing");
     for (const auto* button : panel->findChildren<QAbstractButton*>())
@@ -147,7 +147,7 @@ TEST_F(Steady, TilesSayTheSimilarityOnASmallScreenToo) {
   for (const int width : {1366, 1920}) {
     window_->resize(width, 740);
     ASSERT_TRUE(waitUntil([&] { return window_->width() == width; }, 5000));
-    QTest::qWait(30);
+    ASSERT_TRUE(settleLayout());
     for (const TargetTile* tile : window_->findChildren<TargetTile*>())
       EXPECT_TRUE(tile->showsSimilarity()) << tile->objectName().toStdString() << " at " << width;
   }
@@ -241,10 +241,14 @@ TEST_F(Steady, AnErrorCoversTheOfferOfUnsavedWorkOnlyUntilItIsDismissed) {
 TEST_F(Steady, TheDarkThemeIsDarkBeforeADrawingIsOpen) {
   auto* canvas = find<CurveCanvas>("canvas");
   window_->setThemeChoice(ThemeChoice::Dark);
-  QTest::qWait(50);
-  const QImage dark = canvas->grab().toImage();
+  QImage dark;
+  EXPECT_TRUE(waitUntil(
+      [&] {
+        dark = canvas->grab().toImage();
+        return qGray(dark.pixel(3, canvas->height() / 2)) < 80;
+      },
+      5000));
   window_->setThemeChoice(ThemeChoice::Light);
-  EXPECT_LT(qGray(dark.pixel(3, canvas->height() / 2)), 80);
   int least = 255, most = 0;
   for (int x = canvas->width() / 2 - 180; x < canvas->width() / 2 + 180; ++x) {
     for (int y = canvas->height() / 2 - 20; y < canvas->height() / 2 + 20; ++y) {
@@ -263,10 +267,14 @@ TEST_F(Steady, TheDarkThemeHasADarkDeskAndTheSamePage) {
   const QPoint desk(3, canvas->height() / 2), page = canvas->toWidget({200, 200}).toPoint();
   const QImage light = canvas->grab().toImage();
   window_->setThemeChoice(ThemeChoice::Dark);
-  QTest::qWait(50);
-  const QImage dark = canvas->grab().toImage();
+  QImage dark;
+  EXPECT_TRUE(waitUntil(
+      [&] {
+        dark = canvas->grab().toImage();
+        return qGray(dark.pixel(desk)) < 80;
+      },
+      5000));
   EXPECT_GT(qGray(light.pixel(desk)), 180);
-  EXPECT_LT(qGray(dark.pixel(desk)), 80);
   EXPECT_EQ(dark.pixel(page), light.pixel(page)) << "what was drawn keeps its look";
   window_->setThemeChoice(ThemeChoice::Light);
 }

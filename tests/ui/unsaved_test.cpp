@@ -82,7 +82,7 @@ TEST_F(Unsaved, EveryWayOutAsksAndCancelKeepsTheWork) {
     questions_ = 0;
     go();
     EXPECT_TRUE(waitUntil([this] { return questions_ > 0; }, 5000)) << name;
-    QTest::qWait(50);
+    QTest::qWait(50);  // a second question would come in the next turns of the event loop: there is nothing to wait for
     ASSERT_TRUE(settle());
     EXPECT_EQ(questions_, 1) << name;
     EXPECT_TRUE(window_->isVisible()) << name;

@@ -6,15 +6,19 @@
 #include <QAbstractItemView>
 #include <QApplication>
 #include <QComboBox>
+#include <QElapsedTimer>
 #include <QFile>
 #include <QLineEdit>
 #include <QMessageBox>
+#include <QRect>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTest>
 #include <QTimer>
 #include <functional>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "tests/ui/rendered_scan.h"
 #include "ui/canvas/curve_canvas.h"
@@ -120,6 +124,23 @@ class WindowFixture : public testing::Test {
   }
   bool settle() {
     return waitUntil([this] { return !session().isBusy(); });
+  }
+  /// Waits until nothing of the window has moved or changed its size for kStillMs: layouts act in posted events, which
+  /// may post more.
+  bool settleLayout() {
+    constexpr int kStillMs = 20, kLimitMs = 5000;  // many turns of the loop; nothing is laid out by a longer timer
+    std::vector<QRect> last;
+    QElapsedTimer still;
+    return waitUntil(
+        [&] {
+          std::vector<QRect> now;
+          for (const auto* widget : window_->findChildren<QWidget*>())
+            if (widget->isVisible()) now.push_back(widget->geometry());
+          if (!still.isValid() || now != last) still.start();
+          last = std::move(now);
+          return still.elapsed() >= kStillMs;
+        },
+        kLimitMs);
   }
   EditorSession& session() { return window_->session(); }
   template <class T>

@@ -73,7 +73,8 @@ TEST_F(Work, EscStopsTheComparisonOfMethodsToo) {
   ASSERT_TRUE(waitUntil([this] { return session().isWorking(); }));
   QTest::keyClick(find<CurveCanvas>("canvas"), Qt::Key_Escape);
   EXPECT_FALSE(session().isWorking());
-  QTest::qWait(50);
+  QTest::qWait(
+      50);  // what began by itself would begin in the next turns of the event loop: there is nothing to wait for
   EXPECT_FALSE(session().isWorking()) << "it does not begin again by itself";
   auto* table = find<MethodTable>("construct.method.row");
   QTest::mouseClick(find<QAbstractButton>("status.again"), Qt::LeftButton);

@@ -27,8 +27,8 @@
 namespace batten {
 namespace {
 
-constexpr int kLateMs = 200;
-constexpr int kFlashMs = 350;
+constexpr int kLateMs = 200;   // what takes longer is shown to be late
+constexpr int kFlashMs = 350;  // of what has just changed
 
 }  // namespace
 

@@ -24,8 +24,8 @@
 namespace batten {
 namespace {
 
-constexpr double kZoomPerNotch = 1.2;
-constexpr double kArrowStepPx = 60.0;
+constexpr double kZoomPerNotch = 1.2;  // of the wheel
+constexpr double kArrowStepPx = 60.0;  // of the screen, at an arrow key
 
 double notches(const QWheelEvent& event) {
   const QPoint angle = event.angleDelta();

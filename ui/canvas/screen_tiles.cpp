@@ -30,14 +30,12 @@ void ScreenTiles::paint(QPainter& painter, const ViewTransform& view, const Rast
       Entry& entry = tiles_[{x, y}];
       entry.used = clock_;
       visible.push_back({{x, y}, &entry});
-      if (!entry.image.isNull()) continue;
-      entry.image = QImage(kTile, kTile, QImage::Format_RGB32);
-      if (!entry.image.isNull()) missing.push_back({{x, y}, &entry.image});
+      if (entry.image.isNull()) missing.push_back({{x, y}, &entry.image});
     }
   parallelFor(RunContext{}, static_cast<int>(missing.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const auto& [key, image] = missing[i];
-      renderRaster(content_, zoom_, QRect(key.first * kTile, key.second * kTile, kTile, kTile), *image);
+      *image = renderRaster(content_, zoom_, QRect(key.first * kTile, key.second * kTile, kTile, kTile));
     }
   });
   rendered_ += missing.size();

@@ -17,7 +17,7 @@ namespace batten {
 /// first. Panning renders only what comes into view.
 class ScreenTiles {
  public:
-  static constexpr int kTile = 256;
+  static constexpr int kTile = 256;  // [device px] of a side
   /// Renders what is missing (on all cores) and paints the visible tiles. The painter works in device pixels.
   void paint(QPainter&, const ViewTransform&, const RasterContent&);
   std::size_t rendered() const { return rendered_; }  ///< Tiles rendered so far, for tests.

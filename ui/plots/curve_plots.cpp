@@ -44,7 +44,7 @@ struct CurvePlots::State {
   QSharedPointer<RoundLogTicker> logTicker;
   PlotEditing* editing = nullptr;
   bool isPending = false;
-  bool isTurned = false;              ///< By the user, against the way the curve lies on the drawing.
+  bool isReversed = false;            ///< By the user, against the way the curve lies on the drawing.
   std::optional<double> shownLength;  ///< None before the first data.
   PlotTab shownTab = PlotTab::Radius;
   std::optional<int> shownCurve;
@@ -69,7 +69,7 @@ CurvePlots::CurvePlots(EditorSession& session, const ViewSettings& view, QWidget
     if (judgedIn(state_->view) != state_->shownJudged || state_->view.radiusIsLinear() != state_->shownLinear)
       refreshSoon();
   });
-  connect(&session, &EditorSession::selectionChanged, this, [this] { state_->isTurned = false; });
+  connect(&session, &EditorSession::selectionChanged, this, [this] { state_->isReversed = false; });
   refresh();
 }
 
@@ -83,7 +83,7 @@ void CurvePlots::build() {
   d.head = new PlotHead(this);
   layout->addWidget(d.head);
   connect(d.head, &PlotHead::chosen, this, &CurvePlots::setTab);
-  connect(d.head, &PlotHead::reverseAsked, this, &CurvePlots::setTurned);
+  connect(d.head, &PlotHead::reverseAsked, this, &CurvePlots::setReversed);
   d.plot = new QCustomPlot(this);
   d.plot->setObjectName(QStringLiteral("plot"));
   d.plot->setAccessibleName(tr("Plot over arc length of the selected curve"));
@@ -144,12 +144,12 @@ void CurvePlots::setTab(PlotTab tab) {
   refresh();
 }
 
-void CurvePlots::setTurned(bool turned) {
-  state_->isTurned = turned;
+void CurvePlots::setReversed(bool reversed) {
+  state_->isReversed = reversed;
   refresh();
 }
 
-bool CurvePlots::isTurned() const { return state_->isTurned; }
+bool CurvePlots::isReversed() const { return state_->isReversed; }
 
 bool CurvePlots::runsLeft() const { return state_->plot->xAxis->rangeReversed(); }
 
@@ -223,12 +223,12 @@ void CurvePlots::refreshData() {
 
 void CurvePlots::showAxes() {
   State& d = *state_;
-  const bool isReversed = d.data.runsLeft != d.isTurned;
-  const bool isTurnedNow = d.plot->xAxis->rangeReversed() != isReversed;
-  d.plot->xAxis->setRangeReversed(isReversed);
-  if (isTurnedNow) emit directionChanged(isReversed);
-  d.lengthTicker->setReversed(isReversed);
-  d.head->setReversed(d.isTurned);
+  const bool runsLeft = d.data.runsLeft != d.isReversed;
+  const bool isReversedNow = d.plot->xAxis->rangeReversed() != runsLeft;
+  d.plot->xAxis->setRangeReversed(runsLeft);
+  if (isReversedNow) emit directionChanged(runsLeft);
+  d.lengthTicker->setReversed(runsLeft);
+  d.head->setReversed(d.isReversed);
   d.empty->setVisible(d.data.isEmpty());
   d.empty->setText(d.session.curves().empty() ? tr("No curve yet.") : tr("Select a curve to see its curvature."));
   d.empty->adjustSize();

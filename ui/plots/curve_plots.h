@@ -20,9 +20,9 @@ class CurvePlots : public QWidget {
   ~CurvePlots() override;
   PlotTab tab() const;
   void setTab(PlotTab tab);
-  /// Turns the plot of the selected curve round; another selection starts as its curve lies.
-  void setTurned(bool turned);
-  bool isTurned() const;
+  /// Reverses the plot of the selected curve; another selection starts as its curve lies.
+  void setReversed(bool reversed);
+  bool isReversed() const;
   /// [px] With which axes and targets are read at ease; minimumSizeHint() is the least.
   int goodHeight() const;
   /// True while lengths count from right to left.

@@ -14,6 +14,7 @@
 namespace batten {
 namespace {
 
+// of the mouse, for points, splits and the line
 constexpr double kReachPx = 9.0, kSplitReachPx = 5.0, kLineReachPx = 6.0;
 
 }  // namespace
@@ -98,7 +99,7 @@ std::optional<int> PlotEditing::splitAt(const QPoint& position) const {
 }
 
 bool PlotEditing::isOverAxes(const QPoint& position) const {
-  constexpr int kAround = static_cast<int>(kReachPx);
+  constexpr int kAround = static_cast<int>(kReachPx);  // beside the axes a point can still be taken
   return plot_->axisRect()->rect().adjusted(-kAround, -kAround, kAround, kAround).contains(position);
 }
 

@@ -31,8 +31,8 @@ namespace {
 
 constexpr double kLargestRadius = 20.0;  // extents that a plot shows
 constexpr double kMostlyBelow = 0.9;     // of the samples, on a linear axis
-constexpr int kSamples = 400;
-constexpr int kDeviationSamples = 160;
+constexpr int kSamples = 400;            // along a curve
+constexpr int kDeviationSamples = 160;   // along a curve
 /// Of the mean: how far up and down the plot of the speed reaches at least.
 constexpr double kLeastSpeedRange = 0.05;
 /// Of the extent: ends that are nearer to each other than this from left to right lie above each other.

@@ -12,7 +12,7 @@ namespace batten {
 
 /// In an order of its own, as the settings keep the number.
 enum class PlotTab { Radius, Curvature, Speed, Deviation, CurvatureSlope };
-inline constexpr int kPlotTabs = 5;
+inline constexpr int kPlotTabs = 5;  // their number
 
 /// What a line of a plot stands for; the plot chooses pen and colour.
 enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, DrawnTarget, Tolerance, Joint };

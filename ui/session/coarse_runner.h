@@ -45,7 +45,7 @@ class CoarseRunner {
   void run(const Request& request, const CancelToken& token);
   void post(const Request& request, const PipelineOutput& output);
 
-  static constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
+  static constexpr std::size_t kCacheBytes = std::size_t{32} << 20;  // limits the memory of coarse results
   Inbox& inbox_;
   Show show_;
   /// Of the worker's thread alone: the page that was made smaller last, and what became of it.

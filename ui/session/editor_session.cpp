@@ -16,7 +16,7 @@
 
 namespace batten {
 namespace {
-constexpr int kMostUndoSteps = 500;
+constexpr int kMostUndoSteps = 500;  // limits the memory of recipes
 /// [px] A curve that lies farther from a pinned one than this is another curve.
 constexpr double kSamePlacePx = 24.0;
 

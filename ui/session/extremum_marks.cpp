@@ -11,7 +11,7 @@ namespace batten {
 namespace {
 
 constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
-constexpr double kSamePlacePx = 1.0;
+constexpr double kSamePlacePx = 1.0;    // nearer marks are one
 QString extremumText(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
 
 /// The choice in the recipe that a note stands for. While a new run is on its way the numbers in the report are those

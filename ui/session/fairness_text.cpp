@@ -8,7 +8,7 @@
 namespace batten {
 namespace {
 
-constexpr double kPlaces = 1000.0;
+constexpr double kPlaces = 1000.0;  // parts that are shown of 1
 /// A log-aesthetic curve as near as this is worth naming.
 constexpr double kLikeLogAesthetic = 0.98;
 

@@ -9,7 +9,7 @@
 namespace batten {
 namespace {
 
-constexpr int kStepMs = 350;
+constexpr int kStepMs = 350;  // each step is seen
 
 }  // namespace
 

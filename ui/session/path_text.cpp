@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char16_t kFirstByte = 0xDC00;  ///< Code unit of a byte that is no UTF-8: this and the byte.
+// Bytes below 0x80 are always UTF-8.
 constexpr char16_t kLowestByte = kFirstByte + 0x80, kHighestByte = kFirstByte + 0xFF;
 constexpr qsizetype kLongestCharacter = 4;  ///< [bytes]
 const QString kAddress = QStringLiteral("file://");

@@ -14,8 +14,8 @@
 namespace batten {
 namespace {
 
-constexpr std::uint64_t kMostProfileBytes = 1 << 20;
-constexpr const char* kEnding = ".profile";
+constexpr std::uint64_t kMostProfileBytes = 1 << 20;  // limit of input
+constexpr const char* kEnding = ".profile";           // of the files
 
 QString folderOfProfiles() {
   return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + QStringLiteral("/profiles");

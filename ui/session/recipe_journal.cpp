@@ -18,7 +18,7 @@
 namespace batten {
 namespace {
 
-constexpr std::uint64_t kLargestBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kLargestBytes = std::uint64_t{64} << 20;  // limit of input
 
 std::unique_ptr<LockFile> lockOf(const QString& journal) {
   return std::make_unique<LockFile>(nativePath(journal + QStringLiteral(".lock")));

@@ -23,7 +23,7 @@ class LockFile;
 class RecipeJournal : public QObject {
   Q_OBJECT
  public:
-  static constexpr int kIntervalMs = 30000;
+  static constexpr int kIntervalMs = 30000;  // twice a minute, as the help says
 
   /// @param folder where the files lie; made when the first is written.
   RecipeJournal(EditorSession& session, const QString& folder);

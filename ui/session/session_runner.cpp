@@ -52,14 +52,14 @@ void EditorSession::Runner::run() {
   const auto runId = ++newestRun;
   isRunning = true;
   isStopped = false;
-  const qint64 started = startedMs.load();
-  const bool spare = started >= 0 && clock.elapsed() - started < kGraceMs;
+  const std::optional<qint64> started = jobStart.ms();
+  const bool spare = started && clock.elapsed() - *started < kGraceMs;
   overtaken.push_back(newestToken);
   auto job = [this, runId, generation = recipeGeneration, shown = session.scan_, picture = session.picture_,
               saved = session.recipeToSave(), page = numbersPage, isOfWanted = areNumbersOfWantedPage,
               edges = edgesWanted](const CancelToken& token) {
     const qint64 begin = clock.elapsed();
-    startedMs = begin;
+    jobStart.begin(begin);
     RunContext context;
     context.cancel = token;
     Recipe recipe = saved;
@@ -93,7 +93,7 @@ void EditorSession::Runner::run() {
     else
       output.error = done.error();
     const double milliseconds = static_cast<double>(clock.elapsed() - begin);
-    startedMs = -1;
+    jobStart.end();
     returnFreeMemory();
     inbox.post([this, scan, generation, runId, output, milliseconds] {
       applyEnd(scan, generation, runId, output, milliseconds);
@@ -103,7 +103,7 @@ void EditorSession::Runner::run() {
   if (!spare)
     stopOvertaken();
   else if (!grace.isActive())
-    grace.start(static_cast<int>(kGraceMs - (clock.elapsed() - started)));
+    grace.start(static_cast<int>(kGraceMs - (clock.elapsed() - *started)));
   updateBusy();
   runCoarse();
 }
@@ -124,11 +124,12 @@ void EditorSession::Runner::applyCoarse(const std::shared_ptr<const Scan>& scan,
 }
 
 void EditorSession::Runner::stopOvertaken() {
-  const qint64 started = startedMs.load();
-  const qint64 elapsed = clock.elapsed() - started;
-  if (started >= 0 && elapsed < kGraceMs) {
-    grace.start(static_cast<int>(kGraceMs - elapsed));
-    return;
+  if (const std::optional<qint64> started = jobStart.ms()) {
+    const qint64 elapsed = clock.elapsed() - *started;
+    if (elapsed < kGraceMs) {
+      grace.start(static_cast<int>(kGraceMs - elapsed));
+      return;
+    }
   }
   for (const CancelToken& token : overtaken) token.cancel();
   overtaken.clear();

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "ui/session/background_worker.h"
@@ -17,6 +18,22 @@
 #include "ui/session/target_runner.h"
 
 namespace batten {
+
+/// When the running job began. The job writes it, the GUI thread reads it.
+class JobStart {
+ public:
+  void begin(qint64 ms) { ms_ = ms; }
+  void end() { ms_ = kNone; }
+  /// On the clock of the runner; absent while no job runs.
+  std::optional<qint64> ms() const {
+    const qint64 ms = ms_;
+    return ms == kNone ? std::nullopt : std::optional(ms);
+  }
+
+ private:
+  static constexpr qint64 kNone = -1;  // no time of a clock; in the same word, so that both change at once
+  std::atomic<qint64> ms_{kNone};
+};
 
 /// The background side of a session. Jobs hold values only (scan, recipe, the shared cache) and post their results to
 /// `inbox`, which lives in the GUI thread; everything else here belongs to the GUI thread.
@@ -54,7 +71,7 @@ struct EditorSession::Runner {
   /// A run that a newer request overtakes still gets this long since its start, so that a drag that never pauses shows
   /// results all the same.
   static constexpr int kGraceMs = 150;
-  std::atomic<qint64> startedMs{-1};  ///< When the running job began, on `clock`; -1 = none runs.
+  JobStart jobStart;
   QElapsedTimer clock;
   QTimer grace;
   CancelToken newestToken;

@@ -14,6 +14,7 @@ namespace {
 /// [bytes] Of the outputs that are kept: the prepared page at two bytes a pixel, and masks and lines of a few runs, so
 /// that undoing finds them. Every value that a slider passes leaves some, too, which nobody asks for again.
 std::size_t cacheBytes(const Scan& scan) {
+  // that are kept at most; of small pages so many
   constexpr std::size_t kBytesPerPixel = 2, kLeastBytes = std::size_t{64} << 20;
   return std::max(kLeastBytes, kBytesPerPixel * scan.grey.width * scan.grey.height);
 }

@@ -151,7 +151,7 @@ void ViewSettings::setPaintedMode(EdgeMode mode) {
 }
 
 void ViewSettings::setBrushPx(double px) {
-  constexpr double kLeastPx = 2.0, kMostPx = 100.0;
+  constexpr double kLeastPx = 2.0, kMostPx = 100.0;  // of the brush, on the page
   if (!std::isfinite(px)) return;
   const double bounded = std::clamp(px, kLeastPx, kMostPx);
   if (brushPx_ == bounded) return;

@@ -34,6 +34,7 @@ enum class Layer {
   Junctions,
   Explained
 };
+// all, in the order of the enumeration
 inline constexpr std::array kLayers = {Layer::Scan,     Layer::LogImage,  Layer::Paper,    Layer::Mask, Layer::Edges,
                                        Layer::Segments, Layer::Curve,     Layer::Faired,   Layer::Comb, Layer::Corners,
                                        Layer::Regions,  Layer::Deviation, Layer::Extrema,  Layer::Band, Layer::Strokes,
@@ -59,6 +60,7 @@ enum class Tool {
   Ink,         ///< Click on an ink leaves it out or traces it again.
   Paint,       ///< Drag paints the trace mode of ink.
 };
+// all
 inline constexpr std::array kTools = {Tool::Select,    Tool::Thresholds, Tool::Corners, Tool::Pen,   Tool::Segments,
                                       Tool::Lines,     Tool::Rectangle,  Tool::Lasso,   Tool::Scale, Tool::Direction,
                                       Tool::Junctions, Tool::Sheet,      Tool::Ink,     Tool::Paint};

@@ -33,7 +33,7 @@ bool isManifest(const std::string& input) { return input == "-" || input.ends_wi
 Result<std::string> textOf(const std::string& input) {
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // some two million pages
   if (input == "-") {
-    constexpr std::size_t kBlock = std::size_t{1} << 16;
+    constexpr std::size_t kBlock = std::size_t{1} << 16;  // bytes that are read at once
     std::string lines;
     while (lines.size() <= kMostBytes) {
       const std::size_t before = lines.size();

@@ -24,14 +24,14 @@ volatile std::sig_atomic_t signalsCaught = 0;  // a signal handler can reach not
 
 void catchSignal(int) { signalsCaught = signalsCaught + 1; }
 
-constexpr int kTickMs = 100;          // signals are heard and memory is looked at this often
-constexpr int kLongestStartsMs = 50;  // the event loop is not held up longer by pages that need no call
-constexpr double kProgressEverySeconds = 1.0;
+constexpr int kTickMs = 100;                   // signals are heard and memory is looked at this often
+constexpr int kLongestStartsMs = 50;           // the event loop is not held up longer by pages that need no call
+constexpr double kProgressEverySeconds = 1.0;  // at most
 
 // What a call is taken to need at its peak. The program alone takes 85 MB; drawings and photographs of 0.2 to 35
 // megapixels took 6 to 25 bytes a pixel beside that, a page that one spiral of many turns covers took 55.
 constexpr std::uint64_t kBytesOfACall = std::uint64_t{96} << 20;
-constexpr std::uint64_t kBytesPerPixel = 64;
+constexpr std::uint64_t kBytesPerPixel = 64;  // above all that were measured
 
 /// [bytes] What tracing the page will take at its peak, from the size that the scan states.
 std::uint64_t memoryNeeded(const BatchPage& page) {

@@ -33,6 +33,7 @@ constexpr int kPictureQuality = 75;       // of JPEG, 0..100
 constexpr double kLineUnits = 1000.0;     // width of the drawing that holds the lines
 constexpr std::size_t kPagesAFile = 500;  // a browser shows so many curves at once without a wait
 
+// of the page
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>Batten: contact sheet</title><style>
@@ -142,7 +143,7 @@ QByteArray figuresOf(const PageRecord& record) {
 }
 
 QImage pictureIn(const std::string& file) {
-  constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
+  constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;  // limit of input
   const auto bytes = readWhole(file, kMostBytes);
   return bytes ? QImage::fromData(QByteArray::fromStdString(*bytes)) : QImage();
 }

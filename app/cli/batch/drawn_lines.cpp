@@ -15,7 +15,7 @@ namespace batten::cli {
 namespace {
 
 constexpr int kSamplesPerPiece = 64;  // a piece from corner to corner, on a picture of a few hundred pixels
-constexpr int kSamplesPerCubic = 4;
+constexpr int kSamplesPerCubic = 4;   // of an SVG
 
 DrawnLines linesOfJson(const std::string& text) {
   DrawnLines drawn;
@@ -87,7 +87,7 @@ DrawnLines linesOfSvg(const std::string& text) {
 }  // namespace
 
 DrawnLines drawnLines(const std::string& output) {
-  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // limit of input
   const auto text = readWhole(output, kMostBytes);
   if (!text) return {};
   if (output.ends_with(".json")) return linesOfJson(*text);

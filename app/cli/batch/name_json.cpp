@@ -11,8 +11,8 @@
 namespace batten::cli {
 namespace {
 
-constexpr std::string_view kHexDigits = "0123456789abcdef";
-constexpr std::size_t kEscape = 6;  // bytes of \uXXXX
+constexpr std::string_view kHexDigits = "0123456789abcdef";  // in the order of their values
+constexpr std::size_t kEscape = 6;                           // bytes of \uXXXX
 
 /// XXXX of the \uXXXX at the start of `text`.
 std::optional<unsigned> escapeOf(std::string_view text) {
@@ -29,7 +29,7 @@ std::optional<unsigned> escapeOf(std::string_view text) {
 }  // namespace
 
 std::string parsableLine(std::string_view line) {
-  constexpr unsigned kByteFrom = 0xdc80, kByteTo = 0xdcff;
+  constexpr unsigned kByteFrom = 0xdc80, kByteTo = 0xdcff;  // code units that stand for bytes that are no UTF-8
   std::string text;
   const auto addByte = [&](char byte) { text.append("\\").append(byteText(byte)); };  // a backslash of JSON is two
   while (!line.empty()) {

@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kMostRecordBytes = std::uint64_t{64} << 20;
-constexpr std::uint64_t kReadAtOnce = std::uint64_t{1} << 20;  // [bytes]
+constexpr std::uint64_t kMostRecordBytes = std::uint64_t{64} << 20;  // limit of input
+constexpr std::uint64_t kReadAtOnce = std::uint64_t{1} << 20;        // [bytes]
 
 const char* wordOf(PageStatus status) {
   switch (status) {

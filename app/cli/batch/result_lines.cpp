@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kNearBytes = std::size_t{16} << 10;  // where a line is looked for first; a line takes about one
 constexpr std::size_t kResultsAtOnce = std::size_t{4} << 20;  // [bytes] of a file of results that is read whole
 
+// as this program writes them
 constexpr std::string_view kKeyMark = "\"key\":\"", kFailedMark = "\"status\":\"failed\"";
 
 /// The key of a page that the line calls done or empty; empty: it calls none so. Our own lines are not parsed: quotes

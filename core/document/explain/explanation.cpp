@@ -57,7 +57,7 @@ Result<Reference> makeReference(const GreyImage& page, const Recipe& recipe, con
 // [grey] By which the page is darker at a place of a line than at both its sides, where that is the least; of a border,
 // by which it is darker on the right.
 double depthAt(const RedrawnPoint& p, const Vec2& along, bool isBorder, const GreyImage& page) {
-  constexpr double kBesidePx[] = {1.5, 2.5, 3.5};
+  constexpr double kBesidePx[] = {1.5, 2.5, 3.5};  // to either side
   const Vec2 across = leftNormal(along.normalized());
   const auto level = [&](double off) {
     double sum = 0.0;
@@ -78,10 +78,10 @@ double depthAt(const RedrawnPoint& p, const Vec2& along, bool isBorder, const Gr
 // A line or border may be too faint for the reference at every pixel and still be seen along its length: the mean over
 // a stretch is known better than a pixel by the root of their number.
 bool isFaintlySeen(const RedrawnCurve& c, std::size_t first, std::size_t last, const Reference& reference) {
-  constexpr std::size_t kFewestPoints = 6;
-  constexpr double kClear = 3.0;          // [standard deviations of the mean]
-  constexpr double kNoiseLengthPx = 3.0;  // along which the noise of the smoothed page is alike
-  constexpr double kFaintShare = 0.25;    // of the minimum contrast of reference ink
+  constexpr std::size_t kFewestPoints = 6;  // of a stretch
+  constexpr double kClear = 3.0;            // [standard deviations of the mean]
+  constexpr double kNoiseLengthPx = 3.0;    // along which the noise of the smoothed page is alike
+  constexpr double kFaintShare = 0.25;      // of the minimum contrast of reference ink
   if (last - first < kFewestPoints) return false;
   double depth = 0.0, contrast = 0.0;
   for (std::size_t i = first; i < last; ++i) {

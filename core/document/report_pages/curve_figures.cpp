@@ -13,19 +13,19 @@
 namespace batten {
 namespace {
 
-constexpr int kPlotSamples = 400, kCombSamples = 120;
+constexpr int kPlotSamples = 400, kCombSamples = 120;  // along a curve
 /// [mm] Distance of drawn cubics from the curves, and what their coordinates are rounded to.
 constexpr double kDrawnWithinMm = 0.001, kDrawnGridMm = 1e-7;
-constexpr double kDrawingMarginMm = 5.0;
-constexpr double kSketchedWidthMm = 0.18, kFairedWidthMm = 0.25, kThinMm = 0.12;
-constexpr double kNumberOffsetMm = 1.2;
+constexpr double kDrawingMarginMm = 5.0;                                          // around the drawing
+constexpr double kSketchedWidthMm = 0.18, kFairedWidthMm = 0.25, kThinMm = 0.12;  // of lines
+constexpr double kNumberOffsetMm = 1.2;                                           // of the number of a curve from it
 /// Of the larger side of a curve: the longest quill of its comb.
 constexpr double kLongestQuill = 0.3;
 /// Times the extent of a curve: radii that a plot tells apart.
 constexpr double kLeastRadius = 1e-4, kMostRadius = 20.0;
 constexpr double kLeastDecades = 0.5;  ///< A nearly constant radius looks constant.
-constexpr double kAxisLeftMm = 13.0, kAxisFootMm = 8.0, kAxisHeadMm = 2.0, kAxisRightMm = 3.0;
-constexpr int kMostTicks = 7;
+constexpr double kAxisLeftMm = 13.0, kAxisFootMm = 8.0, kAxisHeadMm = 2.0, kAxisRightMm = 3.0;  // room for labels
+constexpr int kMostTicks = 7;                                                                   // of an axis
 /// [mm] Height of the numbers at the axes, and of the row that each of them needs.
 constexpr double kLabelHeightMm = 2.2, kLabelRowMm = 2.6;
 

@@ -8,9 +8,9 @@
 namespace batten {
 namespace {
 
-constexpr double kTickStepMm = 10.0;
-constexpr double kTickMm = 1.2, kEndTickMm = 2.4;
-constexpr double kBarWidthMm = 0.25;
+constexpr double kTickStepMm = 10.0;               // of the scale bar
+constexpr double kTickMm = 1.2, kEndTickMm = 2.4;  // of the scale bar
+constexpr double kBarWidthMm = 0.25;               // of its line
 
 }  // namespace
 

@@ -16,7 +16,7 @@ namespace {
 
 /// [1/inch] Units of the device: fonts have a whole number of them.
 constexpr int kResolution = 2540;
-constexpr double kLeading = 1.35;
+constexpr double kLeading = 1.35;  // line height in font sizes
 
 QString familyOfPages() {
   const QStringList known = QFontDatabase::families();

@@ -16,6 +16,7 @@
 namespace batten {
 namespace {
 
+// of figures: two fit beside each other on a page
 constexpr double kCombWidthMm = 84.0, kPlotWidthMm = 96.0, kFigureHeightMm = 50.0;
 
 std::string mm(double value) {
@@ -26,7 +27,7 @@ std::string mm(double value) {
 
 /// Two digits, with a power of ten where zeros would hide them: "6.8", "4.7e8".
 std::string energyText(double value) {
-  constexpr double kLeastPlain = 0.01, kMostPlain = 1e4;
+  constexpr double kLeastPlain = 0.01, kMostPlain = 1e4;  // outside, numbers have a power of ten
   if (!std::isfinite(value)) return "-";
   if (value == 0.0 || (value >= kLeastPlain && value < kMostPlain)) return significantText(value, 2);
   const double power = std::floor(std::log10(value));
@@ -102,7 +103,7 @@ ReportContent::CurveSection sectionOf(const TracedCurve& curve, int number, cons
 
 /// "roof.dxf, in inch, 3 lines: roof, sill, door"; a unit that was assumed is said to be.
 std::string importFact(const ImportedFile& file) {
-  constexpr std::size_t kMostNames = 12;
+  constexpr std::size_t kMostNames = 12;  // that are listed
   const bool assumed = file.unit.ends_with('?');
   std::string text = file.source + ", unit " + (assumed ? file.unit.substr(0, file.unit.size() - 1) : file.unit) +
                      (assumed ? " (assumed: the file states none)" : "") + ", " + std::to_string(file.lines.size()) +

@@ -8,9 +8,10 @@
 namespace batten {
 namespace {
 
-constexpr int kFigureDecimals = 4;
-constexpr double kBarLengthMm = 100.0, kBarRoomMm = 10.0;
+constexpr int kFigureDecimals = 4;                         // of coordinates in mm
+constexpr double kBarLengthMm = 100.0, kBarRoomMm = 10.0;  // of the scale bar
 
+// of the page
 constexpr const char* kStyle =
     "body{font:13px/1.45 system-ui,'Noto Sans','Liberation Sans',sans-serif;color:#1d1f21;background:#fff;"
     "max-width:1100px;margin:32px auto;padding:0 24px}\n"

@@ -12,11 +12,11 @@
 namespace batten {
 namespace {
 
-constexpr double kMarginMm = 12.0, kFootMm = 8.0, kBarRoomMm = 9.0, kBarLengthMm = 100.0;
-constexpr double kOverlapMm = 10.0, kMarkMm = 4.0;
-constexpr int kMostSheets = 40;
-constexpr double kTextMm = 3.0, kRowMm = 5.2, kSmallMm = 2.5;
-constexpr double kNameWidthMm = 24.0, kFactNameMm = 34.0;
+constexpr double kMarginMm = 12.0, kFootMm = 8.0, kBarRoomMm = 9.0, kBarLengthMm = 100.0;  // of the sheet
+constexpr double kOverlapMm = 10.0, kMarkMm = 4.0;             // of sheets that are put together
+constexpr int kMostSheets = 40;                                // of a drawing: limits the paper
+constexpr double kTextMm = 3.0, kRowMm = 5.2, kSmallMm = 2.5;  // sizes of fonts and rows
+constexpr double kNameWidthMm = 24.0, kFactNameMm = 34.0;      // columns
 
 /// Sheets of one orientation for the drawing.
 struct SheetPlan {

@@ -97,7 +97,7 @@ class Entity {
   }
   /// The name that Batten wrote behind its mark; the texts of other programs are none.
   std::string name() const {
-    constexpr int kApplication = 1001, kText = 1000;
+    constexpr int kApplication = 1001, kText = 1000;  // codes of groups
     const auto own = std::find_if(tags_.begin(), tags_.end(),
                                   [](const Tag& tag) { return tag.code == kApplication && tag.value == "BATTEN"; });
     return own != tags_.end() && std::next(own) != tags_.end() && std::next(own)->code == kText
@@ -176,7 +176,7 @@ std::optional<CadShape> ellipseOf(const Entity& entity) {
   const auto ratio = entity.real(40), start = entity.real(41, 0.0), end = entity.real(42, 2.0 * std::numbers::pi);
   if (!centre || !major || !ratio || !start || !end) return std::nullopt;
   if (!(major->norm() > 0.0) || !(*ratio > 0.0) || !(*ratio <= 1.0 + 1e-9)) return std::nullopt;
-  constexpr double kFullTurn = 2.0 * std::numbers::pi;
+  constexpr double kFullTurn = 2.0 * std::numbers::pi;  // rad
   const double turns = std::fmod(*end - *start, kFullTurn);
   const auto unit = curveOf(CadArc{Vec2::Zero(), 1.0, *start, turns > 1e-12 ? turns : turns + kFullTurn});
   if (!unit) return std::nullopt;
@@ -326,7 +326,7 @@ class Reader {
   }
 
   void beginPolyline(const Entity& entity) {
-    constexpr int kMeshes = 16 | 64;
+    constexpr int kMeshes = 16 | 64;  // flags of polylines that are none
     const auto flags = entity.whole(70, 0);
     polyline_ = CadEntity{entity.name(), entity.textOf(8), CadPolyline{{}, flags && (*flags & 1) != 0}};
     polylineIsWrong_ = !flags || (*flags & kMeshes) != 0 || entity.isMirrored();

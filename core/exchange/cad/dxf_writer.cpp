@@ -15,8 +15,8 @@
 namespace batten {
 namespace {
 
-constexpr const char* kApplication = "BATTEN";
-constexpr int kPlanarSpline = 8;
+constexpr const char* kApplication = "BATTEN";     // under which names are stored
+constexpr int kPlanarSpline = 8;                   // flag
 constexpr int kColours[] = {7, 1, 5, 3, 6, 4, 2};  ///< AutoCAD's colour numbers, one a layer, in their order.
 
 /// UTF-8 as DXF keeps it; what a layer must not hold becomes a dash.

@@ -38,7 +38,7 @@ std::optional<double> millimetresOf(int flag, const std::string& name) {
                                                        {"M", 1000.0},
                                                        {"FT", 12.0 * kMillimetresPerInch},
                                                        {"UM", 1e-3}};
-  constexpr int kByName = 3;
+  constexpr int kByName = 3;  // flag: the unit is the name, not the number
   if (flag == kByName) {
     const auto named = kNames.find(name);
     return named == kNames.end() ? std::nullopt : std::optional(named->second);
@@ -59,7 +59,7 @@ class IgesReader {
     readUnit();
     if (auto done = findComposites(); !done) return fail(done.error());
     for (std::size_t i = 0; i < records_.entries.size(); ++i) {
-      constexpr std::size_t kEvery = 256;
+      constexpr std::size_t kEvery = 256;  // between two looks at whether the run was cancelled
       if (i % kEvery == 0 && context_.isCancelled()) return cancelled();
       if (records_.entries[i].type == kComposite) {
         for (const std::size_t child : children_[i]) {
@@ -73,7 +73,7 @@ class IgesReader {
   }
 
  private:
-  static constexpr int kComposite = 102, kMatrix = 124;
+  static constexpr int kComposite = 102, kMatrix = 124;  // types of entities
 
   void readUnit() {
     // The third parameter of the section is the first here: the unit's flag is the 14th, its name the 15th.
@@ -113,11 +113,11 @@ class IgesReader {
 
   /// The matrices of an entry, the inner one first.
   Result<IgesMatrix> matrixOf(const IgesDirectoryEntry& entry) {
-    constexpr int kDeepest = 8;
+    constexpr int kDeepest = 8;  // matrices on matrices: a circle of them ends
     IgesMatrix all;
-    int line = entry.matrix;
-    for (int depth = 0; line != 0; ++depth) {
-      const auto at = entryAt(line);
+    std::optional<int> line = entry.matrix;
+    for (int depth = 0; line; ++depth) {
+      const auto at = entryAt(*line);
       if (!at || depth == kDeepest || records_.entries[*at].type != kMatrix)
         return igesDamaged(entry.line, "its transformation is missing");
       auto known = matrices_.find(*at);
@@ -140,7 +140,7 @@ class IgesReader {
 
   /// The records of the properties of an entry.
   std::vector<std::size_t> propertiesOf(const IgesDirectoryEntry& entry, const std::vector<std::string>& fields) const {
-    constexpr int kProperty = 406, kMostProperties = 64;
+    constexpr int kProperty = 406, kMostProperties = 64;  // a type; limit of input
     std::vector<std::size_t> found;
     const IgesNumbers n(fields);
     const auto own = igesOwnNumbers(entry, n);
@@ -167,7 +167,7 @@ class IgesReader {
 
   /// The name of an entry: its name property, which holds more than the eight letters of a label.
   std::string nameOf(const IgesDirectoryEntry& entry, const std::vector<std::size_t>& properties) {
-    constexpr int kNameForm = 15;
+    constexpr int kNameForm = 15;     // of a property
     constexpr std::size_t kName = 2;  // behind its type and the count of its values
     for (const std::size_t property : properties) {
       if (records_.entries[property].form != kNameForm) continue;
@@ -178,7 +178,7 @@ class IgesReader {
 
   /// The layer of an entry: what its level is for, by a level function property, else the number of the level.
   std::string layerOfEntry(const IgesDirectoryEntry& entry, const std::vector<std::size_t>& properties) {
-    constexpr int kLevelForm = 3;
+    constexpr int kLevelForm = 3;            // of a property
     constexpr std::size_t kDescription = 3;  // behind its type, the count of its values and a code
     if (entry.level <= 0) return {};
     for (const std::size_t property : properties) {
@@ -195,6 +195,7 @@ class IgesReader {
 
   Result<void> take(std::size_t index) {
     const IgesDirectoryEntry& entry = records_.entries[index];
+    // places and values of the digits of the status
     constexpr int kBlanked = 1000000, kUse = 100, kParameterSpace = 5;
     const bool isHidden = entry.status / kBlanked == 1 || entry.status / kUse % 100 == kParameterSpace;
     if (isOther(entry.type) || isHidden) return {};

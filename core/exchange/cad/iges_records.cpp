@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kSectionColumn = 72;  // the letter of the section
 constexpr std::size_t kDataColumns = 64;    // of a line of parameters
 constexpr std::size_t kFieldColumns = 8;    // of a line of the directory
-constexpr int kLongestString = 1 << 20;
+constexpr int kLongestString = 1 << 20;     // characters: limit of input
 
 std::string_view fieldOf(std::string_view line, std::size_t index) {
   return line.substr(index * kFieldColumns, kFieldColumns);
@@ -95,10 +95,11 @@ Result<void> readGlobal(const std::string& text, IgesRecords& records) {
 Result<void> addEntry(std::string_view first, std::string_view second, std::size_t line, IgesRecords& records) {
   IgesDirectoryEntry entry;
   entry.line = line;
+  int matrix = 0;
   const std::array<std::pair<std::string_view, int*>, 7> fields{{{fieldOf(first, 0), &entry.type},
                                                                  {fieldOf(first, 1), &entry.parameterLine},
                                                                  {fieldOf(first, 4), &entry.level},
-                                                                 {fieldOf(first, 6), &entry.matrix},
+                                                                 {fieldOf(first, 6), &matrix},
                                                                  {fieldOf(first, 8), &entry.status},
                                                                  {fieldOf(second, 3), &entry.parameterLines},
                                                                  {fieldOf(second, 4), &entry.form}}};
@@ -107,6 +108,7 @@ Result<void> addEntry(std::string_view first, std::string_view second, std::size
     if (!number) return igesDamaged(line, "an entry of the directory is not a number");
     *value = *number;
   }
+  if (matrix != 0) entry.matrix = matrix;
   entry.label = trimmed(fieldOf(second, 7));
   records.entries.push_back(std::move(entry));
   return {};

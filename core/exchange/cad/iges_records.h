@@ -14,7 +14,7 @@ namespace batten {
 struct IgesDirectoryEntry {
   int type = 0, form = 0;
   int parameterLine = 0, parameterLines = 0;  ///< Where its data begin, counted from 1, and how many lines they take.
-  int matrix = 0;                             ///< Directory line of its transformation; 0: none.
+  std::optional<int> matrix;                  ///< Directory line of its transformation.
   int level = 0;
   int status = 0;  ///< Eight digits: blank, subordinate, use, hierarchy.
   std::string label;

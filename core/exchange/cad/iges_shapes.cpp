@@ -65,7 +65,7 @@ std::optional<CadShape> copiousOf(const IgesNumbers& n, int form) {
   if (!kind || !count) return std::nullopt;
   const std::size_t stride = *kind == 1 ? 2 : *kind == 2 ? 3 : 6, begin = *kind == 1 ? 3 : 2;
   if (!n.has(begin + stride * *count)) return std::nullopt;
-  constexpr int kClosedArea = 63;
+  constexpr int kClosedArea = 63;  // form
   CadPolyline line{{}, form == kClosedArea};
   for (int i = 0; i < *count; ++i) line.vertices.push_back({n.point(begin + stride * i)});
   if (line.closed && line.vertices.front().point == line.vertices.back().point) line.vertices.pop_back();

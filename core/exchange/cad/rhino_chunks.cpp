@@ -6,7 +6,7 @@
 namespace batten::rhino {
 
 std::uint32_t crc32(std::string_view bytes) {
-  constexpr std::uint32_t kPolynomial = 0xedb88320;
+  constexpr std::uint32_t kPolynomial = 0xedb88320;  // of CRC-32, reversed
   static const auto table = [] {
     std::array<std::uint32_t, 256> entries{};
     for (std::uint32_t i = 0; i < 256; ++i) {

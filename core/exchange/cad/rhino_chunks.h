@@ -33,11 +33,12 @@ enum Code : std::uint32_t {
 inline constexpr std::uint32_t kShort = 0x80000000;   ///< Bit of codes whose second number is a value.
 inline constexpr std::uint32_t kHasCrc = 0x00008000;  ///< Bit of codes whose content ends with a CRC-32.
 
-inline constexpr std::string_view kHead = "3D Geometry File Format        3";
+inline constexpr std::string_view kHead = "3D Geometry File Format        3";  // of the file
 /// Classes by their 16 bytes, as they stand in the file.
 inline constexpr std::string_view kNurbsCurveId{"\xdd\xd4\xd7\x4e\x47\xe9\xd3\x11\xbf\xe5\x00\x10\x83\x01\x22\xf0", 16};
+// a class
 inline constexpr std::string_view kLayerId{"\x13\x98\x80\x95\x85\xe9\xd3\x11\xbf\xe5\x00\x10\x83\x01\x22\xf0", 16};
-inline constexpr std::uint32_t kCurveKind = 4;
+inline constexpr std::uint32_t kCurveKind = 4;                 // of objects: 4 is a curve
 inline constexpr std::uint32_t kMillimetres = 2, kInches = 8;  ///< Of the unit chunk.
 
 /// CRC-32 as in zlib, of IEEE 802.3.

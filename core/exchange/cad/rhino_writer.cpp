@@ -71,9 +71,11 @@ std::string instance(std::string_view id, const std::string& data) {
 }
 
 std::string units(double mmPerUnit) {
+  // of the record; decimals of numbers on the screen
   constexpr std::uint32_t kRhinoVersion = 102, kRhinoDecimals = 3;
+  // what Rhino has by itself: unit, rad, share
   constexpr double kAbsoluteTolerance = 0.001, kAngleTolerance = 0.0174532925199433, kRelativeTolerance = 0.01;
-  constexpr double kMetresPerMm = 0.001;
+  constexpr double kMetresPerMm = 0.001;  // the record is in metres
   const std::uint32_t unit = mmPerUnit == kMillimetresPerInch ? kInches : kMillimetres;
   return Bytes()
       .number(kRhinoVersion)
@@ -89,8 +91,8 @@ std::string units(double mmPerUnit) {
 }
 
 std::string layer(const std::string& name, std::uint32_t index) {
-  constexpr std::uint8_t kRhinoVersion = 0x11;
-  constexpr std::uint32_t kNone = 0xffffffff;
+  constexpr std::uint8_t kRhinoVersion = 0x11;                                      // 1.1 of the record
+  constexpr std::uint32_t kNone = 0xffffffff;                                       // of a reference
   constexpr std::array<std::uint32_t, 2> kRhinoColours = {0x00000000, 0x002000b0};  // 0x00BBGGRR: black, then red
   return Bytes()
       .byte(kRhinoVersion)
@@ -109,8 +111,8 @@ std::string layer(const std::string& name, std::uint32_t index) {
 }
 
 std::string nurbs(const NurbsCurve& curve) {
-  constexpr std::uint8_t kRhinoVersion = 0x10;
-  constexpr std::uint32_t kDimension = 3;
+  constexpr std::uint8_t kRhinoVersion = 0x10;  // 1.0 of the record
+  constexpr std::uint32_t kDimension = 3;       // z is 0
   const auto points = curve.controlPoints();
   const auto knots = curve.knots();
   Bytes bytes;
@@ -136,8 +138,8 @@ std::string objectId(std::uint32_t index) {
 }
 
 std::string attributes(const CadEntity& entity, std::uint32_t index, std::uint32_t layerIndex) {
-  constexpr std::uint8_t kRhinoVersion = 0x12;
-  constexpr std::uint32_t kNone = 0xffffffff;
+  constexpr std::uint8_t kRhinoVersion = 0x12;  // 1.2 of the record
+  constexpr std::uint32_t kNone = 0xffffffff;   // of a reference
   return Bytes()
       .byte(kRhinoVersion)
       .raw(objectId(index))
@@ -196,7 +198,7 @@ Result<std::string> writeRhino(const CadDrawing& drawing) {
   file += table(kSettings, chunk(kUnits, units(drawing.mmPerUnit.value_or(1.0))));
   file += table(kMaterialTable, {}) + table(kLayerTable, layerRecords) + table(kLightTable, {});
   file += table(kObjectTable, objects);
-  constexpr std::uint32_t kEndLength = 12;
+  constexpr std::uint32_t kEndLength = 12;  // bytes of the last chunk, which states the length of the file
   return file + chunk(kEndOfFile, Bytes().number(static_cast<std::uint32_t>(file.size()) + kEndLength).text());
 }
 

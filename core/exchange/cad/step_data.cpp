@@ -13,7 +13,7 @@ Eigen::Vector3d vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v
 }  // namespace
 
 bool StepPlacement::isUpright() const {
-  constexpr double kSame = 1e-12;
+  constexpr double kSame = 1e-12;  // of directions: rounding
   return axes.determinant() > 0.0 && (axes.transpose() * axes).isIdentity(kSame);
 }
 
@@ -48,8 +48,8 @@ std::optional<StepPlacement> placementOf(const StepData& data, const StepValue& 
 std::optional<CadShape> conicShape(const StepPlacement& placed, const Vec2& half, double from, double sweep) {
   if (!(half.x() > 0.0) || !(half.y() > 0.0)) return std::nullopt;
   if (half.x() == half.y() && placed.isUpright()) {
-    const double turned = std::atan2(placed.axes(1, 0), placed.axes(0, 0));
-    return CadArc{placed.origin, half.x(), from + turned, sweep};
+    const double rotation = std::atan2(placed.axes(1, 0), placed.axes(0, 0));
+    return CadArc{placed.origin, half.x(), from + rotation, sweep};
   }
   const auto unit = curveOf(CadArc{Vec2::Zero(), 1.0, from, sweep});
   const Eigen::Matrix2d linear = placed.axes * half.asDiagonal();

@@ -31,7 +31,7 @@ struct StepTrim {
   bool forwards = true;
 };
 
-CadShape turned(CadShape shape) {
+CadShape reversed(CadShape shape) {
   if (auto* line = std::get_if<CadLine>(&shape)) std::swap(line->from, line->to);
   if (auto* line = std::get_if<CadPolyline>(&shape)) std::reverse(line->vertices.begin(), line->vertices.end());
   if (auto* curve = std::get_if<NurbsCurve>(&shape)) *curve = reversed(*curve);
@@ -49,7 +49,7 @@ class StepReader {
     radiansPerUnit_ = units.radiansPerUnit;
     const std::vector<std::uint64_t> roots = findRoots();
     for (std::size_t i = 0; i < roots.size(); ++i) {
-      constexpr std::size_t kEvery = 256;
+      constexpr std::size_t kEvery = 256;  // between two looks at whether the run was cancelled
       if (i % kEvery == 0 && context_.isCancelled()) return cancelled();
       const std::size_t before = drawing_.entities.size();
       if (!take(roots[i], {}, 0)) {
@@ -211,7 +211,7 @@ class StepReader {
       if ((*segment)[1].text != "F") continue;
       const auto begin = drawing_.entities.begin() + static_cast<std::ptrdiff_t>(first);
       std::reverse(begin, drawing_.entities.end());
-      std::for_each(begin, drawing_.entities.end(), [](CadEntity& e) { e.shape = turned(std::move(e.shape)); });
+      std::for_each(begin, drawing_.entities.end(), [](CadEntity& e) { e.shape = reversed(std::move(e.shape)); });
     }
     return true;
   }
@@ -250,7 +250,7 @@ class StepReader {
     auto from = angleOf(trim->from), to = angleOf(trim->to);
     if (!from || !to) return std::nullopt;
     if (!trim->forwards) std::swap(from, to);
-    constexpr double kSame = 1e-9;
+    constexpr double kSame = 1e-9;  // [rad] a smaller sweep is a whole turn
     double sweep = std::fmod(*to - *from, kFullTurnRad);
     if (sweep <= kSame) sweep += kFullTurnRad;
     return conicShape(*placed, half, *from, sweep);

@@ -10,7 +10,7 @@
 namespace batten {
 namespace {
 
-constexpr int kDeepestList = 32;
+constexpr int kDeepestList = 32;                 // limit of input
 constexpr std::size_t kMostValues = 24'000'000;  // 1 GB; a file of 64 MB has fewer
 
 bool isStepBlank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
@@ -34,12 +34,13 @@ class StepScanner {
       if (at_ >= text_.size()) return fail(ErrorCode::BadParameter, kEndIsMissing);
       if (text_.substr(at_).starts_with("ENDSEC;")) return std::move(out_);
       if (!readInstance()) return problem_ ? fail(*problem_) : damaged("an entry was expected");
-      constexpr std::size_t kEvery = 4096;
+      constexpr std::size_t kEvery = 4096;  // between two looks at whether the run was cancelled
       if (out_.order.size() % kEvery == 0 && context_.isCancelled()) return cancelled();
     }
   }
 
  private:
+  // an error
   static constexpr const char* kEndIsMissing = "The STEP file cannot be read: its end is missing. Export it again.";
 
   tl::unexpected<Error> damaged(const std::string& what) const {

@@ -26,10 +26,10 @@ Result<void> begin(ExportCurve& line) {
   if (line.pieces.size() == 1) {
     NurbsCurve& curve = line.pieces[0].curve;
     const double u = closestPoint(curve, wanted).u;
-    auto turned = startedAt(curve, u);
-    if (!turned) return fail(turned.error());
+    auto begun = startedAt(curve, u);
+    if (!begun) return fail(begun.error());
     if (auto& width = line.pieces[0].width) width = startedAt(*width, ArcLength(curve).at(u));
-    curve = std::move(*turned);
+    curve = std::move(*begun);
     return {};
   }
   const auto first = std::min_element(line.pieces.begin(), line.pieces.end(), [&](const auto& a, const auto& b) {

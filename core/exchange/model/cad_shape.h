@@ -12,7 +12,7 @@
 
 namespace batten {
 
-inline constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
+inline constexpr double kFullTurnRad = 2.0 * std::numbers::pi;  // a whole turn
 
 /// What CAD files are made of: each alternative is an entity of DXF, IGES and STEP. Lengths in the unit of the file,
 /// y up, angles counter-clockwise from x.

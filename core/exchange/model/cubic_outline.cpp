@@ -15,7 +15,7 @@
 namespace batten {
 namespace {
 
-constexpr int kSamplesPerCubic = 8;
+constexpr int kSamplesPerCubic = 8;  // where the outline is looked at
 // Of a piece's extent: its last cubic ends so near to its end. One of those before it may come near by chance, but not
 // to within rounding.
 constexpr double kNearEnd = 1e-3, kAtEnd = 1e-5;

@@ -26,7 +26,7 @@ constexpr int kMaxDepth = 24;           ///< Halvings; 1/2^24 of a piece is far 
 constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
 
-constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+constexpr double kAnyDistance = std::numeric_limits<double>::infinity();  // no limit
 constexpr int kCurvatureRounds = 12;          ///< Steps towards the curvatures at both ends.
 constexpr double kMaxCurvatureError = 0.008;  ///< At the end of a cubic; two that meet may jump by twice as much.
 constexpr double kLeastCurvature = 0.05;      ///< [1/length of the curve] What a curvature error is measured against.

@@ -21,8 +21,8 @@ namespace batten {
 namespace {
 
 constexpr double kOnTop = 1e-7;  ///< Of the size of a curve: how near it lies to one that it lies on top of.
-constexpr int kTopSamples = 17;
-constexpr double kSteps = 1e6;  ///< Lengths that differ by less than a millionth are alike.
+constexpr int kTopSamples = 17;  // along a curve
+constexpr double kSteps = 1e6;   ///< Lengths that differ by less than a millionth are alike.
 /// Stretches that a curve is looked at by: enough that few of a page full of curves have one near a place.
 constexpr int kMostStretches = 32;
 
@@ -145,7 +145,7 @@ class StretchSquares {
   static int levelOf(double size) { return std::ilogb(std::max(kRoom * size, kLeastSquareMm)) + 1; }
   static Key keyOf(int level, const Vec2& place, int right, int up) {
     const double side = std::ldexp(1.0, level);
-    constexpr double kFarthest = 1e15;
+    constexpr double kFarthest = 1e15;  // squares from the origin; a 64 bit number holds it
     const auto numberOf = [&](double v) {
       return static_cast<std::int64_t>(std::clamp(std::floor(v / side), -kFarthest, kFarthest));
     };

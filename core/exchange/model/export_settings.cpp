@@ -11,20 +11,21 @@
 namespace batten {
 namespace {
 
+// [mm] deviation where the user names none
 constexpr double kPathTolerance = 0.002, kCubicTolerance = 0.005, kChordTolerance = 0.01;
 constexpr double kLeastTolerance = 1e-6;  ///< [mm] What the decimals of the files can hold.
 
 using Endings = std::span<const char* const>;
 
-constexpr const char* kSvg[] = {".svg"};
-constexpr const char* kJson[] = {".json"};
-constexpr const char* kDxf[] = {".dxf"};
-constexpr const char* kIges[] = {".igs", ".iges"};
-constexpr const char* kStep[] = {".stp", ".step"};
-constexpr const char* kPdf[] = {".pdf"};
-constexpr const char* kCsv[] = {".csv"};
-constexpr const char* kPolynomials[] = {".poly.csv"};
-constexpr const char* kRhino[] = {".3dm"};
+constexpr const char* kSvg[] = {".svg"};               // endings of the format
+constexpr const char* kJson[] = {".json"};             // endings of the format
+constexpr const char* kDxf[] = {".dxf"};               // endings of the format
+constexpr const char* kIges[] = {".igs", ".iges"};     // endings of the format
+constexpr const char* kStep[] = {".stp", ".step"};     // endings of the format
+constexpr const char* kPdf[] = {".pdf"};               // endings of the format
+constexpr const char* kCsv[] = {".csv"};               // endings of the format
+constexpr const char* kPolynomials[] = {".poly.csv"};  // endings of the format
+constexpr const char* kRhino[] = {".3dm"};             // endings of the format
 
 /// Polynomials come before CSV: their ending ends in the other's.
 constexpr std::array kFormats = {ExportFormat::Svg,  ExportFormat::Json,        ExportFormat::Dxf,
@@ -182,7 +183,7 @@ const ExportPreset* findPreset(std::string_view id) {
 std::optional<Error> validate(const ExportSettings& settings) {
   const auto wrong = [](std::string message) { return Error{ErrorCode::BadParameter, std::move(message), {}}; };
   const auto isAbove = [](double value, double least) { return std::isfinite(value) && value > least; };
-  constexpr double kLargestScale = 1e6;
+  constexpr double kLargestScale = 1e6;  // limit of input
   if (!isAbove(settings.scale, 0.0) || settings.scale > kLargestScale)
     return wrong("The scale of an export must be above 0 and at most 1000000.");
   if (settings.toleranceMm && !(std::isfinite(*settings.toleranceMm) && *settings.toleranceMm >= kLeastTolerance))

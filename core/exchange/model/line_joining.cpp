@@ -104,7 +104,7 @@ std::vector<Link> chainOf(const std::vector<ExportCurve>& lines, const std::vect
   const bool isLoop =
       chain.size() > 1 && (last.isReversed ? neighbours[last.line].atStart : neighbours[last.line].atEnd).has_value();
   if (!isLoop) {
-    // What lies before the line: walked from it backwards, and turned round.
+    // What lies before the line: walked from it backwards, and reversed.
     std::vector<Link> before = walk(neighbours, {line, true});
     before.erase(before.begin());
     std::reverse(before.begin(), before.end());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
@@ -13,8 +14,8 @@ namespace {
 
 constexpr double kStepWidths = 0.125;  ///< Of the largest width, from place to place: turns of half a width have 12.
 constexpr int kFewestSteps = 8;        ///< Between two places where something may jump.
-constexpr int kMostSteps = 2000;
-constexpr double kSameShare = 1e-9;  ///< Of the length: places nearer to each other are one.
+constexpr int kMostSteps = 2000;       // Limits the size of an outline.
+constexpr double kSameShare = 1e-9;    ///< Of the length: places nearer to each other are one.
 
 /// Where the width changes its growth or the curve its polynomial, both ends included.
 std::vector<double> breaksOf(const NurbsCurve& curve, const WidthProfile& width, const ArcLength& length) {
@@ -34,14 +35,17 @@ std::vector<double> breaksOf(const NurbsCurve& curve, const WidthProfile& width,
 
 /// Whether a border would have another direction behind than before.
 bool isJump(const MiddlePlace& before, const MiddlePlace& behind) {
-  constexpr double kSameRad = 1e-6;
+  constexpr double kSameRad = 1e-6;  // rounding
   return (before.along - behind.along).norm() > kSameRad || std::abs(before.growth - behind.growth) > kSameRad;
 }
 
-void addPiece(const ExportPiece& piece, CancelCheck check, std::vector<MiddlePlace>& places) {
+/// @param before the last place of the piece that this one goes on from
+std::vector<MiddlePlace> middlePlaces(const ExportPiece& piece, const std::optional<MiddlePlace>& before,
+                                      CancelCheck check) {
+  std::vector<MiddlePlace> places;
   const NurbsCurve& curve = piece.curve;
   const ArcLength length(curve);
-  if (!(length.total() > 0.0)) return;
+  if (!(length.total() > 0.0)) return places;
   const double step = kStepWidths * figuresOf(*piece.width).largest;
   const std::vector<double> breaks = breaksOf(curve, *piece.width, length);
   const double ratio = piece.width->length() / length.total();
@@ -59,14 +63,16 @@ void addPiece(const ExportPiece& piece, CancelCheck check, std::vector<MiddlePla
       const auto d = curve.derivatives(inside, 1);
       MiddlePlace place{curve.point(u), Vec2::UnitX(), 0.0, piece.width->at(s * ratio), growth, i == 0};
       const double speed = d[1].norm();
+      const std::optional<MiddlePlace> last = places.empty() ? before : places.back();
       if (speed > 0.0)
         place.along = d[1] / speed;
-      else if (!places.empty())
-        place.along = places.back().along;
+      else if (last)
+        place.along = last->along;
       place.kappa = curvature(curve, inside).value_or(0.0);
-      if (i > 0 || places.empty() || isJump(places.back(), place)) places.push_back(place);
+      if (i > 0 || !last || isJump(*last, place)) places.push_back(place);
     }
   }
+  return places;
 }
 
 }  // namespace
@@ -81,7 +87,9 @@ std::vector<StrokeMiddle> strokeMiddles(const ExportCurve& line, CancelCheck che
       continue;
     }
     if (!hasWidthBefore || !doMeet(line.pieces[i - 1].curve, piece.curve)) middles.emplace_back();
-    addPiece(piece, check, middles.back().places);
+    std::vector<MiddlePlace>& places = middles.back().places;
+    const auto more = middlePlaces(piece, places.empty() ? std::nullopt : std::optional(places.back()), check);
+    places.insert(places.end(), more.begin(), more.end());
     hasWidthBefore = true;
   }
   std::erase_if(middles, [](const StrokeMiddle& middle) { return middle.places.size() < 2; });

@@ -20,7 +20,7 @@ constexpr double kCornerRad = 1e-3;       ///< Smaller turns from piece to piece
 constexpr double kArcStepRad = 0.1;       ///< Between the places of a round end.
 constexpr double kLoopReachWidths = 6.0;  ///< Along the stroke: so far from a tight turn its borders may cross.
 
-Vec2 turnedBy(const Vec2& v, double angle) {
+Vec2 rotated(const Vec2& v, double angle) {
   return {std::cos(angle) * v.x() - std::sin(angle) * v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.y()};
 }
 
@@ -42,12 +42,13 @@ struct BorderArc {
   std::ptrdiff_t middle;
 };
 
-void addArc(const BorderArc& arc, std::vector<BorderPlace>& border) {
+std::vector<BorderPlace> arcPlaces(const BorderArc& arc) {
+  std::vector<BorderPlace> border;
   const int steps = std::max(4, static_cast<int>(std::ceil(std::abs(arc.angle) / kArcStepRad)));
   const double turn = std::abs(arc.angle);
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    const Vec2 radius = turnedBy(arc.out, t * arc.angle);
+    const Vec2 radius = rotated(arc.out, t * arc.angle);
     const double length = std::lerp(arc.fromRadius, arc.toRadius, t), growth = (arc.toRadius - arc.fromRadius) / turn;
     border.push_back(
         {.at = arc.centre + length * radius,
@@ -55,6 +56,11 @@ void addArc(const BorderArc& arc, std::vector<BorderPlace>& border) {
          .begins = i == 0,
          .middle = arc.middle});
   }
+  return border;
+}
+
+void appendPlaces(const std::vector<BorderPlace>& places, std::vector<BorderPlace>& border) {
+  border.insert(border.end(), places.begin(), places.end());
 }
 
 /// One side of a stroke, in its direction of travel: +1 the left one.
@@ -66,8 +72,9 @@ std::vector<BorderPlace> sideOf(const StrokeMiddle& middle, double side) {
       const Vec2 &before = places[i - 1].along, &behind = places[i].along;
       const double turn = std::atan2(cross(before, behind), before.dot(behind));
       if (std::abs(turn) > kCornerRad && turn * side < 0.0) {
-        addArc({places[i].at, side * leftNormal(before), turn, 0.5 * places[i - 1].width, 0.5 * places[i].width, i},
-               border);
+        appendPlaces(arcPlaces({places[i].at, side * leftNormal(before), turn, 0.5 * places[i - 1].width,
+                                0.5 * places[i].width, i}),
+                     border);
       } else if (std::abs(turn) > kCornerRad && !border.empty()) {
         border.back().isBackwards = true;  // an inner corner: the borders of its sides cross
       }
@@ -207,7 +214,7 @@ class LoopRemoval {
   std::vector<Kept> kept_;
 };
 
-std::vector<BorderPlace> turnedRound(std::vector<BorderPlace> border) {
+std::vector<BorderPlace> reversedBorder(std::vector<BorderPlace> border) {
   std::reverse(border.begin(), border.end());
   for (BorderPlace& place : border) place.along = -place.along;
   // What began behind a place now begins at the one after it.
@@ -257,16 +264,17 @@ void addOutline(StrokeMiddle middle, double tolerance, CancelCheck check, WidthO
   const auto left = sideWithoutLoops(1.0), right = sideWithoutLoops(-1.0);
   if (middle.closed) {
     addLoop(right, tolerance, check, outline);
-    addLoop(turnedRound(left), tolerance, check, outline);
+    addLoop(reversedBorder(left), tolerance, check, outline);
     return;
   }
   // Anticlockwise: the right side, round the end, the left side back, round the start.
   std::vector<BorderPlace> border = right;
   const auto addCap = [&](const MiddlePlace& end, const Vec2& from) {
-    if (end.width > 0.0) addArc({end.at, from, std::numbers::pi, 0.5 * end.width, 0.5 * end.width, 0}, border);
+    if (end.width > 0.0)
+      appendPlaces(arcPlaces({end.at, from, std::numbers::pi, 0.5 * end.width, 0.5 * end.width, 0}), border);
   };
   addCap(middle.places.back(), -leftNormal(middle.places.back().along));
-  const auto back = turnedRound(left);
+  const auto back = reversedBorder(left);
   border.insert(border.end(), back.begin(), back.end());
   addCap(middle.places.front(), leftNormal(middle.places.front().along));
   addLoop(border, tolerance, check, outline);
@@ -304,8 +312,8 @@ class MiddleWalk {
   }
 
  private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-  static constexpr std::ptrdiff_t kNear = 64;  ///< [places] to either side of the last one
+  static constexpr double kFar = std::numeric_limits<double>::infinity();  // mm
+  static constexpr std::ptrdiff_t kNear = 64;                              ///< [places] to either side of the last one
   /// Of the width: deeper in the ink a place is no border; of a stroke that grows by g the sides lie g^2 / 16 deep.
   static constexpr double kDeepShare = 0.01, kDeepPerGrowth = 0.125;
 
@@ -320,7 +328,7 @@ class MiddleWalk {
     const double length = std::max(chord.norm(), std::numeric_limits<double>::min());
     Foot foot{std::clamp((p - a.at).dot(chord) / (length * length), 0.0, 1.0)};
     Vec2 at = a.at;
-    constexpr int kLoopRounds = 4;
+    constexpr int kLoopRounds = 4;  // of Newton, from a near start
     for (int round = 0; round <= kLoopRounds; ++round) {
       const double t = foot.t, r = 1.0 - t;
       at = r * r * (1.0 + 2.0 * t) * a.at + t * t * (1.0 + 2.0 * r) * b.at +
@@ -383,7 +391,7 @@ class MiddleWalk {
 double distanceFromWidth(const std::vector<std::array<Vec2, 4>>& border, const ExportCurve& line, CancelCheck check) {
   const std::vector<StrokeMiddle> middles = strokeMiddles(line, check);
   if (middles.empty() || border.empty()) return std::numeric_limits<double>::infinity();
-  constexpr int kPlacesPerCubic = 4;
+  constexpr int kPlacesPerCubic = 4;  // where the border is compared
   MiddleWalk walk(middles);
   double worst = 0.0;
   for (const auto& c : border) {

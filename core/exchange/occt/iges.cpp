@@ -33,9 +33,9 @@
 namespace batten {
 namespace {
 
-constexpr double kResolution = 1e-6;  ///< [unit of the file] Stated in the global section.
-constexpr int kIges53 = 11;
-constexpr std::size_t kLabelLength = 8;
+constexpr double kResolution = 1e-6;     ///< [unit of the file] Stated in the global section.
+constexpr int kIges53 = 11;              // number of version 5.3 in the format
+constexpr std::size_t kLabelLength = 8;  // characters
 
 Handle(TCollection_HAsciiString) text(const std::string& s) { return new TCollection_HAsciiString(s.c_str()); }
 
@@ -132,7 +132,7 @@ std::optional<CadShape> arcOf(const Handle(IGESGeom_CircularArc) & entity) {
   if (!(entity->TransformedAxis().Z() > 0.5)) return std::nullopt;  // seen from behind
   const Vec2 c(centre.X(), centre.Y()), a = Vec2(from.X(), from.Y()) - c, b = Vec2(to.X(), to.Y()) - c;
   if (!(a.norm() > 0.0)) return std::nullopt;
-  constexpr double kFullTurn = 2.0 * std::numbers::pi;
+  constexpr double kFullTurn = 2.0 * std::numbers::pi;  // rad
   const double turn = std::atan2(cross(a, b), a.dot(b));
   const bool whole = a == b;
   return CadArc{c, a.norm(), std::atan2(a.y(), a.x()), whole ? kFullTurn : turn > 0.0 ? turn : turn + kFullTurn};
@@ -191,7 +191,7 @@ Result<std::string> writeIges(const CadDrawing& drawing, const std::string& titl
       if (level == layers.end()) {
         level = layers.insert(layers.end(), entity.layer);
         names.push_back(new IGESAppli_LevelFunction);
-        constexpr int kValues = 2, kOwnCode = 0;
+        constexpr int kValues = 2, kOwnCode = 0;  // of the property: its own code is not used
         names.back()->Init(kValues, kOwnCode, text(entity.layer));
         names.back()->InitLevel(Handle(IGESData_LevelListEntity)(), static_cast<int>(std::ssize(layers)));
       }

@@ -36,7 +36,7 @@
 namespace batten {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad] a whole one
 
 /// A string of ISO 10303-21 as UTF-8: what stands between \\X2\\ and \\X0\\ is UTF-16 in hexadecimal.
 std::string plain(const Handle(TCollection_HAsciiString) & text) {

@@ -26,8 +26,8 @@ std::string withoutBlanks(std::string text) {
   return text;
 }
 
-constexpr double kPxPerInch = 96.0;
-constexpr int kDeepestElement = 256;
+constexpr double kPxPerInch = 96.0;        // of CSS
+constexpr int kDeepestElement = 256;       // limit of input
 constexpr double kSmoothRad = kRadPerDeg;  // a turn that is no corner
 
 struct Affine {
@@ -105,7 +105,7 @@ class ShapesReader {
 
   Result<SvgShapes> read() {
     for (std::size_t count = 0; !xml_.atEnd(); ++count) {
-      constexpr std::size_t kEvery = 1024;
+      constexpr std::size_t kEvery = 1024;  // between two looks at whether the run was cancelled
       if (count % kEvery == 0 && context_.isCancelled()) return cancelled();
       const auto token = xml_.readNext();
       if (token == QXmlStreamReader::EndElement && !frames_.empty()) frames_.pop_back();
@@ -256,7 +256,7 @@ class ShapesReader {
       std::size_t end = i + 1;
       while (end < segments.size() && continues(segments[end - 1], segments[end])) ++end;
       const std::span<const NurbsCurve> run(segments.data() + i, end - i);
-      constexpr double kGap = 1e-9;
+      constexpr double kGap = 1e-9;  // of the size: rounding
       auto joined = run.size() == 1 ? Result<NurbsCurve>(run.front()) : joinAtCorners(run, kGap * sizeOf(run));
       if (joined) {
         line.curves.push_back({std::move(*joined)});

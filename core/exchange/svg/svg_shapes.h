@@ -14,7 +14,7 @@ namespace batten {
 struct SvgShapes {
   std::vector<ImportedLine> lines;  ///< In mm, y up, from the lower left corner of the page.
   int left = 0;                     ///< Texts, pictures, copies (use) and what cannot be understood.
-  double mmPerUnit = 0.0;           ///< Of the page's units; the smaller one where x and y differ. 0: no svg element.
+  double mmPerUnit = 1.0;           ///< Of the page's units; the smaller one where x and y differ.
   bool hasSize = true;              ///< False: no physical size is stated, a unit is taken for 1/96 inch.
 };
 

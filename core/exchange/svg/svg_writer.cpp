@@ -13,11 +13,11 @@
 namespace batten {
 namespace {
 
-constexpr int kDecimals = 9;
+constexpr int kDecimals = 9;  // of numbers that are no paths
 /// [mm] Places of paths hold this many decimals: so many that rounding leaves the curvature of short cubics alone.
 constexpr int kPathDecimals = 12;
-constexpr double kGridMm = 1e-12;
-constexpr double kLeastToleranceMm = 1e-6;
+constexpr double kGridMm = 1e-12;           // as many decimals
+constexpr double kLeastToleranceMm = 1e-6;  // limit of input
 
 std::string fixed(double value) { return fixedNumber(value, kDecimals); }
 

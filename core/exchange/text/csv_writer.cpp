@@ -19,7 +19,7 @@
 namespace batten {
 namespace {
 
-constexpr std::size_t kColumns = 8;
+constexpr std::size_t kColumns = 8;   // of a row
 constexpr int kMostRows = 1'000'000;  ///< Of one curve; more is a mistyped spacing.
 
 std::string header(const PageFrame& frame, const std::string& unit, int rows) {
@@ -104,7 +104,7 @@ Result<double> checkCsv(std::string_view text, const ExportDocument& document, c
       const std::string name = entityName(line, i);
       std::optional<double> last;
       while (at < lines.size()) {
-        constexpr std::size_t kRowsBetweenLooks = 1024;
+        constexpr std::size_t kRowsBetweenLooks = 1024;  // at whether the run was cancelled
         if (at % kRowsBetweenLooks == 0 && context.isCancelled()) return cancelled();
         const std::vector<std::string> fields = csvFields(lines[at]);
         if (fields.size() != kColumns) return readsBackOtherwise("a row of another length");

@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFormat = "batten-curves";
-constexpr int kVersion = 1;
+constexpr std::string_view kFormat = "batten-curves";  // what every file says it is
+constexpr int kVersion = 1;                            // of the format
 
 Json pointsToJson(std::span<const Vec2> points) {
   Json list = Json::array();

@@ -21,10 +21,11 @@
 namespace batten {
 namespace {
 
-constexpr std::size_t kBefore = 5;  ///< Columns before the coefficients.
-constexpr int kPolynomialPlaces = 200;
+constexpr std::size_t kBefore = 5;      ///< Columns before the coefficients.
+constexpr int kPolynomialPlaces = 200;  // where a file that was read back is compared
 
 constexpr double kNearEnough = 1e-12;  ///< Of the size of a rational curve: its polynomials may lie so far from it.
+// polynomials for a span of a rational curve, doubled up to the most for the whole
 constexpr int kStepsPerSpan = 8, kMostSteps = 4096;
 
 /// A rational curve as quintics over its arc length: they share place, direction and curvature with it at ever closer
@@ -76,7 +77,7 @@ std::vector<Vec2> coefficientsOf(const BezierPiece& piece) {
 }
 
 int highestDegree(const ExportDocument& document) {
-  constexpr int kOfRational = 5;
+  constexpr int kOfRational = 5;  // degree of the polynomials for a rational curve
   int degree = 1;
   for (const ExportCurve& line : document.curves)
     for (const ExportPiece& piece : line.pieces)

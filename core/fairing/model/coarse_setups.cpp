@@ -15,17 +15,17 @@
 namespace batten {
 namespace {
 
-constexpr int kCoarseDegree = 5;
+constexpr int kCoarseDegree = 5;  // below it the slope of the curvature jumps at knots
 /// Numbers of spans, each about 1.6 times the one before.
 constexpr std::array kOpenSpans = {1, 2, 3, 5, 8, 13, 21, 34, 55, 89};
-constexpr std::array kClosedSpans = {5, 6, 8, 13, 21, 34, 55, 89};
+constexpr std::array kClosedSpans = {5, 6, 8, 13, 21, 34, 55, 89};  // a periodic quintic has five at least
 /// Share of the sketched curve's spans that a start may have: more would win nothing over the curve itself.
 constexpr double kMostSpans = 0.75;
 /// Of the mean span: breakpoints nearer to each other are as good as one.
 constexpr double kShortestSpan = 1e-3;
 /// A sketch of fewer extrema does not tremble; one of more may, and is tried over so many spans.
 constexpr int kTrembles = 6;
-constexpr std::array kCalmSpans = {13, 5, 3};
+constexpr std::array kCalmSpans = {13, 5, 3};  // the most first
 
 /// Breakpoints 0..1, by shares of the arc length.
 std::vector<double> breaksFor(const FairingSetup& sketch, int spans) {

@@ -14,8 +14,8 @@ namespace {
 /// Stiffness against sliding along the curve, in that of the longest wave. Sliding changes no shape, but far slides
 /// make the linear model wrong: it is damped more than moves across the curve, and never quite free.
 constexpr double kTangentDamping = 1e5, kTangentFloor = 1.0;
-constexpr int kConjugateSteps = 25;
-constexpr double kConjugateTolerance = 1e-2;
+constexpr int kConjugateSteps = 25;           // limits the work of one solution
+constexpr double kConjugateTolerance = 1e-2;  // share of the residual at which it is good enough
 
 LocalRow positionRow(const Vec2& direction, const SpanRow& basis, int degree) {
   LocalRow row;

@@ -12,15 +12,15 @@
 namespace batten {
 namespace {
 
-constexpr int kSamplesPerSpan = 4;
-constexpr int kChecksPerSpan = 12, kMostChecks = 400;
+constexpr int kSamplesPerSpan = 4;                     // where the objective is taken
+constexpr int kChecksPerSpan = 12, kMostChecks = 400;  // at least and at most, where speed and deviation are checked
 /// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
 constexpr double kMeasured = 0.999;
 constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
 /// A move that is too long is shortened to this part of what is allowed: the deviation is all but proportional to it,
 /// and rounding must not make another round of it. Never to less than a hundredth at once.
 constexpr double kShrinkRoom = 0.9995, kMostShrinking = 0.01;
-constexpr int kMostShrinkings = 60;
+constexpr int kMostShrinkings = 60;  // limits the work where nothing comes within
 /// Of the extent: control points that differ by less are the same but for rounding.
 constexpr double kSamePeriodic = 1e-8;
 /// What may lie between the places where a distance is measured.
@@ -149,7 +149,7 @@ int samplesFor(const SpanBasis& basis) {
     whole += basis.width(i);
     shortest = std::min(shortest, basis.width(i));
   }
-  constexpr double kMostUneven = 8.0;
+  constexpr double kMostUneven = 8.0;  // times the mean: more samples are not made for the sake of one short span
   const double uneven = shortest > 0.0 ? std::clamp(whole / (shortest * spans), 1.0, kMostUneven) : kMostUneven;
   return static_cast<int>(std::ceil(kSamplesPerSpan * spans * uneven - 1e-6)) + 1;
 }
@@ -248,9 +248,10 @@ double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& poin
 }
 
 FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
+  // a note
   constexpr const char* kSeamInTheWay =
       "Unchanged: making this closed curve periodic would move it by more than the tolerance.";
-  constexpr const char* kAllTaken = "Unchanged: the tolerance is too small. Raise it.";
+  constexpr const char* kAllTaken = "Unchanged: the tolerance is too small. Raise it.";  // a note
   auto kept = unchanged(curve, closed, Termination::Degenerate,
                         params.takenMm >= params.toleranceMm ? kAllTaken : kSeamInTheWay, check);
   kept.report.withinTolerance = false;

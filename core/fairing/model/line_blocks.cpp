@@ -12,8 +12,8 @@ namespace {
 
 /// Blocks of so many pixels, as in the fair fit; short lines have shorter ones of a few points each.
 constexpr double kBlockPx = 8.0;
-constexpr double kFewestBlocks = 40.0;
-constexpr double kPointsPerBlock = 3.0;
+constexpr double kFewestBlocks = 40.0;   // of a line
+constexpr double kPointsPerBlock = 3.0;  // at least
 /// Points that lie off by more than so many standard deviations belong to something else.
 constexpr double kOutlier = 6.0;
 /// [px] The noise of points on a perfect page, below which none counts as an outlier (kLeastNoisePx of the fair fit).

@@ -16,6 +16,7 @@ namespace {
 constexpr double kNoMisfit = 1e-24;  // a millionth of a millionth of the reference, squared
 /// Part of a small decrease that a step must promise, for a shorter one to be tried after it.
 constexpr double kLeastPromise = 1e-4;
+// what differs from the usual steps
 constexpr LevenbergOptions kFairingSteps{.success = 8.0,
                                          .failure = 8.0,
                                          .leastDamping = 1e-9,

@@ -16,15 +16,16 @@ namespace {
 constexpr double kSmallestWeight = 0.5, kWeightStep = 8.0, kRoughWeightStep = 16.0;
 /// [extents] At first the curve leaves the sketch by about this.
 constexpr double kHardlyMoved = 1e-4;
-constexpr int kMostSteps = 10;
+constexpr int kMostSteps = 10;  // limits the work
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
+// [iterations, share of the objective] to begin with, from a near step, and at the end
 constexpr FairingLimits kFull{40, 1e-4}, kWarm{6, 1e-3}, kPolish{12, 1e-5};
 /// A long wavy curve whose target is plainly out of reach is not worth the last per cent: from so many samples on, a
 /// target farther off than this share of the extent after the first iterations is followed with less effort.
 constexpr int kLongCurve = 600;
-constexpr double kOutOfReach = 0.02;
-constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};
+constexpr double kOutOfReach = 0.02;                                         // of the extent
+constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};  // the same, of long curves
 
 }  // namespace
 

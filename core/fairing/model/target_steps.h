@@ -45,7 +45,7 @@ class TargetSteps {
   void goOn();
   /// The first meets the target fully, but where they ended before (endsEarly). Empty when the sketch has a cusp, or
   /// when cancelled.
-  const std::vector<TargetStep>& all() const { return steps_; }
+  const std::vector<TargetStep>& steps() const { return steps_; }
   bool endsEarly() const { return early_; }
   /// Less effort was made: a long curve, and a target far out of its reach.
   bool isRough() const { return rough_; }

@@ -10,7 +10,7 @@
 namespace batten {
 namespace {
 
-constexpr int kCurvaturePlaces = 4;
+constexpr int kCurvaturePlaces = 4;  // a span
 
 }  // namespace
 

@@ -14,7 +14,7 @@ struct ShapeProfile {
   std::vector<double> curvature;  ///< kappa * length.
   bool closed = false;            ///< The last sample is followed by the first.
 };
-inline constexpr int kShapeSamples = 360;
+inline constexpr int kShapeSamples = 360;  // along a curve, at equal arc length
 
 /// Absent (empty) for a curve without length.
 ShapeProfile shapeProfile(const NurbsCurve&, bool closed);

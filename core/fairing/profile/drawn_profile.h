@@ -16,7 +16,7 @@ struct ProfilePoint {
   bool operator==(const ProfilePoint&) const = default;
 };
 
-inline constexpr std::size_t kMostProfilePoints = 200;
+inline constexpr std::size_t kMostProfilePoints = 200;  // limit of input
 
 /// What makes a list no profile: fewer than two or too many points, fractions outside 0..1 or not ascending, numbers
 /// that are not finite. An empty list is valid: nothing is drawn.

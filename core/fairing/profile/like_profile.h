@@ -13,7 +13,7 @@ namespace batten {
 std::vector<ProfilePoint> shapeOf(const NurbsCurve&);
 
 /// Such a shape as a drawn profile for a curve: curvature over its length, laid so that it is most like the curve's own
-/// (turned round, mirrored; on closed curves begun elsewhere; compareShapes). Empty where one of the two has no length.
+/// (reversed, mirrored; on closed curves begun elsewhere; compareShapes). Empty where one of the two has no length.
 std::vector<ProfilePoint> profileLike(std::span<const ProfilePoint> shape, const NurbsCurve&, bool closed);
 
 }  // namespace batten

@@ -223,7 +223,7 @@ std::vector<double> fitPinnedPolynomial(std::span<const double> f, std::span<con
 }
 
 bool isMonotonePolynomial(std::span<const double> coefficients) {
-  constexpr int kSteps = 1000;
+  constexpr int kSteps = 1000;  // at which the polynomial is looked at
   double up = 0.0, down = 0.0, before = polynomial(coefficients, 0.0), size = std::abs(before);
   for (int i = 1; i <= kSteps; ++i) {
     const double now = polynomial(coefficients, static_cast<double>(i) / kSteps);

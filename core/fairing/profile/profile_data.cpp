@@ -15,8 +15,8 @@ namespace {
 
 /// |rho| counts as at most this many extents of the curve.
 constexpr double kRadiusLimit = 10.0;
-constexpr double kExactShare = 1e-6;
-constexpr int kLeastCompared = 121;  // samples
+constexpr double kExactShare = 1e-6;  // of the values, rms: a nearer fit counts as this, or AICc would have no bound
+constexpr int kLeastCompared = 121;   // samples
 
 double clippedRadius(double kappa, double largest) {
   return std::abs(kappa) * largest > 1.0 ? 1.0 / kappa : std::copysign(largest, kappa);

@@ -10,6 +10,7 @@ namespace batten {
 
 /// What a profile is fitted to.
 struct ProfileData {
+  // By sample. Not one struct a sample: fits and similarities are of whole vectors.
   std::vector<double> perimeter, kappa, radius;
   std::vector<double> values;  ///< Of the quantity that is fitted.
   double largestRadius = 0.0;

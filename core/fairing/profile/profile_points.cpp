@@ -14,7 +14,7 @@ constexpr int kCompared = 1000;
 constexpr double kCurvatureShare = 0.01;
 /// Of the largest curvature: a target that turns back by less is flat.
 constexpr double kFlatShare = 1e-3;
-constexpr int kMostAdded = 25;
+constexpr int kMostAdded = 25;  // one by one, to a profile
 /// Of the length: nearer to another point, or to an end, no point is set.
 constexpr double kLeastApart = 2.5e-3;
 /// The same for places where the target turns back: several in one flat stretch are one.

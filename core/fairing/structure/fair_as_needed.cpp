@@ -21,7 +21,7 @@ namespace {
 
 /// Cut-off waves are tried in these steps, from this many blocks or spans on.
 constexpr double kWaveStep = 1.2;
-constexpr double kShortestSpans = 2.0, kShortestBlocks = 4.0;
+constexpr double kShortestSpans = 2.0, kShortestBlocks = 4.0;  // of the shortest wave that is tried
 /// Up to this many lengths of the curve: such a wave leaves no more than a straight line would.
 constexpr double kLongestWave = 4.0;
 /// Blocks that must be left over for the noise to be told from the misfit.
@@ -45,7 +45,7 @@ constexpr double kMostSearchWork = 1e5;
 constexpr double kFarthest = 30.0;
 /// [px^3] Density of the systematic error of edge points: less noise than this is not believed.
 constexpr double kLeastDensity = 0.0064;
-constexpr FairingLimits kLimits{15, 1e-4};
+constexpr FairingLimits kLimits{15, 1e-4};  // [iterations, share of the objective]
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kFairRoom = 0.998;
 

@@ -107,9 +107,9 @@ class MonotoneFairing {
     for (const TargetProfile& profile : targets.profiles) {
       const auto objective = targetObjective(setup_, profile);
       if (!objective) continue;
-      const TargetSteps steps(setup_, *objective, context_, mostMm);
-      iterations_ += steps.iterations();
-      for (const TargetStep& step : steps.all())
+      const TargetSteps followed(setup_, *objective, context_, mostMm);
+      iterations_ += followed.iterations();
+      for (const TargetStep& step : followed.steps())
         curves.push_back(candidates_.overSketch(step.points, step.extrema, step.deviationMm));
     }
     return curves;

@@ -18,13 +18,13 @@ constexpr int kPlacesPerSpan = 8, kDenseFactor = 4;
 constexpr double kWaveSpans = 2.0;
 /// Share of a sliding along the curve in the distance: it changes no shape, but far slides make the linear model wrong.
 constexpr double kSlideShare = 0.01;
-constexpr int kIterations = 20;
+constexpr int kIterations = 20;  // at most, of programs
 /// Programs in a row that bring nothing: curves whose curvature has peaks beyond all measure, such as near-cusps, of
 /// which a linear model tells nothing.
 constexpr int kMostStuck = 3;
 /// After so many iterations windows stay, and steps are shortened: what has not settled by then swings.
 constexpr int kFreeIterations = 6;
-constexpr double kLateShare = 0.6;
+constexpr double kLateShare = 0.6;  // of a step
 /// The least slope that is asked for, in units of the range of the curvature over the length, and its growth where the
 /// curvature still turned between the places.
 constexpr double kMargin = 1e-3, kMarginGrowth = 2.5;

@@ -76,6 +76,8 @@ class MonotoneSearch {
   const FairingSetup& setup_;
   double leastMoveMm_;
   const RunContext& context_;
+  // By place. Not one struct a place: programs take all places, evaluate() all feet, structures all lengths and
+  // curvatures.
   std::vector<SpanPlace> places_, sketched_;  ///< The places, and about where on the sketch they lie.
   SpanCurve start_;                           ///< The curve to begin with.
   std::vector<double> s_, kappa_;

@@ -21,7 +21,7 @@ constexpr double kWorthOpening = 2.0;
 constexpr double kWorthTrying = 3.0, kWorthTryingOnSketch = 1.0;
 /// Bounds on the distance, each this share of what the one before reached.
 constexpr double kTighter = 0.75;
-constexpr int kMostBounds = 4;
+constexpr int kMostBounds = 4;  // limits the work
 /// The distance is bounded at the samples: some of it is left for what lies between them.
 constexpr double kBoundShare = 0.985;
 /// A nearest curve (in the mean) that lies farther off than so many times what is wanted is not tried with bounds:
@@ -29,7 +29,7 @@ constexpr double kBoundShare = 0.985;
 constexpr double kWorthBounding = 3.4;
 /// Over more spans than this not every structure is tried, but every one with about a sixth fewer extrema.
 constexpr int kManySpans = 48;
-constexpr double kThinning = 6.0;
+constexpr double kThinning = 6.0;  // one in so many
 /// Over this many spans more, a wanted number of extrema is looked for over fewer knots only.
 constexpr int kLongSpans = 200;
 

@@ -16,8 +16,9 @@ namespace {
 
 /// The barrier ends at this share of the objective: the result is at most so much from the best one.
 constexpr double kFinalGap = 1e-3;
+// weight of the barrier, and what each round leaves of it
 constexpr double kBarrierStart = 0.3, kBarrierFactor = 0.2;
-constexpr int kMaxIterations = 120;
+constexpr int kMaxIterations = 120;  // of all rounds together; limits the work
 /// Room between the barrier's bound at the samples and the tolerance, which holds between them too.
 constexpr double kRoom = 0.998;
 /// A distance that is bounded may be above the bound by this, for rounding.

@@ -18,19 +18,21 @@
 namespace batten {
 namespace {
 
-constexpr double kClothoid = -1.0;
+constexpr double kClothoid = -1.0;       // alpha of the curve whose curvature changes evenly
 constexpr double kNielsen = 1e-9;        // a smaller alpha is 0
 constexpr double kStraightShare = 1e-3;  // of the largest curvature: less is straight
-constexpr double kAlphaStep = 0.5;
-constexpr int kAlphaSteps = 20;  // of golden section: alpha to 1e-4
+constexpr double kAlphaStep = 0.5;       // of a first look at the range of alpha
+constexpr int kAlphaSteps = 20;          // of golden section: alpha to 1e-4
+// what differs from the usual steps
 constexpr LevenbergOptions kEndFit{.iterations = 40,
                                    .failure = 5.0,
                                    .mostDamping = 1e8,
                                    .smallDecrease = 1e-12,
                                    .smallSteps = 1,
                                    .smallStepsDamped = 1};
+// of the logarithm of a curvature, beyond which the fit ends, and of one step of it
 constexpr double kMostLog = 24.0, kMostLogStep = 1.0;
-constexpr int kNodesPerStretch = 32;
+constexpr int kNodesPerStretch = 32;  // of the profile
 
 /// A log-aesthetic curvature made ready for many places: the power alpha of the radius is linear in x.
 class LogAestheticCourse {

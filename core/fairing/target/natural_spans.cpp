@@ -19,7 +19,7 @@ constexpr std::array kSeries = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 
 constexpr double kTriflingShare = 0.1;
 /// The series holds a tolerance that rounding has made a trifle smaller.
 constexpr double kSeriesRounding = 1.0 - 1e-9;
-constexpr int kLeastSamples = 241;
+constexpr int kLeastSamples = 241;  // along a curve
 /// Share of the length below which a part is none.
 constexpr double kLeastSpan = 5e-3;
 
@@ -54,7 +54,7 @@ class NaturalSpans {
  private:
   /// A closed curve keeps four extrema; of one that is all but a circle they are nothing.
   bool areTrifles(const std::vector<StructureExtremum>& extrema, double leastMm) const {
-    constexpr std::size_t kFewest = 4;
+    constexpr std::size_t kFewest = 4;  // extrema of a closed curve
     if (extrema.size() > kFewest) return false;
     for (std::size_t i = 0; i < extrema.size(); ++i) {
       const int a = extrema[i].sample, b = extrema[(i + 1) % extrema.size()].sample;

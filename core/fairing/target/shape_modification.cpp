@@ -22,7 +22,7 @@ namespace {
 
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
 constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
-constexpr double kTargetUsedShare = 0.95;
+constexpr double kTargetUsedShare = 0.95;  // of the tolerance: enough of it
 /// Ratios of weights: of equal curves, and by which a small one grows; share between two that no step comes nearer.
 constexpr double kSameWeight = 1.02, kWeightStep = 4.0, kNearestShare = 0.1;
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
@@ -39,6 +39,7 @@ constexpr double kMetShare = 0.9;
 struct ModificationNotes {
   const char *nothingNearer, *addsExtrema, *outOfReach, *inPart, *toTolerance;
 };
+// what the report says where a target is followed
 constexpr ModificationNotes kNotesOfTarget{
     "Unchanged: no curve within the tolerance is closer to this target without added curvature extrema. Raise the "
     "tolerance, split the profile, or use Smooth.",
@@ -46,6 +47,7 @@ constexpr ModificationNotes kNotesOfTarget{
     "The profile is far out of reach for this curve. Split it, or mark the corners.",
     "The profile was followed as far as possible without adding a curvature extremum.",
     "The profile was followed as far as the tolerance allows."};
+// and where the curve is filtered
 constexpr ModificationNotes kNotesOfFilter{
     "Unchanged: no curve within the tolerance is closer to the filtered curvature without added extrema. Raise the "
     "tolerance, choose another wavelength, or use Smooth.",
@@ -73,16 +75,16 @@ class ShapeModification {
     if (onlyIfMet_ || onlyNeed_) mostMm_ = kBeyondReach * toleranceMm;
     openAll(setup);
     // One that comes to its target decides together with the others, which are then followed to the end.
-    const auto endsEarly = [](const Course& course) { return course.steps.endsEarly(); };
+    const auto endsEarly = [](const Course& course) { return course.followed.endsEarly(); };
     const bool allEndEarly = std::all_of(courses_.begin(), courses_.end(), endsEarly);
     if (allEndEarly || std::none_of(courses_.begin(), courses_.end(), endsEarly)) return;
     mostMm_ = std::numeric_limits<double>::infinity();
-    courses_.front().steps.goOn();
+    courses_.front().followed.goOn();
     if (isCalm()) {
       while (courses_.size() > 1) courses_.pop_back();
       calm_.clear();
     }
-    for (Course& course : courses_) course.steps.goOn();
+    for (Course& course : courses_) course.followed.goOn();
   }
   Result<FairedCurve> run() {
     if (context_.isCancelled()) return cancelled();
@@ -99,7 +101,7 @@ class ShapeModification {
     report_.neededMm = full.deviationMm;
     metMisfit_ = full.misfit;
     if (!isFiltered_) takeUpTo(toleranceMm_);
-    report_.withinTolerance = !courses_.front().steps.endsEarly() && full.deviationMm <= kTargetRoom * toleranceMm_;
+    report_.withinTolerance = !courses_.front().followed.endsEarly() && full.deviationMm <= kTargetRoom * toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     if (isFiltered_) {
       useEach();
@@ -107,7 +109,8 @@ class ShapeModification {
       useRoundTolerances();
     }
     for (const Course& course : courses_) {
-      if (!course_ || (course_ == &course && best_.weight > course.steps.all().front().weight)) useTolerance(course);
+      if (!course_ || (course_ == &course && best_.weight > course.followed.steps().front().weight))
+        useTolerance(course);
     }
     if (context_.isCancelled()) return cancelled();
     return done();
@@ -122,7 +125,7 @@ class ShapeModification {
   /// The steps over one knot vector.
   struct Course {
     const FairingSetup* setup;
-    TargetSteps steps;
+    TargetSteps followed;
     std::vector<TargetStep> toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
   };
 
@@ -133,23 +136,23 @@ class ShapeModification {
     for (const auto& calm : calm_) open(calm.get());
   }
   /// A target that is so far from the sketch is not looked for over fewer knots.
-  bool isBeyond() const { return !courses_.empty() && courses_.front().steps.all().front().deviationMm > mostMm_; }
+  bool isBeyond() const { return !courses_.empty() && courses_.front().followed.steps().front().deviationMm > mostMm_; }
   /// Where the target is met without tremor, there is none to be passed over.
   bool isCalm() const {
-    if (courses_.empty() || courses_.front().steps.endsEarly()) return false;
-    const std::vector<TargetStep>& steps = courses_.front().steps.all();
+    if (courses_.empty() || courses_.front().followed.endsEarly()) return false;
+    const std::vector<TargetStep>& steps = courses_.front().followed.steps();
     return !steps.empty() && steps.front().extrema <= asked_;
   }
   void open(const FairingSetup* over) {
     Course course{over, TargetSteps(*over, objective_, context_, mostMm_)};
-    if (!course.steps.all().empty()) courses_.push_back(std::move(course));
+    if (!course.followed.steps().empty()) courses_.push_back(std::move(course));
   }
   /// Of the courses' ends at the target the one that meets it best.
   const TargetStep& fullStep() const {
     const Course* best = &courses_.front();
     for (const Course& course : courses_)
-      if (course.steps.all().front().misfit < best->steps.all().front().misfit) best = &course;
-    return best->steps.all().front();
+      if (course.followed.steps().front().misfit < best->followed.steps().front().misfit) best = &course;
+    return best->followed.steps().front();
   }
   bool isWithin(const TargetStep& step) const { return step.deviationMm <= kTargetRoom * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
@@ -159,7 +162,7 @@ class ShapeModification {
   void takeUpTo(double toleranceMm) {
     std::vector<std::pair<const TargetStep*, const Course*>> within;
     for (const Course& course : courses_)
-      for (const TargetStep& step : course.steps.all())
+      for (const TargetStep& step : course.followed.steps())
         if (step.deviationMm <= kTargetRoom * toleranceMm) within.emplace_back(&step, &course);
     if (isFiltered_) {
       std::stable_sort(within.begin(), within.end(),
@@ -208,7 +211,7 @@ class ShapeModification {
   };
   Sides sidesOf(const Course& course, double toleranceMm) const {
     Sides sides;
-    for (const TargetStep& step : course.steps.all()) {
+    for (const TargetStep& step : course.followed.steps()) {
       if (step.deviationMm <= kTargetRoom * toleranceMm) {
         sides.inside = &step;
         break;
@@ -240,7 +243,7 @@ class ShapeModification {
       if (near && (near->deviationMm >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide.weight))
         break;
       const double weight = near ? weightBetween(wide, *near, toleranceMm) : kWeightStep * wide.weight;
-      auto step = course.steps.between(near ? *near : wide, weight);
+      auto step = course.followed.between(near ? *near : wide, weight);
       if (!step) break;
       if (step->deviationMm <= kTargetRoom * toleranceMm) {
         found.push_back(*step);
@@ -256,13 +259,13 @@ class ShapeModification {
     const Sides sides = sidesOf(course, toleranceMm_);
     if (!sides.outside) return;
     if (course.toTolerance.empty()) {
-      const int most = course.steps.isRough() ? kRoughSteps : kSearchSteps;
+      const int most = course.followed.isRough() ? kRoughSteps : kSearchSteps;
       for (const TargetStep& step : between(course, sides, toleranceMm_, most)) takeOfSameRank(step, &course);
     }
     if (course_ != &course || context_.isCancelled()) return;
-    const auto polished = course.steps.polished(best_);
+    const auto polished = course.followed.polished(best_);
     if (polished && isWithin(*polished)) takeOfSameRank(*polished, &course);
-    if (course.setup == &sketch_ && !course.steps.isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
+    if (course.setup == &sketch_ && !course.followed.isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
       useBarrier(course);
   }
 
@@ -296,9 +299,9 @@ class ShapeModification {
 
   void explain() {
     const auto adds = [this](const TargetStep& step) { return isWithin(step) && rank(step) > rank(best_); };
-    const auto& own = courses_.front().steps;
+    const auto& own = courses_.front().followed;
     report_.why = course_ ? best_.why : Termination::FixedPoint;
-    if (!course_ && (!report_.withinTolerance || std::any_of(own.all().begin(), own.all().end(), adds))) {
+    if (!course_ && (!report_.withinTolerance || std::any_of(own.steps().begin(), own.steps().end(), adds))) {
       report_.why = Termination::ToleranceLimited;
       report_.note = report_.withinTolerance ? notes_.addsExtrema : notes_.nothingNearer;
       report_.withinTolerance = false;
@@ -317,7 +320,7 @@ class ShapeModification {
   }
 
   Result<FairedCurve> done() {
-    for (const Course& course : courses_) report_.iterations += course.steps.iterations();
+    for (const Course& course : courses_) report_.iterations += course.followed.iterations();
     report_.objectiveAfter = std::sqrt(best_.misfit);
     explain();
     if (!course_ || course_->setup == &sketch_)

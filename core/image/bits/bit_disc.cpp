@@ -39,7 +39,7 @@ bool forRowsOfDisc(const BitImage& image, const Vec2& at, double radius, const B
 }  // namespace
 
 void setDisc(BitImage& image, const Vec2& at, double radius) {
-  constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  constexpr std::uint64_t kAll = ~std::uint64_t{0};  // a word of pixels
   forRowsOfDisc(image, at, radius, [&](const InkRun& run) {
     const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
     std::uint64_t* row = image.row(run.y);

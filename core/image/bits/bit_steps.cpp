@@ -36,7 +36,7 @@ void growStrip(const std::uint64_t* in, std::uint64_t* out, int words, int rows,
   }
 }
 
-constexpr int kTileWords = 4;
+constexpr int kTileWords = 4;       // [words of 64 px] width of a tile
 constexpr int kMostTileSteps = 63;  // a tile knows one word at either side: what comes from beyond gets no further
 
 /// A part of the page with a word at either side, and rows above and below as many as there are steps.

@@ -17,8 +17,8 @@ constexpr int kSoftSidePx = 3;  ///< [px] From the deep part of a stroke to wher
 constexpr int kFewestThinSteps = 3, kMostThinSteps = 5;  ///< [px] Half the width from which a faint place is no line.
 constexpr double kMinLengthPx = 40.0;                    ///< [px] Of a line that stands alone.
 constexpr double kMinJoinedPx = 12.0;                    ///< [px] Of a line that continues ink.
-constexpr double kLengthPerWidth = 7.0;
-constexpr double kJoinedPerWidth = 3.0;
+constexpr double kLengthPerWidth = 7.0;                  // of a line that stands alone: a shorter one is a spot
+constexpr double kJoinedPerWidth = 3.0;                  // of a line that continues ink
 constexpr double kBoxPerArea = 5.0;     ///< Squared diagonal of the box per area: texture fills its box.
 constexpr double kMostAtWide = 0.25;    ///< Share of a piece that may lie where wide faint strokes are.
 constexpr double kMostAlongside = 0.5;  ///< Share of a piece that may lie beside ink.

@@ -7,17 +7,17 @@
 namespace batten {
 
 MaskDistance::MaskDistance(const BitImage& mask) : mask_(mask) {
-  const int bands = (mask.height + kBandRows - 1) / kBandRows;
-  above_.resize(bands);
-  below_.resize(bands);
+  const int strips = (mask.height + kStripRows - 1) / kStripRows;
+  above_.resize(strips);
+  below_.resize(strips);
   Row distance(mask.width, 0);
   for (int y = 0; y < mask.height; ++y) {
-    if (y % kBandRows == 0) above_[y / kBandRows] = distance;
+    if (y % kStripRows == 0) above_[y / kStripRows] = distance;
     count(y, distance);
   }
   std::fill(distance.begin(), distance.end(), 0);
   for (int y = mask.height - 1; y >= 0; --y) {
-    if (y % kBandRows == kBandRows - 1 || y == mask.height - 1) below_[y / kBandRows] = distance;
+    if (y % kStripRows == kStripRows - 1 || y == mask.height - 1) below_[y / kStripRows] = distance;
     count(y, distance);
   }
 }
@@ -36,28 +36,29 @@ void MaskDistance::count(int y, Row& distance) const {
 
 std::int32_t MaskDistance::squared(int x, int y) {
   if (!mask_.at(x, y)) return 0;
-  return band(y / kBandRows).squared[std::ptrdiff_t{y % kBandRows} * mask_.width + x];
+  return strip(y / kStripRows).squared[std::ptrdiff_t{y % kStripRows} * mask_.width + x];
 }
 
-const MaskDistance::Band& MaskDistance::band(int number) {
-  if (last_ < bands_.size() && bands_[last_].number == number) return bands_[last_];
-  const auto known = std::find_if(bands_.begin(), bands_.end(), [&](const Band& b) { return b.number == number; });
-  if (known != bands_.end()) {
-    last_ = known - bands_.begin();
+const MaskDistance::RowStrip& MaskDistance::strip(int number) {
+  if (last_ < strips_.size() && strips_[last_].number == number) return strips_[last_];
+  const auto known =
+      std::find_if(strips_.begin(), strips_.end(), [&](const RowStrip& b) { return b.number == number; });
+  if (known != strips_.end()) {
+    last_ = known - strips_.begin();
     return *known;
   }
-  if (bands_.size() < kBandsKept) {
-    bands_.emplace_back();
-    last_ = bands_.size() - 1;
+  if (strips_.size() < kStripsKept) {
+    strips_.emplace_back();
+    last_ = strips_.size() - 1;
   } else {
-    last_ = std::exchange(oldest_, (oldest_ + 1) % kBandsKept);
+    last_ = std::exchange(oldest_, (oldest_ + 1) % kStripsKept);
   }
-  computeBand(number, bands_[last_]);
-  return bands_[last_];
+  computeStrip(number, strips_[last_]);
+  return strips_[last_];
 }
 
 std::vector<MaskDistance::Row> MaskDistance::columnDistances(int number) const {
-  const int first = number * kBandRows, rows = std::min(kBandRows, mask_.height - first);
+  const int first = number * kStripRows, rows = std::min(kStripRows, mask_.height - first);
   std::vector<Row> column(rows);
   Row distance = above_[number];
   for (int k = 0; k < rows; ++k) {
@@ -72,12 +73,12 @@ std::vector<MaskDistance::Row> MaskDistance::columnDistances(int number) const {
   return column;
 }
 
-void MaskDistance::computeBand(int number, Band& to) const {
+void MaskDistance::computeStrip(int number, RowStrip& to) const {
   const std::vector<Row> column = columnDistances(number);
   to.number = number;
   to.squared.assign(std::ssize(column) * mask_.width, 0);
   for (int k = 0; k < std::ssize(column); ++k)
-    squareAlongRow(number * kBandRows + k, column[k], to.squared.data() + std::ptrdiff_t{k} * mask_.width);
+    squareAlongRow(number * kStripRows + k, column[k], to.squared.data() + std::ptrdiff_t{k} * mask_.width);
 }
 
 // Run by run: whatever lies beyond the pixels at both ends of a run, which are outside, lies farther away than they.

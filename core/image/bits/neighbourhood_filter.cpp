@@ -111,7 +111,7 @@ FormerRows runStep(const FlaggedBits& in, FlaggedBits& out, Step step, const Fil
   const std::uint64_t flip = step == Step::Erosion ? ~std::uint64_t{0} : 0;
   const int height = in.bits.height();
   const int words = in.bits.wordsPerRow();
-  constexpr int kRows = 2 * kRowsPerBlock;
+  constexpr int kRows = 2 * kRowsPerBlock;  // one part of the work of the threads
   std::vector<FormerRows> parts((height + kRows - 1) / kRows);
   parallelFor(context, height, kRows, [&](int begin, int end) {
     std::vector<std::uint64_t> before(words);

@@ -12,7 +12,7 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerStrip = 256;
+constexpr int kRowsPerStrip = 256;  // one part of the work of the threads
 
 /// The words of the rows of an image.
 struct RowsOfImage {

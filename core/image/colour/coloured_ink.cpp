@@ -20,12 +20,12 @@ constexpr double kLeastGain = 0.06;       // of the paper's grey
 constexpr double kGainPerNoise = 5.0;     // standard deviations of the paper's own gain
 constexpr float kPaperBrightness = 0.8f;  // of the paper around: what the noise is measured on
 constexpr float kDarkInk = 0.7f;          // of the paper around: darker is ink that the grey sees
-constexpr int kGainSamples = 20000;
+constexpr int kGainSamples = 20000;       // pixels that the noise is measured on
 constexpr double kMostTint = 0.8;  // of what ink must gain: a place of the paper of another colour; more is a wash
 constexpr int kLeastArea = 12, kLeastSide = 8;  // [px] smaller pieces of colour are dust or noise
-constexpr double kMostDarkBorder = 0.25;
-constexpr double kLeastRise = 0.25;  // of the contrast in grey
-constexpr int kRimPx = 2;            // of the ink's edge, where the gain falls below the limit
+constexpr double kMostDarkBorder = 0.25;        // of its border lies at dark ink: more is a rim of that
+constexpr double kLeastRise = 0.25;             // of the contrast in grey
+constexpr int kRimPx = 2;                       // of the ink's edge, where the gain falls below the limit
 
 /// Grey less the darkest channel, each divided by its paper, per pixel of a row. [grey, may be negative]
 void gainsOfRow(const GreyImage& grey, const ColourImage& colour, const PaperColour& paper, int y,
@@ -34,7 +34,7 @@ void gainsOfRow(const GreyImage& grey, const ColourImage& colour, const PaperCol
   out.resize(grey.width);
   const Rgb8* in = colour.row(y);
   const std::uint16_t* levels = grey.row(y);
-  constexpr float kStep = 1.0f / static_cast<float>(GreyImage::kGreyUnit);
+  constexpr float kStep = 1.0f / static_cast<float>(GreyImage::kGreyUnit);  // to grey levels 0..255
   for (int x = 0; x < grey.width; ++x) {
     const float red = static_cast<float>(in[x].red) / ratios[0][x],
                 green = static_cast<float>(in[x].green) / ratios[1][x],

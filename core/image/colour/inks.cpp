@@ -14,13 +14,13 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastShareOfInk = 0.02;
-constexpr int kHueBins = 72;
-constexpr double kApartDeg = 40.0;  // of two inks
-constexpr std::int64_t kListSamples = 400000;
-constexpr double kLeastInkOfPage = 2e-4;
-constexpr int kInkRimPx = 2;  // of a stroke, fainter than ink
-constexpr int kLeastPiecePx = 8;
+constexpr double kLeastShareOfInk = 0.02;      // of the ink of the page: less is no ink of its own
+constexpr int kHueBins = 72;                   // 5 degrees each
+constexpr double kApartDeg = 40.0;             // of two inks
+constexpr std::int64_t kListSamples = 400000;  // pixels that are looked at: bounds the time
+constexpr double kLeastInkOfPage = 2e-4;       // of its pixels: less holds no ink to be listed
+constexpr int kInkRimPx = 2;                   // of a stroke, fainter than ink
+constexpr int kLeastPiecePx = 8;               // [px] area; smaller pieces are noise
 
 double apartDeg(double a, double b) {
   const double away = std::fabs(std::fmod(a - b, 360.0));

@@ -12,14 +12,15 @@
 namespace batten {
 namespace {
 
+// of the smaller side; [px] bounds of a cell
 constexpr int kCellsAcross = 48, kSmallestCellPx = 8, kLargestCellPx = 64;
 constexpr double kFromRank = 0.6, kToRank = 0.95;  // of the pixels of a cell by grey: paper, without glare
 constexpr double kPaperShare = 0.5;                // of the page's bright level: darker cells are no paper
-constexpr int kFitRounds = 12;
-constexpr double kLeastSpread = 0.004;  // of a ratio: below it cells agree
-constexpr double kInertia = 1e-3;       // cells: what a round weighs that keeps the fit of the one before
-constexpr float kLeastRatio = 0.05f;    // of a channel: paper is no darker
-constexpr double kBrightRank = 0.9;     // of the cells, for the bright level of the page
+constexpr int kFitRounds = 12;                     // of weighting cells anew
+constexpr double kLeastSpread = 0.004;             // of a ratio: below it cells agree
+constexpr double kInertia = 1e-3;                  // cells: what a round weighs that keeps the fit of the one before
+constexpr float kLeastRatio = 0.05f;               // of a channel: paper is no darker
+constexpr double kBrightRank = 0.9;                // of the cells, for the bright level of the page
 
 using Sextet = Eigen::Matrix<double, 6, 1>;
 

@@ -21,7 +21,8 @@ struct PaperColour {
   std::vector<float> level;   ///< [grey 0..255] the same of every cell by itself, where it holds paper.
   double paperLevel = 255.0;  ///< [grey] Median of the bright cells of the page.
 
-  /// Ratios of the three channels at the pixel centres of row y. @param out three rows of `width` values.
+  /// Ratios of the three channels at the pixel centres of row y. @param out three rows of `width` values, in memory
+  /// that the caller keeps from row to row.
   void ratiosOfRow(int y, int width, int height, std::array<std::vector<float>, 3>& out) const;
   /// Grey of the paper around a pixel. @pre inside the page.
   float paperAt(int x, int y) const { return bright[y / cellPx * columns + x / cellPx]; }

@@ -19,9 +19,10 @@ namespace {
 /// Whether a PNG holds nothing that changes its samples on the way: no palette, transparency, gamma other than sRGB's
 /// or profile. Chunks that a reader may pass over begin with a small letter.
 bool isPlainPng(const ByteReader& file) {
+  // chunks that may be passed over and yet change samples
   constexpr std::array<std::string_view, 5> kTelling = {"iCCP", "tRNS", "sBIT", "cICP", "gAMA"};
-  constexpr std::array<std::string_view, 2> kNeeded = {"IHDR", "IDAT"};
-  constexpr std::uint32_t kGammaOfSrgb = 45455;
+  constexpr std::array<std::string_view, 2> kNeeded = {"IHDR", "IDAT"};  // needed chunks that change none
+  constexpr std::uint32_t kGammaOfSrgb = 45455;                          // 1 / 2.2, times 100 000 as PNG stores it
   const std::uint32_t colour = file.u8(25);
   if (file.u8(24) != 8 || (colour != 0 && colour != 2)) return false;
   for (std::uint64_t at = 8; file.has(at, 12); at += file.u32(at) + 12ull) {

@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr double kPointsPerInch = 72.0;
+constexpr double kPointsPerInch = 72.0;  // the unit of PDF
 /// [bytes] a pixel: the picture that is drawn, a copy of it, its grey and its colours.
 constexpr std::uint64_t kBytesPerPixel = 13;
 /// [px] Of a side; no page of paper is larger.

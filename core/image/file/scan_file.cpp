@@ -29,7 +29,7 @@ tl::unexpected<Error> problemOf(const std::filesystem::path& path, FileProblem p
 
 /// With two digits behind the point, whatever the locale.
 std::string gigabytes(std::uint64_t bytes) {
-  constexpr std::uint64_t kHundredth = 10'000'000;
+  constexpr std::uint64_t kHundredth = 10'000'000;  // of a gigabyte
   const std::uint64_t hundredths = (bytes + kHundredth / 2) / kHundredth;
   const std::string digits = std::to_string(hundredths % 100);
   return std::to_string(hundredths / 100) + (digits.size() == 1 ? ".0" : ".") + digits + " GB";

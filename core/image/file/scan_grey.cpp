@@ -15,7 +15,7 @@ namespace {
 /// One row to 16-bit grey. `Unit` is what one step of the sample is worth on the 16-bit scale: 257 for 8 bit, 1 for 16.
 template <class Sample, std::uint32_t Unit>
 void greyRow(const Sample* in, std::uint16_t* out, int count, int channels, bool associated) {
-  constexpr std::uint64_t kWhite = std::numeric_limits<Sample>::max();
+  constexpr std::uint64_t kWhite = std::numeric_limits<Sample>::max();  // of the samples of the file
   if (channels == 1) {
     for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint16_t>(in[i] * Unit);
     return;
@@ -37,8 +37,8 @@ void greyRow(const Sample* in, std::uint16_t* out, int count, int channels, bool
 /// One row to colours of 8 bit, alpha over white. `Unit` as in greyRow. @pre channels is 3 or 4.
 template <class Sample, std::uint32_t Unit>
 void colourRow(const Sample* in, Rgb8* out, int count, int channels, bool associated) {
-  constexpr std::uint64_t kWhite = std::numeric_limits<Sample>::max();
-  constexpr std::uint64_t kStep = 257 / Unit;  // samples a step of 8 bit
+  constexpr std::uint64_t kWhite = std::numeric_limits<Sample>::max();  // of the samples of the file
+  constexpr std::uint64_t kStep = 257 / Unit;                           // samples a step of 8 bit
   for (int i = 0; i < count; ++i, in += channels) {
     const std::uint64_t alpha = channels == 4 ? in[3] : kWhite;
     const auto level = [&](Sample sample) {

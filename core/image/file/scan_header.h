@@ -11,7 +11,7 @@
 
 namespace batten {
 
-inline constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;
+inline constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;  // PNG and JPEG 2000 state pixels per metre
 
 struct ScanHeader {
   ScanInfo info;

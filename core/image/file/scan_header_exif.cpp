@@ -12,7 +12,7 @@
 namespace batten {
 namespace {
 
-constexpr std::uint64_t kLargestTagCount = 1'000'000;
+constexpr std::uint64_t kLargestTagCount = 1'000'000;  // of strips or tiles; guards against damaged files
 
 struct Tag {
   std::uint32_t type = 0;
@@ -66,7 +66,7 @@ bool blocksInside(const ByteReader& tiff, const Tag& offsets, const Tag& sizes) 
 /// Where the directories of a file lie, those of thumbnails and masks left out. A chain that leads back into itself
 /// ends there.
 std::vector<std::uint64_t> tiffPages(const ByteReader& tiff) {
-  constexpr std::size_t kMostPages = 10000;
+  constexpr std::size_t kMostPages = 10000;             // guards against chains of directories without end
   constexpr std::uint64_t kIsReduced = 1, kIsMask = 4;  // bits of NewSubfileType
   std::set<std::uint64_t> seen;
   std::vector<std::uint64_t> pages;
@@ -88,7 +88,7 @@ std::vector<std::uint64_t> tiffPages(const ByteReader& tiff) {
 
 /// What the camera says of its lens, in a directory of its own.
 std::optional<double> focal35Of(const ByteReader& tiff, std::uint64_t directory) {
-  constexpr double kShortestMm = 5.0, kLongestMm = 2000.0;
+  constexpr double kShortestMm = 5.0, kLongestMm = 2000.0;  // other focal lengths are not believed
   const std::uint64_t entries = tiff.u16(directory);
   for (std::uint64_t i = 0; i < entries && tiff.has(directory + 2 + i * 12, 12); ++i) {
     const std::uint64_t entry = directory + 2 + i * 12;

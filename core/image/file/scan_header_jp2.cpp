@@ -10,9 +10,9 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr auto kJp2Begin = "\0\0\0\x0cjP  \r\n\x87\n"sv;
-constexpr auto kCodestreamBegin = "\xff\x4f\xff\x51"sv;  // start of codestream, size
-constexpr std::uint32_t kStartOfTilePart = 0xff90, kEndOfCodestream = 0xffd9;
+constexpr auto kJp2Begin = "\0\0\0\x0cjP  \r\n\x87\n"sv;                       // signature box
+constexpr auto kCodestreamBegin = "\xff\x4f\xff\x51"sv;                        // start of codestream, size
+constexpr std::uint32_t kStartOfTilePart = 0xff90, kEndOfCodestream = 0xffd9;  // markers
 
 /// A box of the file: its type, and where its content lies.
 struct Box {
@@ -89,7 +89,7 @@ void readSize(const ByteReader& file, std::uint64_t at, ScanHeader& header) {
   const std::int64_t width = number(6) - number(14), height = number(10) - number(18);
   const std::int64_t tileWidth = number(22), tileHeight = number(26);
   const std::uint32_t components = file.u16(size + 38);
-  constexpr std::int64_t kMost = INT32_MAX, kMostTiles = 65535;
+  constexpr std::int64_t kMost = INT32_MAX, kMostTiles = 65535;  // what the format can count
   const bool isSize = width > 0 && height > 0 && width <= kMost && height <= kMost && tileWidth > 0 && tileHeight > 0;
   if (!isSize || components == 0 || file.u16(size + 2) != 38 + 3 * components) return;
   const double tiles = std::ceil(static_cast<double>(width) / static_cast<double>(tileWidth)) *

@@ -21,7 +21,7 @@ namespace {
 /// [px] Tiles may be larger than the picture, as pictures of any size are cut into the same tiles; a bigger one of a
 /// small picture is damage, or is meant to take memory.
 constexpr std::uint64_t kMostTilePixels = std::uint64_t{1} << 22;
-constexpr std::uint64_t kMostTilesWorth = 4;
+constexpr std::uint64_t kMostTilesWorth = 4;    // pictures: see above
 constexpr std::uint64_t kProbeBytes = 1 << 20;  // headers lie within; EXIF blocks take up to 64 kB
 
 Result<ScanHeader> headerOf(const std::filesystem::path& path, const std::vector<std::byte>& bytes, int page) {

@@ -12,17 +12,17 @@
 namespace batten {
 namespace {
 
-constexpr double kFilmDiagonalMm = 43.27;
-constexpr double kUsualFocal35Mm = 27.0;  // main camera of a telephone
-constexpr double kUsualSpread = 0.25;     // of its logarithm: 21 to 35 mm
-constexpr double kStatedSpread = 0.03;    // the file's is rounded, and the picture cropped a little by stabilisation
+constexpr double kFilmDiagonalMm = 43.27;  // of 36 x 24 mm, to which focal lengths are related
+constexpr double kUsualFocal35Mm = 27.0;   // main camera of a telephone
+constexpr double kUsualSpread = 0.25;      // of its logarithm: 21 to 35 mm
+constexpr double kStatedSpread = 0.03;     // the file's is rounded, and the picture cropped a little by stabilisation
 constexpr double kSkewSpreadRad = 0.2 * kRadPerDeg;  // lens distortion, corners set by hand
 constexpr double kFarthestLog = 1.5;                 // of the logarithm of the focal length
 constexpr int kFocalSteps = 600;                     // of it: 0.5 % each
 
 /// Whether a picture is as a camera makes it, and not a part of one, to which the file's focal length belongs no more.
 bool isWholePicture(const PictureView& view) {
-  constexpr double kSameShape = 0.01;
+  constexpr double kSameShape = 0.01;  // share by which a picture may differ from the shape of a camera
   const double shape =
       static_cast<double>(std::max(view.widthPx, view.heightPx)) / std::min(view.widthPx, view.heightPx);
   return std::ranges::any_of(std::array{4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0},

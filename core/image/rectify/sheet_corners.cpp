@@ -14,11 +14,11 @@
 namespace batten {
 namespace {
 
-constexpr double kEdgeEndShare = 0.06;  // of the edge at either end: the next edge and bent corners
-constexpr double kEdgeStationPx = 5.0;  // along the edge
-constexpr int kFewestStations = 24, kMostStations = 300;
-constexpr double kSampleDistancePx = 1.5;  // along the edge, of the profiles that make that of a station
-constexpr int kMostSamples = 12;           // of them: noise is small by then
+constexpr double kEdgeEndShare = 0.06;                    // of the edge at either end: the next edge and bent corners
+constexpr double kEdgeStationPx = 5.0;                    // along the edge
+constexpr int kFewestStations = 24, kMostStations = 300;  // of an edge, whatever its length
+constexpr double kSampleDistancePx = 1.5;                 // along the edge, of the profiles that make that of a station
+constexpr int kMostSamples = 12;                          // of them: noise is small by then
 // [steps across the edge] In the mean on either side of a change: the fewest that noise allows, the most that a blurred
 // edge takes.
 constexpr std::ptrdiff_t kFewestInMean = 3, kMostInMean = 12;
@@ -28,8 +28,8 @@ constexpr double kWeakShareOfStep = 0.4;  // of the median step: nothing is seen
 constexpr double kLeastStepOfEdge = 1.5;  // [grey]
 constexpr double kFineReachPx = 9.0;      // of the second look
 constexpr double kTightestPx = 0.8;       // of what counts as on the line
-constexpr double kOnLineSigmas = 2.5;
-constexpr int kLinesTried = 60;      // through each of as many stations and all others of them
+constexpr double kOnLineSigmas = 2.5;     // of the stations: what is farther off is not on the line
+constexpr int kLinesTried = 60;           // through each of as many stations and all others of them
 constexpr double kPerPixel = 100.0;  // corners are rounded to a hundredth, so that files and messages show them whole
 
 /// Grey, and what red and blue differ from it.
@@ -260,7 +260,7 @@ std::optional<SeenEdge> edgeNear(const EdgeLine& rough, double reachPx, const Ti
 }
 
 Result<FoundCorners> notSeen(std::size_t side) {
-  constexpr std::array kNames = {"upper", "right", "lower", "left"};
+  constexpr std::array kNames = {"upper", "right", "lower", "left"};  // of the sides, in their order
   return fail(ErrorCode::UnreadableScan,
               std::string("The ") + kNames[side] +
                   " edge of the sheet is not seen clearly enough on the picture; state its corners instead: "

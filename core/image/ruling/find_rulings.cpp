@@ -17,9 +17,9 @@
 namespace batten {
 namespace {
 
-constexpr std::int64_t kLargestLatticePx = 4'000'000;
-constexpr int kStationPx = 16;        // [px] between the points of a course
-constexpr double kMostMisfit = 0.75;  // [grid] drawn lines are less even
+constexpr std::int64_t kLargestLatticePx = 4'000'000;  // [px] of the shrunk page: bounds the time
+constexpr int kStationPx = 16;                         // [px] between the points of a course
+constexpr double kMostMisfit = 0.75;                   // [grid] drawn lines are less even
 constexpr double kLeastLineSeen = 0.8,
                  kLeastLineSeenAlone = 0.7;             // of the lines; the latter where hardly any others are
 constexpr double kLeastCoverage = 0.7;                  // of the stretches of the lines that are seen
@@ -31,10 +31,10 @@ constexpr int kDarkLines = 12;                          // likewise
 constexpr int kBorder = 4;                              // [grid] so near to it a line runs to the border of the page
 constexpr double kLeastAtBorder = 0.5;                  // of the lines that run to the border of the page
 constexpr double kJoined = 0.9;                         // of the spaces between lines that a stroke crosses
-constexpr double kLeastRulingDepth = 0.015;
+constexpr double kLeastRulingDepth = 0.015;             // of a ruling, below its paper
 
 Plane mirrored(const Plane& in, const RunContext& context) {
-  constexpr int kRows = 32;
+  constexpr int kRows = 32;  // one part of the work of the threads
   Plane out(in.height, in.width);
   parallelFor(context, out.height, kRows, [&](int begin, int end) {
     PlaneView{in, true}.copyRows(begin, end, out.row(begin));
@@ -48,7 +48,7 @@ struct LineLook {
 
 /// Width at half depth and depth of a lattice's lines, each the median over places on lines that are seen.
 LineLook lookOf(const Plane& grey, const RulingLattice& lattice) {
-  constexpr int kPlaces = 41;
+  constexpr int kPlaces = 41;  // along a line, for medians
   const int reach = std::max(2, static_cast<int>(0.5 * lattice.spacing));
   std::vector<double> widths, depths;
   for (std::size_t i = 0; i < lattice.isSeen.size(); ++i) {

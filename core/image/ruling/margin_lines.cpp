@@ -17,12 +17,12 @@ constexpr double kFarthestMargin = 0.3;    // of the plane, from its side
 constexpr double kMostBend = 0.02;         // of its length: a ruled line on paper that curls
 constexpr double kLeastSeen = 0.85;        // of the steps along it
 constexpr double kMostMarginMisfit = 2.5;  // [grid] of nine in ten places, off a cubic: paper bends, pens tremble
-constexpr std::size_t kMostMargins = 2;
-constexpr int kStep = 4;               // [grid] along the line
-constexpr int kLookFor = 3;            // [grid] to either side of where it is expected
-constexpr int kPaperBeside = 7;        // [grid] to either side: paper shows within
-constexpr float kLeastOfDepth = 0.4f;  // of the line's own depth, where it is seen
-constexpr double kSlopeInertia = 0.85;
+constexpr std::size_t kMostMargins = 2;    // more straight lines are no margins but drawn
+constexpr int kStep = 4;                   // [grid] along the line
+constexpr int kLookFor = 3;                // [grid] to either side of where it is expected
+constexpr int kPaperBeside = 7;            // [grid] to either side: paper shows within
+constexpr float kLeastOfDepth = 0.4f;      // of the line's own depth, where it is seen
+constexpr double kSlopeInertia = 0.85;     // share of the slope so far, against that at one place
 
 /// Follows one line through the plane.
 class MarginTrack {
@@ -48,7 +48,7 @@ class MarginTrack {
     const Eigen::Vector4d c = normal.ldlt().solve(right);
     std::vector<double> misfits;
     for (std::size_t i = 0; i < xs_.size(); ++i) misfits.push_back(std::fabs(c.dot(termsAt(xs_[i])) - ys_[i]));
-    constexpr double kNineInTen = 0.9;
+    constexpr double kNineInTen = 0.9;  // quantile of the misfits
     if (lowerQuantile(misfits, kNineInTen) > kMostMarginMisfit) return std::nullopt;
     if (std::fabs(c[2]) + std::fabs(c[3]) > kMostBend * grey_.width()) return std::nullopt;
     return c;

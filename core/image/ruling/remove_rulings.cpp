@@ -12,21 +12,21 @@
 namespace batten {
 namespace {
 
-constexpr int kBlockPx = 32;       // [px] along a line: one paper level, one place and one profile
-constexpr int kProfileBlocks = 2;  // to either side, for the profile of a line
-constexpr int kBinsPerPx = 2;
+constexpr int kBlockPx = 32;              // [px] along a line: one paper level, one place and one profile
+constexpr int kProfileBlocks = 2;         // to either side, for the profile of a line
+constexpr int kBinsPerPx = 2;             // of the profile across a line
 constexpr double kLeastOfColumns = 0.15;  // that must meet a place of a profile
 constexpr int kMostReachPx = 24;          // [px] across a line
 constexpr double kRimShare = 0.25;        // of the spacing: beyond lies paper
 constexpr double kPaperRank = 0.7;        // of the pixels beside a line: ink is darker
 constexpr double kFoot = 0.1;             // of the depth: where a line ends across
 constexpr double kMostSupport = 0.4;      // of the spacing: wider is no ruled line
-constexpr double kLeastDepthSeen = 0.01;
-constexpr double kPresence = 0.35;    // of the line's depth: fainter stretches are gaps
-constexpr double kSolidLight = 0.35;  // less light comes through a dark line: what is over it cannot be told
-constexpr double kSnapShare = 0.35;   // of the depth: what is left of a line after it is divided out
-constexpr double kSnapPerNoise = 2.5;
-constexpr double kLeastStroke = 0.12;  // of the paper's light: what a stroke across takes at least
+constexpr double kLeastDepthSeen = 0.01;  // of the paper: a fainter line is left alone
+constexpr double kPresence = 0.35;        // of the line's depth: fainter stretches are gaps
+constexpr double kSolidLight = 0.35;      // less light comes through a dark line: what is over it cannot be told
+constexpr double kSnapShare = 0.35;       // of the depth: what is left of a line after it is divided out
+constexpr double kSnapPerNoise = 2.5;     // standard deviations of the paper
+constexpr double kLeastStroke = 0.12;     // of the paper's light: what a stroke across takes at least
 // Of what the whole line takes of the light, and of the light: a stretch takes no more.
 constexpr double kMostOfWhole = 1.35, kMostBesides = 0.02;
 constexpr double kSteepestStroke = 2.0;  // [px along / px across]

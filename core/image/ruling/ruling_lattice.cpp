@@ -15,25 +15,25 @@ namespace {
 
 constexpr double kSmallestSpacing = 5.0;   // [grid]
 constexpr double kLeastShareOfPage = 0.5;  // that the lattice fills, both ways
-constexpr int kLeastLines = 5;
-constexpr int kMostMissing = 3;         // lines between two that are seen
-constexpr double kChainReach = 0.2;     // of the spacing: where the next line is looked for
-constexpr double kLatticeReach = 0.18;  // of the spacing: how far a stretch may lie off its line
-constexpr double kLeastReach = 1.2;     // [grid]
-constexpr double kPrintReach = 2.5;     // [grid] printed lines lie nearer to the lattice
-constexpr double kLeastOfLine = 0.5;    // of the strips: a line is seen
-constexpr double kPairReach = 0.04;     // of the spacing: half width of what counts as one distance
+constexpr int kLeastLines = 5;             // of a ruling
+constexpr int kMostMissing = 3;            // lines between two that are seen
+constexpr double kChainReach = 0.2;        // of the spacing: where the next line is looked for
+constexpr double kLatticeReach = 0.18;     // of the spacing: how far a stretch may lie off its line
+constexpr double kLeastReach = 1.2;        // [grid]
+constexpr double kPrintReach = 2.5;        // [grid] printed lines lie nearer to the lattice
+constexpr double kLeastOfLine = 0.5;       // of the strips: a line is seen
+constexpr double kPairReach = 0.04;        // of the spacing: half width of what counts as one distance
 constexpr double kAlmostBest = 0.6;  // of the pairs at the best spacing: a smaller one that has so many is the line's
 constexpr double kRefineReach = 0.75, kRefineStep = 0.05;  // [grid] the spacing is sought finer than whole numbers
 constexpr double kStepLearned = 0.15;                      // of what one line of a chain says of the step to the next
 constexpr double kLeastStepShare = 0.3,
                  kMostStepShare = 3.0;  // of the spacing: a lattice with such steps has gone astray
 constexpr double kMostJump = 50.0;      // [lines] in one step of Newton
-constexpr int kNewtonRounds = 6;
+constexpr int kNewtonRounds = 6;        // limits the steps of Newton
 // A prior of the terms, per stretch: none of place, spacing and slope; on the bends two thousandths of what the
 // stretches say; those that are held do not move.
 constexpr double kFreeTerm = 1e-6, kBendingTerm = 2e-3, kHeldTerm = 1e9;
-constexpr int kMatchRounds = 4;
+constexpr int kMatchRounds = 4;  // of matching lines to the lattice
 
 using Terms = Eigen::Matrix<double, 10, 1>;
 

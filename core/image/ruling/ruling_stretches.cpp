@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr int kStrips = 8;
+constexpr int kStrips = 8;                     // across the page, each looked at by itself
 constexpr int kLeastStretchSide = 160;         // [grid] smaller pictures hold no ruled page
 constexpr double kSteepest = 0.2;              // of the lines
 constexpr double kShiftPerStep = 1.5;          // [grid] of the end of a strip, from one slope that is tried to the next
@@ -22,8 +22,8 @@ constexpr double kLeastOfStrip = 0.35;         // of the columns of a strip that
 constexpr std::array<int, 2> kSides = {2, 5};  // [grid] where the paper beside a thin line is looked for
 constexpr int kAlong = 2;                      // [grid] half the length over which grey is averaged along the lines
 constexpr float kLeastDepth = 2.0f;            // [grey]
-constexpr double kDepthPerNoise = 2.5;
-constexpr int kNoiseStride = 7;
+constexpr double kDepthPerNoise = 2.5;         // standard deviations of the grey across lines
+constexpr int kNoiseStride = 7;                // [px] between two samples of the page
 
 struct LinePixel {
   float x, y;
@@ -120,7 +120,7 @@ RowsAround rowsAround(const AveragedRows& averaged, int y) {
 /// Pixels in the middle of thin dark lines, strip by strip.
 std::array<std::vector<LinePixel>, kStrips> linePixels(const PlaneView& grey, const RunContext& context) {
   static_assert(kSides.size() == 2);
-  constexpr int kFarSide = kSides.back();
+  constexpr int kFarSide = kSides.back();  // rows that are needed beyond a block
   std::array<std::vector<LinePixel>, kStrips> pixels;
   const float least = std::max(kLeastDepth, static_cast<float>(kDepthPerNoise * noiseAcross(grey)));
   const int width = grey.width(), height = grey.height();

@@ -11,8 +11,8 @@
 namespace batten {
 namespace {
 
-constexpr int kBins = 1024;
-constexpr float kHalfOfBins = 0.5f * kBins, kBinsPerUnit = 64.0f;
+constexpr int kBins = 1024;                                        // technical: of the table of counts
+constexpr float kHalfOfBins = 0.5f * kBins, kBinsPerUnit = 64.0f;  // values beyond the range count in the last bin
 
 /// Greater values lie in the same bin or in a later one.
 int binOf(float value) {

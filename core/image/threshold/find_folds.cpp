@@ -13,12 +13,12 @@
 namespace batten {
 namespace {
 
-constexpr int kWidest = 40;            // [px] half the softest edge that is looked at
-constexpr double kDarkestShade = 0.4;  // of the paper beside it: what is darker is no shaded paper
-constexpr double kLeastSeen = 0.5;     // of the step: what the grey itself steps, the slope of the paper left in
-constexpr double kBarShare = 0.2;      // of the page's smaller side: two opposite steps that are nearer make a bar
-constexpr double kWindowPx = 96.0;     // along the course: a line that crosses takes up a small part of it
-constexpr double kSpacingPx = 16.0;
+constexpr int kWidest = 40;              // [px] half the softest edge that is looked at
+constexpr double kDarkestShade = 0.4;    // of the paper beside it: what is darker is no shaded paper
+constexpr double kLeastSeen = 0.5;       // of the step: what the grey itself steps, the slope of the paper left in
+constexpr double kBarShare = 0.2;        // of the page's smaller side: two opposite steps that are nearer make a bar
+constexpr double kWindowPx = 96.0;       // along the course: a line that crosses takes up a small part of it
+constexpr double kSpacingPx = 16.0;      // between stations along the course
 constexpr float kShownShare = 0.3f;      // of the median step: a place where the step shows
 constexpr double kCoarseRows = 400.0;    // of the first look along a course: hardly more for a longer one, …
 constexpr double kLeastRowPx = 4.0;      // … and no closer than this
@@ -35,7 +35,8 @@ float sample(const Plane& u, const Vec2& p) {
 /// Whether the smoothed page has other levels on the two sides at most places along the course: tells the many straight
 /// lines of a drawing from the few steps before these are looked at closely.
 bool mayStep(const Plane& u, const FoldCourse& c) {
-  constexpr int kPlaces = 160;
+  constexpr int kPlaces = 160;  // along the course, for a first look
+  // [px] from the course: the levels, and with the farther ones the slope of the paper
   constexpr double kNear = 14.0, kFar = 28.0;
   std::vector<float> steps;
   for (int i = 0; i < kPlaces; ++i) {
@@ -142,7 +143,7 @@ class FoldMaker {
   /// Medians over the pixels of a window along the course, by their distance from it. Empty with too few.
   static std::vector<float> edgeProfile(const std::vector<std::vector<StripPixel>>& pixels, int station,
                                         const PaperFold& fold) {
-    constexpr std::size_t kFewest = 6;
+    constexpr std::size_t kFewest = 6;  // pixels that a median is taken of
     const int taps = fold.taps(), around = static_cast<int>(0.5 * kWindowPx / fold.spacing);
     std::vector<std::vector<float>> values(taps);
     std::vector<double> places(taps, 0.0);
@@ -179,7 +180,7 @@ class FoldMaker {
 
   /// The step on the darker side reaches far over the page: its noise along the course would show as streaks.
   static float smoothedDepth(const std::vector<float>& raw, int k) {
-    constexpr int kHalf = 6;
+    constexpr int kHalf = 6;  // stations to either side
     float sum = 0.0f, weight = 0.0f;
     for (int i = -kHalf; i <= kHalf; ++i) {
       const int at = k + i;

@@ -12,15 +12,15 @@
 namespace batten {
 namespace {
 
-constexpr int kAngles = 720;          // of half a degree: the side of the bright paper counts
-constexpr int kAngleSpread = 8;       // [bins] uncertainty of a gradient's direction
-constexpr double kRhoStep = 3.0;      // [px of the plane]
-constexpr double kBesideSteps = 8.0;  // two peaks nearer than this are of one course, which bends a little
-constexpr std::size_t kMostVoters = 8000;
-constexpr int kMostLines = 12;
-constexpr double kLeastShare = 0.2;  // of the crests that a line from border to border would have
-constexpr double kLeastChord = 0.5;  // of the page's smaller side
-constexpr double kSameDirection = 0.9;
+constexpr int kAngles = 720;               // of half a degree: the side of the bright paper counts
+constexpr int kAngleSpread = 8;            // [bins] uncertainty of a gradient's direction
+constexpr double kRhoStep = 3.0;           // [px of the plane]
+constexpr double kBesideSteps = 8.0;       // two peaks nearer than this are of one course, which bends a little
+constexpr std::size_t kMostVoters = 8000;  // bounds the time
+constexpr int kMostLines = 12;             // that are looked at closely: bounds the time
+constexpr double kLeastShare = 0.2;        // of the crests that a line from border to border would have
+constexpr double kLeastChord = 0.5;        // of the page's smaller side
+constexpr double kSameDirection = 0.9;     // cosine of the angle between gradient and normal: 25 degrees
 
 struct Voter {
   Vec2 p;          // from the middle of the plane
@@ -120,8 +120,8 @@ class Accumulator {
 
 /// Bends the course to the crests near it, nearer from round to round.
 bool bendToCrests(const Plane& u, const std::vector<Voter>& voters, FoldCourse& c) {
-  constexpr std::array kReaches = {12.0, 6.0, 3.0};  // [px]
-  constexpr int kFewestVoters = 20;
+  constexpr std::array kReaches = {12.0, 6.0, 3.0};       // [px]
+  constexpr int kFewestVoters = 20;                       // near a course, to bend it
   constexpr double kFreePrior = 1e-9, kBendPrior = 1e-2;  // of the voters' weight: few of them do not bend a course
   const Vec2 middle(0.5 * u.width, 0.5 * u.height);
   const double scale = c.scale();

@@ -103,7 +103,7 @@ std::vector<double> foldStepsOf(const FoldStrip& strip, int reach, const std::ve
 
 // From the medians of ten parts taken in pairs.
 std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
-  constexpr int kParts = 10;
+  constexpr int kParts = 10;  // of the course, each with a median of its own
   const int rows = static_cast<int>(steps.size());
   if (rows < 5 * kParts) return std::nullopt;
   const double noise = noiseOf(steps);

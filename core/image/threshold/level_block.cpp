@@ -17,8 +17,8 @@
 namespace batten {
 namespace {
 
-constexpr int kAcross = LevelBlock::kAcross, kDown = LevelBlock::kDown;
-constexpr float kGreyPerValue = static_cast<float>(1.0 / GreyImage::kGreyUnit);
+constexpr int kAcross = LevelBlock::kAcross, kDown = LevelBlock::kDown;          // px
+constexpr float kGreyPerValue = static_cast<float>(1.0 / GreyImage::kGreyUnit);  // to grey levels 0..255
 
 /// With a radius that the compiler knows the sums stay in registers. The order of the sums is that of smooth().
 template <int Radius>
@@ -69,10 +69,10 @@ BATTEN_HOT_LOOP void smoothBlockOf(const std::uint16_t* const* rows, const float
 
 template <int Cell>
 BATTEN_PART_OF_LOOP void betweenCells(const float* above, const float* below, float share, float* out) {
-  constexpr int kHalfCell = Cell / 2, kCells = kAcross / Cell;
+  constexpr int kHalfCell = Cell / 2, kCells = kAcross / Cell;  // values lie in the middles of cells
   std::array<float, kCells + 2> column;
   for (int c = 0; c < kCells + 2; ++c) column[c] = above[c] + share * (below[c] - above[c]);
-  constexpr float kStep = 1.0f / static_cast<float>(Cell);
+  constexpr float kStep = 1.0f / static_cast<float>(Cell);  // of one pixel, between two cells
   for (int c = 0; c <= kCells; ++c) {
     const float left = column[c], slope = (column[c + 1] - left) * kStep;
     float* to = out + (c * Cell - kHalfCell);

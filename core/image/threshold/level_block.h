@@ -9,8 +9,8 @@ namespace batten {
 
 /// A block of a page as large as is smoothed and compared at once: 32 x 8 px.
 struct LevelBlock {
-  static constexpr int kAcross = 32, kDown = 8;
-  static constexpr int kMostRadius = 16;  ///< [px] Of a Gaussian of 5.3 px; the taps of wider ones are cut off.
+  static constexpr int kAcross = 32, kDown = 8;  // px
+  static constexpr int kMostRadius = 16;         ///< [px] Of a Gaussian of 5.3 px; the taps of wider ones are cut off.
   using Row = std::array<float, kAcross>;
   using Rows = std::array<Row, kDown>;
   /// Pixels of a row with those that are needed at either side, in whole vectors.

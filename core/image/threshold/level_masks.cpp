@@ -18,7 +18,7 @@ namespace {
 constexpr double kAutomaticReach = 0.4;  // of the region's contrast; never into the noise of the paper
 constexpr float kRounding = 0.01f;       // [grey] more than floats lose on the way to a level or a smoothed pixel
 
-constexpr int kBlockAcross = LevelBlock::kAcross, kBlockDown = LevelBlock::kDown;
+constexpr int kBlockAcross = LevelBlock::kAcross, kBlockDown = LevelBlock::kDown;  // [px]
 
 /// The paper without its folds, which are taken out of the picture itself, in a group of rows.
 class PaperRows {

@@ -19,12 +19,12 @@
 namespace batten {
 namespace {
 
-constexpr int kSampleStep = 3;  // the smoothed picture has no more to say than every third pixel
-constexpr float kWeak = 3.0f;
-constexpr float kCertain = 6.0f;
+constexpr int kSampleStep = 3;        // the smoothed picture has no more to say than every third pixel
+constexpr float kWeak = 3.0f;         // times the noise: an edge beside a certain one
+constexpr float kCertain = 6.0f;      // times the noise
 constexpr float kFloorShare = 0.06f;  // of the strong edges, where the paper has no noise to measure edges by
-constexpr int kStrengthBins = 2048;
-constexpr float kBinsPerGrey = 8.0f;
+constexpr int kStrengthBins = 2048;   // 256 grey levels
+constexpr float kBinsPerGrey = 8.0f;  // of the strengths of edges
 
 struct RegionNoise {
   RegionValues slopeX{}, slopeY{}, spread{};

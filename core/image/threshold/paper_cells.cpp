@@ -16,7 +16,7 @@
 namespace batten {
 namespace {
 
-constexpr int kRounds = 2;
+constexpr int kRounds = 2;  // each begins with the paper that the one before has found
 
 struct Cells {
   int columns = 0, rows = 0;

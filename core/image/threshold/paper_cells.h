@@ -13,7 +13,7 @@ namespace batten {
 
 /// Edge pixels that an estimate needs at least, and those that make it half certain.
 inline constexpr int kMinVotes = 15;
-inline constexpr float kVotesOfConfidence = 60.0f;
+inline constexpr float kVotesOfConfidence = 60.0f;  // make it half certain
 
 struct PaperEstimate {
   PaperBackground paper;

@@ -35,7 +35,7 @@ struct PaperFold {
   std::vector<float> depth;    ///< [grey, never negative] per station: the step.
   std::vector<float> profile;  ///< [grey, never positive where the step is] stations * taps().
 
-  static constexpr int kTapsPerPx = 2;
+  static constexpr int kTapsPerPx = 2;                     // of the profile across a fold
   int taps() const { return 2 * kTapsPerPx * reach + 1; }  ///< Values of the profile of one station.
 
   /// What the fold adds to the grey of the paper there.

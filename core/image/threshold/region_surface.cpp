@@ -11,7 +11,7 @@
 namespace batten {
 namespace {
 
-constexpr int kLast = kRegionsPerSide - 1;
+constexpr int kLast = kRegionsPerSide - 1;  // index
 
 /// Values [begin, end) of a line whose value 0 is `start`.
 BATTEN_HOT_LOOP void fillLine(float* out, int begin, int end, float start, float slope) {

@@ -24,27 +24,27 @@
 namespace batten {
 namespace {
 
-constexpr std::int64_t kLargestStatisticsPx = 2'500'000;
-constexpr int kLargestShrink = 4;
-constexpr int kCellPx = 8;
+constexpr std::int64_t kLargestStatisticsPx = 2'500'000;        // [px] larger pages are shrunk: bounds the time
+constexpr int kLargestShrink = 4;                               // and no more than this
+constexpr int kCellPx = 8;                                      // of the shrunk page
 constexpr double kEdgeVariance = 1.5 * 1.5;                     // [px^2] of the Gaussian under the gradients
 constexpr std::array<double, 3> kSmoothings = {1.0, 1.4, 2.0};  // [px]
-constexpr double kContrastPerNoise = 5.5;
-constexpr double kLeastContrastPerNoise = 4.0;
+constexpr double kContrastPerNoise = 5.5;                       // standard deviations of the paper: less is no line
+constexpr double kLeastContrastPerNoise = 4.0;                  // the same: no region has less contrast
 constexpr double kLinePerNoise = 2.5;   // of the mean over all crests, which is far less noisy than one pixel
 constexpr double kLeastVariance = 0.1;  // [px^2 of the shrunk page] below, nothing is smoothed
 constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
-constexpr double kCertainShare = 1.25;
+constexpr double kCertainShare = 1.25;  // of the contrast of a region: darker is certainly ink
 // Of ink in [specks and holes per stroke width]: a pen leaves up to .06, a dry brush, pencil or charcoal .12 to .35.
 constexpr double kTorn = 0.1;
 constexpr double kSmoothingPerWidth = 0.45;  // [widths of torn ink, half that of its strokes] more rounds them off
 constexpr double kTornShare = 0.75;          // of the half level: grains are darker than the stroke that they make up
 constexpr double kMorePieces = 1.25;         // of those with more smoothing: it closed gaps
 constexpr double kNever = -1000.0;           // [grey] darker than anything
-constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";
-constexpr int kNoiseSamples = 20000;
-constexpr int kDepthsPerBlock = 1024;
+constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";  // a note
+constexpr int kNoiseSamples = 20000;   // cells that the noise is measured on: bounds the time
+constexpr int kDepthsPerBlock = 1024;  // one part of the work of the threads
 
 int shrinkFor(const GreyImage& image) {
   int shrink = 1;

@@ -22,6 +22,6 @@ struct CurveNumbers {
   bool operator==(const CurveNumbers&) const = default;
 };
 
-inline constexpr std::size_t kMostPlacesOfCurve = 16;
+inline constexpr std::size_t kMostPlacesOfCurve = 16;  // limit of input
 
 }  // namespace batten

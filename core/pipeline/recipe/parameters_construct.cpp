@@ -7,7 +7,7 @@ namespace batten::table {
 namespace {
 
 void appendMethod(std::vector<Parameter>& table) {
-  constexpr StageId kCurves = StageId::Curves;
+  constexpr StageId kCurves = StageId::Curves;  // a short name for the entries below
   table.push_back(choice<ConstructMethod>(
       kCurves,
       {"construct.method", "Method", "",
@@ -28,7 +28,7 @@ void appendMethod(std::vector<Parameter>& table) {
 }
 
 void appendPathsOfThePapers(std::vector<Parameter>& table) {
-  constexpr StageId kCurves = StageId::Curves;
+  constexpr StageId kCurves = StageId::Curves;  // a short name for the entries below
   table.push_back(real(
       kCurves,
       {"construct.derivative_magnitude", "Derivative magnitude", "",
@@ -82,7 +82,7 @@ void appendPathsOfThePapers(std::vector<Parameter>& table) {
 }
 
 void appendTypical(std::vector<Parameter>& table) {
-  constexpr StageId kCurves = StageId::Curves;
+  constexpr StageId kCurves = StageId::Curves;  // a short name for the entries below
   table.push_back(choice<TypicalMode>(
       kCurves,
       {"construct.typical", "Segments of the chain", "",
@@ -105,7 +105,7 @@ void appendTypical(std::vector<Parameter>& table) {
 }
 
 void appendControlPolygon(std::vector<Parameter>& table) {
-  constexpr StageId kCurves = StageId::Curves;
+  constexpr StageId kCurves = StageId::Curves;  // a short name for the entries below
   table.push_back(integer(
       kCurves,
       {"construct.degree", "Degree", "",
@@ -139,7 +139,7 @@ void appendControlPolygon(std::vector<Parameter>& table) {
 }
 
 void appendFit(std::vector<Parameter>& table) {
-  constexpr StageId kCurves = StageId::Curves;
+  constexpr StageId kCurves = StageId::Curves;  // a short name for the entries below
   table.push_back(real(
       kCurves,
       {"construct.keep_extrema", "Extremum significance", "",

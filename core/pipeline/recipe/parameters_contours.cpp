@@ -27,7 +27,7 @@ Parameter innerBordersParameter() {
 }
 
 void appendTracing(std::vector<Parameter>& table) {
-  constexpr StageId kContours = StageId::Contours;
+  constexpr StageId kContours = StageId::Contours;  // a short name for the entries below
   table.push_back(choice<EdgeMode>(
       kContours,
       {"edges.mode", "Trace", "",
@@ -50,7 +50,7 @@ void appendTracing(std::vector<Parameter>& table) {
 }
 
 void appendStrokes(std::vector<Parameter>& table) {
-  constexpr StageId kContours = StageId::Contours;
+  constexpr StageId kContours = StageId::Contours;  // a short name for the entries below
   table.push_back(real(
       kContours,
       {"edges.gap", "Bridge gaps", "stroke widths",
@@ -80,7 +80,7 @@ void appendStrokes(std::vector<Parameter>& table) {
 }
 
 void appendLinesKept(std::vector<Parameter>& table) {
-  constexpr StageId kContours = StageId::Contours;
+  constexpr StageId kContours = StageId::Contours;  // a short name for the entries below
   table.push_back(real(
       kContours,
       {"contours.min_widths", "Shortest line", "stroke widths",
@@ -118,7 +118,7 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
        "Places the corner where its two sides meet when extended. Off: at the nearest point of "
        "the line."},
       [](auto& r) -> auto& { return r.corners.exact; }));
-  constexpr StageId kSegments = StageId::Segments;
+  constexpr StageId kSegments = StageId::Segments;  // a short name for the entries below
   table.push_back(choice<SegmentMode>(
       kSegments,
       {"segments.mode", "Segments", "",

@@ -77,7 +77,7 @@ Parameter keepExtremaParameter() {
 }
 
 void appendModeAndTarget(std::vector<Parameter>& table) {
-  constexpr StageId kFaired = StageId::Faired;
+  constexpr StageId kFaired = StageId::Faired;  // a short name for the entries below
   table.push_back(choice<FairingMode>(
       kFaired,
       {"fairing.mode", "Fairing", "",
@@ -117,7 +117,7 @@ void appendModeAndTarget(std::vector<Parameter>& table) {
 }
 
 void appendToleranceAndMeans(std::vector<Parameter>& table) {
-  constexpr StageId kFaired = StageId::Faired;
+  constexpr StageId kFaired = StageId::Faired;  // a short name for the entries below
   table.push_back(real(
       kFaired,
       {"fairing.tolerance", "Tolerance", "mm",
@@ -149,7 +149,7 @@ void appendToleranceAndMeans(std::vector<Parameter>& table) {
 }
 
 void appendProfiles(std::vector<Parameter>& table) {
-  constexpr StageId kFaired = StageId::Faired;
+  constexpr StageId kFaired = StageId::Faired;  // a short name for the entries below
   table.push_back(choice<TargetSpans>(
       kFaired,
       {"fairing.spans", "Spans", "",

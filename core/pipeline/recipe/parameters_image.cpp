@@ -212,7 +212,7 @@ Parameter formatParameter() {
 }
 
 void appendLog(std::vector<Parameter>& table) {
-  constexpr StageId kThresholds = StageId::Thresholds;
+  constexpr StageId kThresholds = StageId::Thresholds;  // a short name for the entries below
   table.push_back(boolean(
       kThresholds,
       {"log.enabled", "Log picture", "",
@@ -231,7 +231,7 @@ void appendLog(std::vector<Parameter>& table) {
 
 // What is kept of the page before thresholds are looked for.
 void appendPage(std::vector<Parameter>& table) {
-  constexpr StageId kThresholds = StageId::Thresholds;
+  constexpr StageId kThresholds = StageId::Thresholds;  // a short name for the entries below
   table.push_back(choice<ColourUse>(
       kThresholds,
       {"paper.colour", "Coloured ink", "",
@@ -270,7 +270,7 @@ void appendPage(std::vector<Parameter>& table) {
 }
 
 void appendThresholds(std::vector<Parameter>& table) {
-  constexpr StageId kThresholds = StageId::Thresholds;
+  constexpr StageId kThresholds = StageId::Thresholds;  // a short name for the entries below
   table.push_back(choice<ThresholdMode>(
       kThresholds,
       {"threshold.mode", "Thresholds", "",
@@ -292,7 +292,7 @@ void appendThresholds(std::vector<Parameter>& table) {
 }
 
 void appendBinary(std::vector<Parameter>& table) {
-  constexpr StageId kBinary = StageId::Binary;
+  constexpr StageId kBinary = StageId::Binary;  // a short name for the entries below
   table.push_back(boolean(
       kBinary,
       {"threshold.interpolate", "Blend regions", "",
@@ -324,7 +324,7 @@ void appendBinary(std::vector<Parameter>& table) {
 }
 
 void appendFilter(std::vector<Parameter>& table) {
-  constexpr StageId kFiltered = StageId::Filtered;
+  constexpr StageId kFiltered = StageId::Filtered;  // a short name for the entries below
   table.push_back(integer(
       kFiltered,
       {"filter.coefficient", "Neighbourhood coefficient", "",

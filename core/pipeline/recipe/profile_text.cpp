@@ -18,9 +18,10 @@ std::string profileToText(std::span<const ProfilePoint> profile) {
 }
 
 Result<std::vector<ProfilePoint>> profileFromText(std::string_view text) {
+  // end of a message
   constexpr const char* kExpected =
       "it must be pairs of arc length fraction and curvature such as \"0:0.01 1:0.02\", or none";
-  constexpr std::string_view kBlank = " \t\n,;";
+  constexpr std::string_view kBlank = " \t\n,;";  // between pairs
   std::vector<ProfilePoint> profile;
   if (trimmed(text) == "none") return profile;
   for (std::size_t at = text.find_first_not_of(kBlank); at < text.size(); at = text.find_first_not_of(kBlank, at)) {

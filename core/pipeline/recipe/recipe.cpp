@@ -100,8 +100,8 @@ std::optional<Error> validateNumbers(const CurveNumbers& numbers) {
 
 /// No drawing has so many, and what a file may ask of the memory stays in proportion.
 std::optional<Error> validateCounts(const Recipe& recipe) {
-  constexpr std::size_t kMostEntries = 100'000;
-  constexpr std::size_t kMostPairs = 100;  // of one junction
+  constexpr std::size_t kMostEntries = 100'000;  // of each kind, in a recipe
+  constexpr std::size_t kMostPairs = 100;        // of one junction
   for (const auto& [count, what] : {std::pair{recipe.cornerMarks.size(), "corner marks"},
                                     {recipe.refusedCornersPx.size(), "excluded corners"},
                                     {recipe.segmentPoints.size(), "segment points"},
@@ -126,7 +126,7 @@ std::optional<Error> validateCounts(const Recipe& recipe) {
   return std::nullopt;
 }
 
-constexpr double kFarthestPageMm = 1e5;
+constexpr double kFarthestPageMm = 1e5;  // limit of input: 100 m from the origin
 
 bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 

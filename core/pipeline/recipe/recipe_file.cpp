@@ -17,8 +17,8 @@ namespace {
 
 using Json = RecipeJson;
 
-constexpr std::string_view kFormat = "batten-recipe";
-constexpr int kVersion = 1;
+constexpr std::string_view kFormat = "batten-recipe";  // what every recipe says it is
+constexpr int kVersion = 1;                            // of the format: a program reads its own and all before
 
 Json parameterToJson(const Parameter& p, const Recipe& recipe) {
   const std::string text = p.get(recipe);

@@ -20,6 +20,7 @@ enum class StageId {
   Curves,      ///< Constructed ("sketched") curves.
   Faired,      ///< Faired curves.
 };
+// in the order in which they run
 inline constexpr std::array kStages = {StageId::Thresholds, StageId::Binary,   StageId::Filtered,
                                        StageId::Edges,      StageId::Contours, StageId::Pieces,
                                        StageId::Segments,   StageId::Curves,   StageId::Faired};

@@ -94,8 +94,8 @@ CourseStretch runOf(const Course& course, const Piece& piece) {
 }
 
 /// The drawn profile as the piece runs.
-std::vector<ProfilePoint> turned(const std::vector<ProfilePoint>& profile, const CourseStretch& run,
-                                 bool closedCourse) {
+std::vector<ProfilePoint> profileAlong(const std::vector<ProfilePoint>& profile, const CourseStretch& run,
+                                       bool closedCourse) {
   const double side = run.isReversed ? -1.0 : 1.0;
   const auto courseShare = [&](double t) {
     const double share = run.start + side * t * run.covered;
@@ -134,7 +134,7 @@ PieceChoice alongPiece(PieceChoice choice, const Piece& piece) {
   if (run.isWhole() || !(run.covered > 0.0)) return choice;
   if (run.isReversed) std::swap(choice.startHold, choice.endHold);
   if (choice.profile.empty()) return choice;
-  std::vector<ProfilePoint> profile = turned(choice.profile, run, course.isClosed());
+  std::vector<ProfilePoint> profile = profileAlong(choice.profile, run, course.isClosed());
   if (profile.size() >= 2 && !validateProfile(profile)) choice.profile = std::move(profile);
   return choice;
 }

@@ -8,7 +8,7 @@ namespace batten {
 
 /// A choice as a piece has it that lies on the course of its anchors. What the choice says along the line is said in
 /// the direction of its anchors; steps before it may hand the line on the other way round, begin a closed one
-/// elsewhere, or divide it. So the drawn profile is turned to the piece's direction (its curvatures change their sign
+/// elsewhere, or divide it. So the drawn profile is brought to the piece's direction (its curvatures change their sign
 /// with it), begun where the piece begins and cut to the part that the piece has; the holds of both ends change places
 /// where the piece runs against the course. What lies by place on the page needs no turning and stays. A line that has
 /// only been moved a little keeps the choice exactly: ends within 3 % of the course are the same end. A choice with a

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSmallLoopPx = 70.0;                   // round: radius 11 px
 constexpr double kCertainAngleRad = 28.0 * kRadPerDeg;  // below the least turn of a certain corner
-constexpr double kCertainScalePx = 14.0;
+constexpr double kCertainScalePx = 14.0;                // along the line, at which certain corners are looked for
 
 // [grey] The darkest or lightest pixel of a square about a place, as far as it lies on the page.
 struct GreyRange {
@@ -39,7 +39,7 @@ GreyRange greyAround(const GreyImage& page, const Vec2& place, double reachPx) {
 
 // Sides that never met lead to a vertex on blank paper. The border of a shape may have lost its tip to the mask.
 bool liesOnInk(const CornerSuggestion& corner, const Contour& contour, const GreyImage& page) {
-  constexpr int kBesidePoints = 20;
+  constexpr int kBesidePoints = 20;    // of the contour, to either side
   constexpr double kPaperReach = 3.0;  // widths of the stroke
   constexpr double kInkShare = 0.5;    // of the way from ink to paper
   const std::optional<float> width = contour.points[corner.pointIndex].widthPx;

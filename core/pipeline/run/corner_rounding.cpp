@@ -19,10 +19,11 @@
 namespace batten {
 namespace {
 
-constexpr double kLargestShare = 0.45;
+constexpr double kLargestShare = 0.45;  // of the room along a side
 /// How evenly: nearly as round as a circular arc, and monotone to both sides.
 constexpr double kForm = 0.85;
-constexpr int kDegree = 5;
+constexpr int kDegree = 5;  // of the rounding curve
+// a note
 constexpr const char* kStaysSharp = "A corner could not be rounded because its sides do not meet when extended.";
 
 Result<NurbsCurve> asCurve(const TypicalCurve& arc) {
@@ -197,10 +198,10 @@ class RoundedSides {
  private:
   /// Sizes beside the wanted one, and how much rounder they must be to be taken.
   static constexpr std::array kSmaller = {0.7, 0.5, 0.3};
-  static constexpr double kRounder = 1.02;
+  static constexpr double kRounder = 1.02;  // times
   /// Sizes tried for a radius, each this share of the one before, and how near the radius is to be met.
   static constexpr int kRadiusSteps = 18, kRadiusHalvings = 30;
-  static constexpr double kRadiusStep = 0.7, kRadiusMet = 1.001;
+  static constexpr double kRadiusStep = 0.7, kRadiusMet = 1.001;  // both as shares
 
   static std::string millimetresText(double mm) { return significantText(mm, 3) + " mm"; }
   bool isOne() const { return at_.before == at_.behind; }

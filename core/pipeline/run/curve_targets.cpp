@@ -86,7 +86,7 @@ void moveEdgeLengths(const std::vector<Asked>& all, const RunContext& context) {
     *asked.outcomes = std::move(outcomes);
     fitted.push_back(asked);
   }
-  constexpr std::size_t kTargets = std::tuple_size_v<decltype(TargetOutcomes::faired)>;
+  constexpr std::size_t kTargets = std::tuple_size_v<decltype(TargetOutcomes::faired)>;  // polynomial ones
   const RunContext inner = itemContext(context, kTargets * fitted.size());
   forEachItem(context, kTargets * fitted.size(),
               [&](std::size_t i) { moveEdgeLengths(fitted[i / kTargets], i % kTargets, inner); });

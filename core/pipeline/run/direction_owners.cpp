@@ -6,7 +6,7 @@
 namespace batten {
 namespace {
 
-constexpr double kMarkReachPx = 24.0;
+constexpr double kMarkReachPx = 24.0;  // from a mark to the line that it means
 /// [points] Over so many to both sides of a place the direction of a line is taken.
 constexpr std::ptrdiff_t kChordPoints = 4;
 

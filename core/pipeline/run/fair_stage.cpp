@@ -28,9 +28,11 @@ namespace {
 /// Share of the length below which a part of a split curve is none.
 constexpr double kLeastPart = 1e-3;
 
+// notes of curves that stay as they were
 constexpr const char* kLeavesTolerance = "Unchanged: fairing would leave the tolerance. Raise it.";
 constexpr const char* kHasMoreExtrema = "Unchanged: fairing would add curvature extrema. Raise the tolerance.";
 
+// and of those that fairing made no lighter
 constexpr const char* kStayedDense = "Stayed dense: no lighter curve was found within the tolerance.";
 
 /// [px] A place farther than this from a curve lies on another part of the line whose choice it shares.

@@ -156,8 +156,9 @@ std::optional<NurbsCurve> curveBetween(const ImportedLine& line, std::span<const
   return isNext ? partOf(curve, from.u, curve.end()) : std::nullopt;
 }
 
-/// The curve of the line that a piece begins on; -1 for lines of points. A curve begins at every joint.
-int curveOfPiece(const ImportedLine& line, const Contour& contour, const Piece& piece) {
+/// The curve of the line that a piece begins on; absent for lines of points. A curve begins at every joint.
+std::optional<int> curveOfPiece(const ImportedLine& line, const Contour& contour, const Piece& piece) {
+  if (line.curves.empty()) return std::nullopt;
   const auto begun = std::upper_bound(contour.joints.begin(), contour.joints.end(), piece.firstPoint);
   const auto before = std::distance(contour.joints.begin(), begun);
   const auto curve = line.closed ? before - 1 : before;
@@ -211,9 +212,9 @@ std::string importedNameOf(const PieceSet& pieces, std::size_t piece, const Cont
   const Contour& contour = contours.contours[line];
   const ImportedLine* imported = importedLineOf(contour, imports);
   if (imported == nullptr) return {};
-  const int curve = curveOfPiece(*imported, contour, pieces.pieces[piece]);
-  const bool isNamed = curve >= 0 && !imported->curves[curve].name.empty();
-  const std::string& name = isNamed ? imported->curves[curve].name : imported->name;
+  const std::optional<int> curve = curveOfPiece(*imported, contour, pieces.pieces[piece]);
+  const bool isNamed = curve && !imported->curves[*curve].name.empty();
+  const std::string& name = isNamed ? imported->curves[*curve].name : imported->name;
   if (name.empty() || isMadeName(name)) return {};
   // The pieces of a line stand side by side.
   const auto isAlike = [&](std::size_t other) {

@@ -218,6 +218,7 @@ Vec2 anchorOf(const Piece& piece) {
 }
 
 std::vector<Vec2> anchorsOf(const Piece& piece) {
+  // anchors follow the line so closely; [px] and are rounded to this
   constexpr double kStraightPx = 1.5, kRoundedTo = 0.1;
   std::vector<Vec2> points = positionsOf(piece.points);
   if (piece.closed && !points.empty()) points.push_back(points.front());

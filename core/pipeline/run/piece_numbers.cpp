@@ -26,7 +26,7 @@ constexpr int kFewestPlaces = 2;
 constexpr int kPlacesNoted = 5;
 /// Lines that are gone may come back. So many are remembered; those that went first are forgotten first.
 constexpr std::ptrdiff_t kMostGone = 5000;
-constexpr double kPlaceRoundingPx = 0.1;
+constexpr double kPlaceRoundingPx = 0.1;  // places are stored in the recipe as short numbers
 const std::string kCurveNameBegin = "Curve ";
 
 std::vector<Vec2> placesOf(const Piece& piece) {
@@ -98,14 +98,18 @@ class PlaceOwners {
   PointGrid<std::size_t> grid_{kNumberReachPx};
 };
 
-/// Number of each piece that a known curve has; 0: none has it. `isThere`: the known curves that have a piece.
-std::vector<int> keptNumbers(const PieceSet& set, const std::vector<NumberedCurve>& known, std::vector<bool>& isThere,
-                             const RunContext& context) {
-  std::vector<int> numbers(set.pieces.size(), 0);
-  if (known.empty()) return numbers;
+/// The numbers that pieces have from known curves.
+struct KeptNumbers {
+  std::vector<std::optional<int>> ofPiece;
+  std::vector<bool> isThere;  ///< The known curves that have a piece.
+};
+
+KeptNumbers keptNumbers(const PieceSet& set, const std::vector<NumberedCurve>& known, const RunContext& context) {
+  KeptNumbers kept{std::vector<std::optional<int>>(set.pieces.size()), std::vector<bool>(known.size(), false)};
+  if (known.empty()) return kept;
   PlaceOwners owners(known);
   for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
-    if (context.isCancelled()) return numbers;
+    if (context.isCancelled()) return kept;
     owners.look(set.pieces[piece], piece);
   }
   std::vector<NumberClaim> claims = owners.claims();
@@ -116,25 +120,24 @@ std::vector<int> keptNumbers(const PieceSet& set, const std::vector<NumberedCurv
   for (const NumberClaim& claim : claims) {
     const NumberedCurve& curve = known[claim.known];
     const int asked = std::min(kFewestPlaces, static_cast<int>(curve.placesPx.size()));
-    if (claim.within < asked || numbers[claim.piece] != 0 || isThere[claim.known]) continue;
-    numbers[claim.piece] = curve.number;
-    isThere[claim.known] = true;
+    if (claim.within < asked || kept.ofPiece[claim.piece] || kept.isThere[claim.known]) continue;
+    kept.ofPiece[claim.piece] = curve.number;
+    kept.isThere[claim.known] = true;
   }
-  return numbers;
+  return kept;
 }
 
 }  // namespace
 
 PieceNumbers numberPieces(const PieceSet& set, const CurveNumbers& known, const RunContext& context) {
   PieceNumbers result;
-  std::vector<bool> isThere(known.curves.size(), false);
-  result.ofPiece = keptNumbers(set, known.curves, isThere, context);
+  const KeptNumbers kept = keptNumbers(set, known.curves, context);
   if (context.isCancelled()) return {{}, known};
   result.known.lastGiven = known.lastGiven;
   for (const NumberedCurve& curve : known.curves)
     result.known.lastGiven = std::max(result.known.lastGiven, curve.number);
   for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
-    if (result.ofPiece[piece] == 0) result.ofPiece[piece] = ++result.known.lastGiven;
+    result.ofPiece.push_back(kept.ofPiece[piece] ? *kept.ofPiece[piece] : ++result.known.lastGiven);
     if (!set.pieces[piece].points.empty())
       result.known.curves.push_back({result.ofPiece[piece], placesOf(set.pieces[piece])});
   }
@@ -142,14 +145,14 @@ PieceNumbers numberPieces(const PieceSet& set, const CurveNumbers& known, const 
             [](const NumberedCurve& a, const NumberedCurve& b) { return a.number < b.number; });
   const std::ptrdiff_t present = std::ssize(result.known.curves);
   for (std::size_t i = 0; i < known.curves.size() && std::ssize(result.known.curves) < present + kMostGone; ++i)
-    if (!isThere[i]) result.known.curves.push_back(known.curves[i]);
+    if (!kept.isThere[i]) result.known.curves.push_back(known.curves[i]);
   return result;
 }
 
 std::string curveName(int number) { return kCurveNameBegin + std::to_string(number); }
 
 std::optional<int> numberOfCurveName(std::string_view name) {
-  constexpr int kMostNumber = 1'000'000;
+  constexpr int kMostNumber = 1'000'000;  // limit of input
   if (!name.starts_with(kCurveNameBegin)) return std::nullopt;
   const auto number = integerFromText(name.substr(kCurveNameBegin.size()));
   return number && *number >= 1 && *number <= kMostNumber && curveName(*number) == name ? number : std::nullopt;

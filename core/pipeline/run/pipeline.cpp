@@ -131,7 +131,7 @@ class PipelineRun {
 
   /// What the thresholds are measured on: of an empty page a part, which is as white as the whole.
   const GreyImage& thresholdGrey() {
-    constexpr int kPartPx = 512;
+    constexpr int kPartPx = 512;  // of a side
     if (!isBlank(scan_) || std::max(scan_.grey.width, scan_.grey.height) <= kPartPx) return grey();
     part_ = GreyImage::uniform(std::min(scan_.grey.width, kPartPx), std::min(scan_.grey.height, kPartPx), 0xffff);
     return part_;

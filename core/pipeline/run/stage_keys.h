@@ -10,8 +10,8 @@
 
 namespace batten {
 
-/// Key of every stage's output: digest of the stage, the version of its algorithm, the key of its input and what of the
-/// recipe it reads. Two runs with equal keys have equal outputs.
+/// Key of every stage's output: digest of the stage, the key of its input and what of the recipe it reads. Two runs
+/// with equal keys have equal outputs.
 ///
 /// The log transform is in no key: thresholds are stored on the scan's own scale, so its slider changes what is shown
 /// and how numbers are entered, never a result.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include <clocale>
 #include <cstdlib>
 #include <limits>
 #include <locale>
@@ -11,6 +10,7 @@
 #include "core/exchange/svg/svg_check.h"
 #include "core/exchange/svg/svg_writer.h"
 #include "core/exchange/text/curve_json.h"
+#include "tests/support/comma_locale.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {
@@ -229,35 +229,23 @@ TEST(SvgWriter, StatesMillimetresErrorAndExactData) {
   }
 }
 
-/// Numbers as in a language with commas for points and points between thousands, whether or not the machine knows one.
-class Continental : public std::numpunct<char> {
-  char do_decimal_point() const override { return ','; }
-  char do_thousands_sep() const override { return '.'; }
-  std::string do_grouping() const override { return "\3"; }
-};
-
 TEST(SvgWriter, IsIndependentOfTheLocale) {
   const auto before = writeSvg(exportOfAllKinds(), {});
   const auto json = writeCurveJson(exportOfAllKinds());
   ASSERT_TRUE(before && json);
-  const std::locale old = std::locale::global(std::locale(std::locale::classic(), new Continental));
-  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"})
-    if (std::setlocale(LC_ALL, name) != nullptr) break;
+  const test::CommaLocale locale;
   std::ostringstream commas;
   commas << 1234.5;
+  ASSERT_EQ(commas.str(), "1.234,5") << "the locale holds";
   const auto after = writeSvg(exportOfAllKinds(), {});
   const auto jsonAfter = writeCurveJson(exportOfAllKinds());
-  const auto read = readCurveJson(*json);
-  const auto check = checkSvg(before->text, exportOfAllKinds());
-  std::locale::global(old);
-  std::setlocale(LC_ALL, "C");
-  EXPECT_EQ(commas.str(), "1.234,5") << "the locale holds";
   ASSERT_TRUE(after && jsonAfter);
   EXPECT_EQ(before->text, after->text);
   EXPECT_EQ(*json, *jsonAfter);
+  const auto read = readCurveJson(*json);
   ASSERT_TRUE(read);
   EXPECT_EQ(*writeCurveJson(*read), *json);
-  EXPECT_TRUE(check);
+  EXPECT_TRUE(checkSvg(before->text, exportOfAllKinds()));
 }
 
 TEST(SvgWriter, TakesTinyAndHugeCoordinates) {

@@ -206,10 +206,10 @@ TEST(ModifyShape, ATargetThatIsHardlyFollowedIsNotMet) {
       const auto objective =
           targetObjective(**setup, fitTargets(start, params.targets, false).profiles[std::size_t(degree) - 1]);
       ASSERT_TRUE(objective);
-      const TargetSteps steps(**setup, *objective, {});
-      ASSERT_FALSE(steps.all().empty());
+      const TargetSteps followed(**setup, *objective, {});
+      ASSERT_FALSE(followed.steps().empty());
       const FairingReport& report = faired->report;
-      const double full = std::sqrt(steps.all().front().misfit);
+      const double full = std::sqrt(followed.steps().front().misfit);
       const double left = (report.objectiveAfter - full) / (report.objectiveBefore - full);
       SCOPED_TRACE(testing::Message() << "curve " << seed << ", degree " << degree << ", left " << left);
       if (left > 0.2) {

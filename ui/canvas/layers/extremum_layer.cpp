@@ -8,7 +8,7 @@
 namespace batten {
 namespace {
 
-constexpr double kMarkRadius = 4.5, kRingRadius = 8.0;
+constexpr double kMarkRadius = 4.5, kRingRadius = 8.0;  // [widget px]
 
 void paintMark(QPainter& painter, const ExtremumMark& mark, QPointF at) {
   painter.setBrush(Qt::NoBrush);

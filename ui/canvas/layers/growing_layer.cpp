@@ -10,7 +10,7 @@ namespace batten {
 namespace {
 
 QPolygonF outlineOf(const TypicalCurve& curve, const CanvasScene& scene) {
-  constexpr int kPieces = 32;
+  constexpr int kPieces = 32;  // of a polygon for the curve
   const auto q = curve.controlPoints();
   QPolygonF line;
   for (int i = 0; i <= kPieces; ++i) {

@@ -11,7 +11,7 @@
 namespace batten {
 namespace {
 
-constexpr int kKindAlpha = 130, kCourseAlpha = 70;
+constexpr int kKindAlpha = 130, kCourseAlpha = 70;  // of 255: the ink below shows
 
 QPainterPath pathOf(const Contour& line) {
   QPainterPath path = pathThrough(line.points, &ContourPoint::at);

@@ -124,7 +124,9 @@ int inkInRow(const BitImage& bits, int y, int x0, int x1) {
   return count;
 }
 
-void renderRaster(const RasterContent& content, double zoom, const QRect& device, QImage& out) {
+QImage renderRaster(const RasterContent& content, double zoom, const QRect& device) {
+  QImage out(device.size(), QImage::Format_RGB32);
+  if (out.isNull()) return out;
   renderPage(content, zoom, device, out);
   const bool overPicture = content.showsPicture && content.pyramid;
   if (content.mask)
@@ -133,6 +135,7 @@ void renderRaster(const RasterContent& content, double zoom, const QRect& device
   const double thinGain = std::max(1.0, 0.7 / zoom);
   if (content.missed) renderBits(*content.missed, zoom, device, {colors::kMissed, 0.95, thinGain}, out);
   if (content.edges) renderBits(*content.edges, zoom, device, {colors::kEdges, 0.9, thinGain}, out);
+  return out;
 }
 
 }  // namespace batten

@@ -26,9 +26,10 @@ struct RasterContent {
   bool operator==(const RasterContent&) const = default;
 };
 
-/// Renders the screen pixels `device` (relative to the image's origin at this zoom) into `out`, which has their size
-/// and the format RGB32. Mask and edges are painted by their share of each screen pixel, so thin lines do not drop out.
-void renderRaster(const RasterContent&, double zoom, const QRect& device, QImage& out);
+/// The screen pixels `device` (relative to the image's origin at this zoom) as a picture of format RGB32; null where
+/// memory does not suffice. Mask and edges are painted by their share of each screen pixel, so thin lines do not drop
+/// out.
+QImage renderRaster(const RasterContent&, double zoom, const QRect& device);
 
 /// Ink pixels in columns [x0, x1) of a row. @pre 0 <= x0 <= x1 <= width
 int inkInRow(const BitImage&, int y, int x0, int x1);

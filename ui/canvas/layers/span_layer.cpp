@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr double kTickPx = 7.0, kTickGapPx = 3.0, kSpanWidthPx = 11.0;
+constexpr double kTickPx = 7.0, kTickGapPx = 3.0, kSpanWidthPx = 11.0;  // [widget px]
 /// Points of the pointed span as drawn.
 constexpr int kSpanPoints = 160;
 

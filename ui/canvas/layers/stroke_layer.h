@@ -8,7 +8,7 @@
 /// Painters take a painter in widget coordinates and leave its state as it was.
 namespace batten {
 
-/// Widths of strokes, bands of merged ones, bridged gaps.
+/// Widths of strokes, bundles of merged ones, bridged gaps.
 void paintStrokes(QPainter&, const CanvasScene&);
 
 }  // namespace batten

@@ -8,8 +8,8 @@
 namespace batten {
 namespace {
 
-constexpr double kMargin = 12.0;
-constexpr double kPadX = 10.0, kPadY = 6.0;
+constexpr double kMargin = 12.0;             // [widget px] from the border of the canvas
+constexpr double kPadX = 10.0, kPadY = 6.0;  // [widget px] around the text
 
 void paintBox(QPainter& painter, const CanvasScene& scene, const QString& text, const QRectF& box, double opacity) {
   painter.save();

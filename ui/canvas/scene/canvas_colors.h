@@ -10,9 +10,9 @@ namespace batten::colors {
 
 inline QRgb desk(bool isDark) { return isDark ? qRgb(46, 48, 51) : qRgb(218, 216, 211); }  ///< Around the page.
 inline constexpr QRgb kPaper = qRgb(252, 251, 248);  ///< The page where no picture of it is shown.
-inline constexpr QRgb kMask = qRgb(0, 110, 116);
-inline constexpr QRgb kEdges = qRgb(176, 36, 142);
-inline constexpr QRgb kMissed = qRgb(236, 112, 0);  ///< Ink that no curve explains.
+inline constexpr QRgb kMask = qRgb(0, 110, 116);     // ink
+inline constexpr QRgb kEdges = qRgb(176, 36, 142);   // the picture of edges
+inline constexpr QRgb kMissed = qRgb(236, 112, 0);   ///< Ink that no curve explains.
 
 inline QColor sketched() { return {88, 88, 88, 210}; }
 inline QColor sketchedFaint() { return {96, 96, 96, 150}; }

@@ -14,8 +14,8 @@
 namespace batten {
 namespace {
 
-constexpr int kCombSamples = 801;
-constexpr int kWhiskers = 121;
+constexpr int kCombSamples = 801;        // along a curve
+constexpr int kWhiskers = 121;           // of a comb
 constexpr double kMostCurvature = 0.95;  ///< Of the samples: what a few spikes do not raise.
 constexpr std::size_t kFewCurves = 6;    ///< All combs are shown up to this many curves.
 

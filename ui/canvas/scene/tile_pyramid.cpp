@@ -9,8 +9,8 @@
 namespace batten {
 namespace {
 
-constexpr int kSmallestSide = 192;
-constexpr double kPixelatedZoom = 3.0;
+constexpr int kSmallestSide = 192;      // [px] of the coarsest level
+constexpr double kPixelatedZoom = 3.0;  // from here on pixels are squares
 
 TileLevel emptyLevel(int shift, const Scan& scan) {
   TileLevel level;

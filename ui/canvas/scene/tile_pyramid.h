@@ -16,8 +16,8 @@ namespace batten {
 /// One level of a pyramid: 8-bit grey, and colours where the scan has them, in tiles of 256 x 256, each level half the
 /// size of the one before.
 struct TileLevel {
-  static constexpr int kTile = 256;
-  int shift = 0;  ///< One pixel covers 2^shift scan pixels a side.
+  static constexpr int kTile = 256;  // px of a side
+  int shift = 0;                     ///< One pixel covers 2^shift scan pixels a side.
   int width = 0, height = 0, tilesAcross = 0;
   std::vector<std::uint8_t> tiles;  ///< Tile by tile, row by row within a tile.
   std::vector<Rgb8> colours;        ///< In the same order; empty for a scan without colour.

@@ -15,8 +15,8 @@ namespace batten {
 /// whole device pixel, so that rendered tiles can be reused while panning. Widget coordinates are device px / ratio.
 class ViewTransform {
  public:
-  static constexpr double kMaxZoom = 64.0;
-  static constexpr int kFitMarginPx = 24;  ///< [widget px] left free around a fitted image, less in a low view.
+  static constexpr double kMaxZoom = 64.0;  // device px for one of the page
+  static constexpr int kFitMarginPx = 24;   ///< [widget px] left free around a fitted image, less in a low view.
 
   void setImageSize(QSize size) { image_ = size; }
   void setViewSize(QSize device, double ratio);

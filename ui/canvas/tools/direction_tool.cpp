@@ -16,7 +16,7 @@ namespace batten {
 namespace {
 
 constexpr double kArrowPx = 11.0, kRingPx = 6.0;  ///< [widget px]
-constexpr double kHeadAngleRad = 0.45;
+constexpr double kHeadAngleRad = 0.45;            // of an arrow, half of it
 
 QString directionToolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 

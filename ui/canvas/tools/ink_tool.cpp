@@ -65,7 +65,7 @@ class InkTool final : public CanvasTool {
 
   void paint(QPainter& painter) override {
     if (!over_ || !at_) return;
-    constexpr double kSwatchPx = 9.0, kAbovePx = 22.0;
+    constexpr double kSwatchPx = 9.0, kAbovePx = 22.0;  // [widget px] size, and distance from the mouse
     const QPointF centre = at_->widget + QPointF(0.0, -kAbovePx);
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);

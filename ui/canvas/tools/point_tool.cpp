@@ -8,7 +8,7 @@
 namespace batten {
 namespace {
 
-constexpr double kDragStartPx = 4.0;
+constexpr double kDragStartPx = 4.0;  // [widget px] a smaller move is a click
 
 /// The way an arrow key moves a mark: 1 px, with Shift 0.1 px; image frame.
 std::optional<Vec2> arrowOf(const QKeyEvent* event) {

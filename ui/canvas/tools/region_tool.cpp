@@ -12,9 +12,9 @@
 namespace batten {
 namespace {
 
-constexpr double kSmallestPx = 6.0;   // [widget px] a smaller drag was a click
-constexpr double kLassoStepPx = 4.0;  // [widget px] between corners of a lasso
-constexpr std::size_t kMostCorners = 200;
+constexpr double kSmallestPx = 6.0;        // [widget px] a smaller drag was a click
+constexpr double kLassoStepPx = 4.0;       // [widget px] between corners of a lasso
+constexpr std::size_t kMostCorners = 200;  // of a lasso, about: it is thinned to them
 
 QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 

@@ -17,10 +17,10 @@
 namespace batten {
 namespace {
 
-constexpr double kLevelsPerPx = 0.5;  ///< Of a vertical drag.
-constexpr double kLevelsPerNotch = 2.0;
-constexpr qint64 kWheelPauseMs = 800;  ///< Wheel notches closer than this are one undo step.
-constexpr double kDragStartPx = 3.0;
+constexpr double kLevelsPerPx = 0.5;     ///< Of a vertical drag.
+constexpr double kLevelsPerNotch = 2.0;  // Of the wheel.
+constexpr qint64 kWheelPauseMs = 800;    ///< Wheel notches closer than this are one undo step.
+constexpr double kDragStartPx = 3.0;     // [widget px] A smaller move is a click.
 constexpr double kNumbersFromPx = 54.0;  ///< Width of a region from which its number is shown.
 
 QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }

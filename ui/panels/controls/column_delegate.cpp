@@ -12,9 +12,9 @@
 namespace batten {
 namespace {
 
-constexpr int kBeforePx = 6;  ///< Left of the first column.
-constexpr int kBetweenPx = 10;
-constexpr QChar kTab = u'\t';
+constexpr int kBeforePx = 6;    ///< Left of the first column.
+constexpr int kBetweenPx = 10;  // Two columns.
+constexpr QChar kTab = u'\t';   // Between the texts of two columns.
 
 QFont rowFont() { return uiFont(12); }
 

@@ -34,7 +34,7 @@ class HintList : public QListWidget {
   }
 
  private:
-  static constexpr int kRowPx = 22;
+  static constexpr int kRowPx = 22;  // height
   QString hint_;
 };
 

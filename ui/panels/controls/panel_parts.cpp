@@ -16,9 +16,9 @@
 
 namespace batten {
 namespace {
-constexpr int kRowHeight = 24;
-constexpr int kColumnWidth = 64;
-constexpr int kWideColumn = 72;  // where the heads of many columns would touch
+constexpr int kRowHeight = 24;    // px
+constexpr int kColumnWidth = 64;  // [px] of a field
+constexpr int kWideColumn = 72;   // where the heads of many columns would touch
 
 void addLaidOut(QLayout* layout, std::vector<QWidget*>& found);
 

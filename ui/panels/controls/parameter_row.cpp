@@ -22,7 +22,7 @@
 namespace batten {
 namespace {
 
-constexpr int kInnerWidth = 272;
+constexpr int kInnerWidth = 272;  // [px] of a panel within its margins
 
 QString text(const std::string& s) { return QString::fromStdString(s); }
 

@@ -15,7 +15,7 @@ class PathEdit : public QLineEdit {
 
  protected:
   void paintEvent(QPaintEvent* event) override {
-    constexpr int kMargin = 3;
+    constexpr int kMargin = 3;  // [px] left and right of the text
     QStyleOptionFrame option;
     initStyleOption(&option);
     const QRect box =

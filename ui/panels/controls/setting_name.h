@@ -7,7 +7,7 @@
 
 namespace batten {
 
-inline constexpr const char* kSettingName = "settingName";
+inline constexpr const char* kSettingName = "settingName";  // property of a widget: how the palette calls it
 
 /// Gives a control that is no row of a parameter the name under which the action finder finds it.
 inline void setSettingName(QWidget* control, const QString& name) { control->setProperty(kSettingName, name); }

@@ -9,7 +9,7 @@
 
 namespace batten {
 namespace {
-constexpr double kKnobRadius = 6.0;
+constexpr double kKnobRadius = 6.0;  // px
 }
 
 SliderTrack::SliderTrack(QWidget* parent) : QSlider(Qt::Horizontal, parent) {

@@ -9,7 +9,7 @@ namespace batten {
 class SliderTrack : public QSlider {
   Q_OBJECT
  public:
-  static constexpr int kSteps = 2000;
+  static constexpr int kSteps = 2000;  // of the range: finer than the track has pixels
   explicit SliderTrack(QWidget* parent = nullptr);
   QSize sizeHint() const override { return {120, 18}; }
   QSize minimumSizeHint() const override { return {40, 18}; }

@@ -10,8 +10,8 @@
 namespace batten {
 namespace {
 
-constexpr QMargins kPanelMarginsPx{14, 12, 14, 12};
-constexpr int kPanelSpacingPx = 8;
+constexpr QMargins kPanelMarginsPx{14, 12, 14, 12};  // left, top, right, bottom
+constexpr int kPanelSpacingPx = 8;                   // between rows
 
 }  // namespace
 

@@ -110,6 +110,7 @@ QString hint(PanelStage stage, bool isOpen) {
 }
 
 QString key(PanelStage stage) {
+  // names of help pages and widgets, in the order of the stages
   static constexpr std::array kKeys = {"scan",    "threshold", "clean-up", "edges",
                                        "corners", "curves",    "fairing",  "export"};
   return QString::fromLatin1(kKeys[indexOf(stage)]);

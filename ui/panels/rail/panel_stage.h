@@ -12,6 +12,7 @@ class EditorSession;
 
 /// The stages as the window shows them, one inspector panel each.
 enum class PanelStage { Scan, Threshold, CleanUp, Edges, Corners, Curves, Fairing, Export };
+// in the order of the rail
 inline constexpr std::array kPanelStages = {PanelStage::Scan,    PanelStage::Threshold, PanelStage::CleanUp,
                                             PanelStage::Edges,   PanelStage::Corners,   PanelStage::Curves,
                                             PanelStage::Fairing, PanelStage::Export};

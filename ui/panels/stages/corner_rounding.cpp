@@ -17,6 +17,7 @@ namespace {
 
 // In the order of their segments.
 constexpr std::array kRoundingSizes = {RoundingSize::Distance, RoundingSize::Radius};
+// As they are listed.
 constexpr std::array kRoundingJoints = {RoundingJoint::Tangent, RoundingJoint::Curvature,
                                         RoundingJoint::CurvatureSlope};
 

@@ -30,9 +30,9 @@
 namespace batten {
 namespace {
 
-constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
-constexpr int kRows = 6;  // of the lists
-constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
+constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;  // range of the slider
+constexpr int kRows = 6;                                            // of the lists
+constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;       // range of the slider
 
 QString across(const Vec2& px) { return QString::number(px.x(), 'f', 1); }
 QString down(const Vec2& px) { return QCoreApplication::translate("CornersPanel", "%1 px").arg(px.y(), 0, 'f', 1); }

@@ -75,6 +75,7 @@ void EdgesPanel::buildChoice() {
   fallback_->setObjectName(QStringLiteral("edges.showFallback"));
   layout->addWidget(strokes_);
   layout->addWidget(fallback_);
+  // tools of this panel, as listed
   static constexpr Tool kChoices[] = {Tool::Select, Tool::Lines, Tool::Rectangle, Tool::Lasso};
   connect(tools_, &SegmentedControl::chosen, this, [this](int index) { view_.setTool(kChoices[index]); });
   connect(clear_, &QPushButton::clicked, this, [this] { clearRegions(session_); });

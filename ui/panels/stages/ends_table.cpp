@@ -9,8 +9,8 @@
 namespace batten {
 namespace {
 
-constexpr int kEndRow = 24;
-constexpr int kEndColumn = 56;
+constexpr int kEndRow = 24;     // [px] height
+constexpr int kEndColumn = 56;  // [px] width
 
 /// A dot that is full when held.
 class HoldDot : public QAbstractButton {

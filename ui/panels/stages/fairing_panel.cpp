@@ -381,7 +381,7 @@ void FairingPanel::refreshFigures() {
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
   note_->setText(said.text);
-  constexpr int kUsualLines = 2, kLinesOfTargets = 4;
+  constexpr int kUsualLines = 2, kLinesOfTargets = 4;  // of room for the note
   const FairingMode mode = shown(session_.recipe()).mode;
   const int lines = mode == FairingMode::None ? 0 : mode == FairingMode::Target ? kLinesOfTargets : kUsualLines;
   said_->setMinimumHeight(lines * note_->fontMetrics().lineSpacing());

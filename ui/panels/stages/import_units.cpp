@@ -15,7 +15,7 @@
 namespace batten {
 namespace {
 
-constexpr int kImportUnitWidth = 92;
+constexpr int kImportUnitWidth = 92;        // px
 constexpr std::size_t kMostImportRows = 8;  ///< A drawing of more files shows the last ones.
 
 bool isUnitAssumed(const std::string& unit) { return unit.ends_with('?'); }

@@ -48,8 +48,8 @@ void saveProfile(EditorSession& session, QWidget* parent, const std::function<vo
 
 /// The course of a curve as it lies on the drawing, so that it is known again.
 QIcon courseIcon(const NurbsCurve& curve, const QWidget* link) {
-  constexpr int kPlaces = 96;
-  constexpr double kProfilePictureSide = 20.0, kMargin = 1.0;
+  constexpr int kPlaces = 96;                                  // of a polygon for the curve
+  constexpr double kProfilePictureSide = 20.0, kMargin = 1.0;  // px
   QPolygonF line;
   for (int i = 0; i <= kPlaces; ++i) {
     const Vec2 p = curve.point(curve.start() + (curve.end() - curve.start()) * i / kPlaces);

@@ -12,7 +12,7 @@
 namespace batten {
 namespace {
 
-constexpr std::array kTraceModes = {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::Centreline};
+constexpr std::array kTraceModes = {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::Centreline};  // as listed
 
 }
 

@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr std::array kBrushModes = {EdgeMode::Outline, EdgeMode::Centreline, EdgeMode::Automatic};
+constexpr std::array kBrushModes = {EdgeMode::Outline, EdgeMode::Centreline, EdgeMode::Automatic};  // as listed
 
 }
 

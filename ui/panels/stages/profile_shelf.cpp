@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr int kShelfRow = 24, kMostShelfRows = 5;
+constexpr int kShelfRow = 24, kMostShelfRows = 5;  // [px] height; rows that are seen
 
 }  // namespace
 

@@ -110,7 +110,7 @@ void RectifyControls::say(const Result<void>& done) {
 }
 
 QString RectifyControls::state() const {
-  constexpr double kDoubtfulAspect = 0.01;
+  constexpr double kDoubtfulAspect = 0.01;  // share above which the uncertainty is shown
   if (!session_.hasScan()) return {};
   const auto& page = session_.output().page;
   if (const auto& made = session_.scan()->rectification) {

@@ -24,8 +24,8 @@ namespace {
 
 /// A scan whose sides are as those of the paper but for this share is the whole sheet.
 constexpr double kSameShape = 0.03;
-constexpr double kMillimetresPerCm = 10.0;
-constexpr int kScaleFieldWidth = 92, kUnitWidth = 60;
+constexpr double kMillimetresPerCm = 10.0;             // by definition
+constexpr int kScaleFieldWidth = 92, kUnitWidth = 60;  // px
 /// Millimetres of each unit, in the order of the list.
 constexpr std::array kScaleUnitMm = {1.0, kMillimetresPerCm, kMillimetresPerInch};
 const QString kScaleUnitKey = QStringLiteral("scale/unit");

@@ -20,8 +20,8 @@
 namespace batten {
 namespace {
 
-constexpr double kStepPx = 1.0;  // between the points of a line
-constexpr double kTitleHeight = 17.0;
+constexpr double kStepPx = 1.0;        // between the points of a line
+constexpr double kTitleHeight = 17.0;  // px
 
 /// What a tile draws: the curvature, of the sketched curve or of a target, with the side up to which the curve turns
 /// most. Which way it was traced is chance and must not turn the picture upside down.
@@ -216,7 +216,7 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
 
 // In a narrow tile: the sign of advice beside the name, the similarity where the word would be.
 void TargetTile::paintTitleWithSimilarity(QPainter& painter, const QRectF& box, bool isAdvised) const {
-  constexpr double kApartPx = 6.0;
+  constexpr double kApartPx = 6.0;  // between name and figure
   const Theme& theme = themeOf(palette());
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
   const QString similarity = figureTexts().similarity, sign = QStringLiteral("✓");
@@ -336,7 +336,7 @@ QRectF TargetTile::innerBox() const {
 
 TargetTile::Figures TargetTile::roomFor() const {
   if (!outcomes_ || !problem().isEmpty()) return Figures::All;
-  constexpr double kApartPx = 8.0;
+  constexpr double kApartPx = 8.0;  // between two figures
   const FigureTexts texts = figureTexts();
   const QFontMetricsF metrics(uiFont(11));
   const auto width = [&](const QString& text) { return metrics.horizontalAdvance(text); };

@@ -263,7 +263,7 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
                        kStillShare * asked.toleranceMm);
   std::vector<double> sketch;
   const int count = curve.closed ? kClosedPoints : kOpenPoints;
-  constexpr int kSamples = 400;
+  constexpr int kSamples = 400;  // along the sketch
   for (const CurveSample& one : sampleByArcLength(curve.sketched, kSamples + 1)) sketch.push_back(one.kappa);
   if (curve.closed) sketch.pop_back();
   sketch = lowPass(sketch, 1.0 / kSamples, 2.0 / count, curve.closed);

@@ -25,7 +25,7 @@ QString inkName(const InkColour& ink) {
                                  QT_TRANSLATE_NOOP("InkEdits", "Turquoise"), QT_TRANSLATE_NOOP("InkEdits", "Blue"),
                                  QT_TRANSLATE_NOOP("InkEdits", "Blue"),      QT_TRANSLATE_NOOP("InkEdits", "Violet"),
                                  QT_TRANSLATE_NOOP("InkEdits", "Magenta"),   QT_TRANSLATE_NOOP("InkEdits", "Red")};
-  constexpr double kStepDeg = 360.0 / static_cast<double>(kNames.size());
+  constexpr double kStepDeg = 360.0 / static_cast<double>(kNames.size());  // of hue, for each name
   const std::size_t at = std::lround(*ink.hueDeg / kStepDeg) % kNames.size();
   return inkText(kNames[at]);
 }

@@ -12,7 +12,7 @@ namespace batten {
 
 /// The own choice of a curve, or null when it follows the recipe.
 const PieceChoice* choiceOf(const EditorSession& session, std::optional<int> curve);
-/// The same as the curve has it: turned to its direction (see alongPiece); none when it follows the recipe.
+/// The same as the curve has it: brought to its direction (see alongPiece); none when it follows the recipe.
 std::optional<PieceChoice> choiceAlong(const EditorSession& session, std::optional<int> curve);
 /// True when the curve has a fairing choice of its own.
 bool hasOwnFairing(const EditorSession& session, std::optional<int> curve);

@@ -21,15 +21,15 @@
 namespace batten {
 namespace {
 
-constexpr int kCurveRow = 26;
-constexpr int kLeastRows = 10;  ///< That are seen without scrolling in the list itself, where there are as many.
-constexpr int kEyeWidth = 26;
-constexpr int kIconSize = 14;
-constexpr int kApart = 8;  ///< Between a name, which may be cut, and its figures.
-constexpr int kTellEveryMs = 200;
-constexpr int kNoRow = -1;  ///< What Qt takes for none.
-constexpr int kRightMargin = 6;
-constexpr int kBadgeWidth = 44, kBadgeHeight = 18, kBadgeGap = 6;
+constexpr int kCurveRow = 26;      // [px] Height.
+constexpr int kLeastRows = 10;     ///< That are seen without scrolling in the list itself, where there are as many.
+constexpr int kEyeWidth = 26;      // [px] At the left.
+constexpr int kIconSize = 14;      // px
+constexpr int kApart = 8;          ///< Between a name, which may be cut, and its figures.
+constexpr int kTellEveryMs = 200;  // While results come in, the list is brought up to date this often.
+constexpr int kNoRow = -1;         ///< What Qt takes for none.
+constexpr int kRightMargin = 6;    // px
+constexpr int kBadgeWidth = 44, kBadgeHeight = 18, kBadgeGap = 6;  // px
 enum Role {
   IncludedRole = Qt::UserRole,
   FiguresRole,
@@ -48,7 +48,7 @@ int heightOfRows(int rows) { return kCurveRow * std::max(1, rows) + 2; }
 
 /// Of S: fair, nearly so, or far from it.
 QColor fairnessColour(double similarity, const Theme& theme) {
-  constexpr double kFairSimilarity = 0.99, kNearlyFair = 0.95;
+  constexpr double kFairSimilarity = 0.99, kNearlyFair = 0.95;  // from here on
   return similarity >= kFairSimilarity ? theme.good : similarity >= kNearlyFair ? theme.mute : theme.amber;
 }
 

@@ -16,8 +16,8 @@
 namespace batten {
 namespace {
 
-constexpr int kStepsPerSpan = 8;
-constexpr int kFirstDegree = 2, kLastDegree = 5;
+constexpr int kStepsPerSpan = 8;                  // of a polygon for the curve
+constexpr int kFirstDegree = 2, kLastDegree = 5;  // that are shown
 
 /// What one tile draws, page up = screen up (y mirrored).
 struct TilePicture {

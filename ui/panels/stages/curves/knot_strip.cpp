@@ -11,7 +11,7 @@
 
 namespace batten {
 namespace {
-constexpr double kSide = 8.0, kBase = 18.0;
+constexpr double kSide = 8.0, kBase = 18.0;  // [px] left and right, and below for the text
 }
 
 std::vector<KnotStrip::Column> knotColumns(const std::vector<double>& knots) {

@@ -22,7 +22,7 @@
 namespace batten {
 namespace {
 
-constexpr int kMethodRow = 28;
+constexpr int kMethodRow = 28;  // [px] height
 /// Widths of the three columns of figures, from the right.
 constexpr int kColumns[] = {34, 40, 62};
 

@@ -18,6 +18,7 @@ class BackgroundWorker;
 class MethodRow;
 class SegmentedControl;
 
+// in the order of the rows
 inline constexpr std::array kMethods = {ConstructMethod::Fair, ConstructMethod::Nurbs, ConstructMethod::Bezier,
                                         ConstructMethod::Typical, ConstructMethod::ControlPolygon};
 QString label(ConstructMethod);     ///< "True and fair fit", as the parameter table calls it.

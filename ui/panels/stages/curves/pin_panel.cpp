@@ -36,7 +36,7 @@ QString unevennessText(double energy) {
   // Asking for three digits gives 1e+03 from here on.
   if (!(energy >= 999.5)) return QString::number(energy, 'g', 3);
   if (energy < 9999.5) return QString::number(energy, 'f', 0);
-  static constexpr char16_t kRaised[] = u"⁰¹²³⁴⁵⁶⁷⁸⁹";
+  static constexpr char16_t kRaised[] = u"⁰¹²³⁴⁵⁶⁷⁸⁹";  // digits of an exponent
   int exponent = static_cast<int>(std::floor(std::log10(energy)));
   double digits = energy / std::pow(10.0, exponent);
   if (digits >= 9.995) digits /= 10.0, ++exponent;

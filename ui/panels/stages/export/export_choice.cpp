@@ -18,8 +18,8 @@
 namespace batten {
 namespace {
 
-constexpr int kSelectionWidth = 118, kTickRow = 24, kLeastTickRows = 8;
-constexpr int kNumberRole = Qt::UserRole, kIndexRole = Qt::UserRole + 1;
+constexpr int kSelectionWidth = 118, kTickRow = 24, kLeastTickRows = 8;   // [px] width and height; rows that are seen
+constexpr int kNumberRole = Qt::UserRole, kIndexRole = Qt::UserRole + 1;  // data of a row
 
 }  // namespace
 

@@ -23,10 +23,10 @@ namespace {
 const QString kPresetKey = QStringLiteral("export/preset"), kUnitKey = QStringLiteral("export/unit"),
               kWhichKey = QStringLiteral("export/which"), kJoinedKey = QStringLiteral("export/joined"),
               kToleranceKey = QStringLiteral("export/accuracy"), kWidthsKey = QStringLiteral("export/widths");
-constexpr const char* kFirstPreset = "illustrator";
+constexpr const char* kFirstPreset = "illustrator";  // the receiver before one was chosen
 constexpr std::array kExportedCurves = {ExportedCurves::Faired, ExportedCurves::Sketched,
                                         ExportedCurves::Both};  // as listed
-constexpr int kFieldWidth = 118, kPresetLetters = 16;
+constexpr int kFieldWidth = 118, kPresetLetters = 16;           // px; letters
 
 bool canWrite(ExportFormat format) {
   return hasOpenCascade() || (format != ExportFormat::Iges && format != ExportFormat::Step);

@@ -17,10 +17,11 @@
 namespace batten {
 namespace {
 
+// around the drawing; sizes of marks; reach of the mouse
 constexpr double kMarginPx = 12.0, kArrowPx = 6.0, kStartPx = 2.4, kHitPx = 6.0;
 constexpr double kLeastMarkedPx = 5.0 * kArrowPx;  ///< Diagonal of a curve that is marked.
-constexpr int kPointsPerPiece = 48;
-constexpr int kMostMarks = 80;  ///< Arrows of more curves would hide them.
+constexpr int kPointsPerPiece = 48;                // Of a polygon for the curve.
+constexpr int kMostMarks = 80;                     ///< Arrows of more curves would hide them.
 
 /// Of a chain in its order of travel.
 PreviewCurve shapeOf(const std::vector<ExportPiece>& pieces, const ExportCurve& line) {
