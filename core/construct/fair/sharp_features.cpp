@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iterator>
 
+#include "core/base/segment_foot.h"
 #include "core/base/statistics.h"
 #include "core/construct/fair/fair_piece.h"
 #include "core/construct/fair/fair_prepare.h"
@@ -130,12 +131,9 @@ Passing follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at,
   double place = static_cast<double>(at);
   for (const std::size_t i : {at, at + 1}) {
     if (i == 0 || i > last) continue;
-    const Vec2 along = polygon[i] - polygon[i - 1];
-    const double square = along.squaredNorm();
-    if (!(square > 0.0)) continue;
-    const double x = std::clamp((p - polygon[i - 1]).dot(along) / square, 0.0, 1.0);
-    const double d = (p - polygon[i - 1] - x * along).squaredNorm();
-    if (d < best) best = d, place = static_cast<double>(i - 1) + x;
+    const SegmentFoot foot = footOnSegment(p, polygon[i - 1], polygon[i]);
+    const double d = foot.away.squaredNorm();
+    if (d < best) best = d, place = static_cast<double>(i - 1) + foot.share;
   }
   return {std::sqrt(best), place};
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/segment_foot.h"
 #include "core/construct/bezier/bezier_chain.h"
 #include "core/construct/stations/piece_stations.h"
 #include "core/construct/typical/typical_growing.h"
@@ -46,9 +47,9 @@ std::vector<std::size_t> jointsAtPlaces(TypicalLine& line, std::span<const Vec2>
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity(), share = 0.0;
     for (std::size_t i = 0; i + 1 < line.joints.size(); ++i) {
-      const Vec2 chord = line.joints[i + 1].point - line.joints[i].point;
-      const double t = std::clamp((place - line.joints[i].point).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
-      const double away = (line.joints[i].point + t * chord - place).norm();
+      const Vec2 from = line.joints[i].point, to = line.joints[i + 1].point;
+      const double t = footOnSegment(place, from, to).share;
+      const double away = (from + t * (to - from) - place).norm();
       if (away < least) {
         least = away;
         nearest = i;
