@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/curve/arc_length.h"
-#include "core/curve/turning_points.h"
+#include "core/curve/extremum_indices.h"
 
 namespace batten {
 
@@ -148,10 +148,10 @@ std::vector<Profile::Point> fromMostBent(const Profile& profile, bool periodic) 
   return ordered(profile, indexOfMax(profile.points, [](double kappa) { return std::abs(kappa); }), periodic);
 }
 
-std::vector<TurningPoint> turningsOf(const std::vector<Profile::Point>& points, double prominence, bool periodic) {
+std::vector<ExtremumIndex> extremaOf(const std::vector<Profile::Point>& points, double prominence, bool periodic) {
   std::vector<double> kappas;
   for (const Profile::Point& p : points) kappas.push_back(p.kappa);
-  return turningPoints(kappas, prominence, periodic ? TurningStart::OnMaximum : TurningStart::AtEnd);
+  return extremumIndices(kappas, prominence, periodic ? SequenceStart::OnMaximum : SequenceStart::AtEnd);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ CurvatureCounts curvatureCounts(const NurbsCurve& curve, double prominence, bool
   const Profile profile(curve, check);
   CurvatureCounts counts;
   if (profile.points.empty()) return counts;
-  counts.extrema = static_cast<int>(turningsOf(fromHighest(profile, periodic), prominence, periodic).size());
+  counts.extrema = static_cast<int>(extremaOf(fromHighest(profile, periodic), prominence, periodic).size());
   const double reach = std::max(prominence, std::numeric_limits<double>::min());
   int last = 0;
   for (const Profile::Point& p : fromMostBent(profile, periodic)) {
@@ -186,9 +186,9 @@ std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, do
   std::vector<CurvatureExtremumPoint> extrema;
   if (profile.points.empty()) return extrema;
   const auto points = fromHighest(profile, periodic);
-  for (const TurningPoint& turning : turningsOf(points, prominence, periodic)) {
-    const Profile::Point& p = points[turning.index];
-    extrema.push_back({p.u, 0.0, p.kappa, turning.maximum});
+  for (const ExtremumIndex& extremum : extremaOf(points, prominence, periodic)) {
+    const Profile::Point& p = points[extremum.index];
+    extrema.push_back({p.u, 0.0, p.kappa, extremum.maximum});
   }
   std::sort(extrema.begin(), extrema.end(), [](const auto& a, const auto& b) { return a.u < b.u; });
   if (!extrema.empty()) {

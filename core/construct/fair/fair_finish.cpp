@@ -16,6 +16,7 @@
 #include "core/construct/fair/fair_structure_search.h"
 #include "core/construct/fair/fewest_knots.h"
 #include "core/construct/fair/sharp_features.h"
+#include "core/curve/extremum_indices.h"
 #include "core/solve/banded_cholesky.h"
 
 namespace batten {
@@ -266,7 +267,7 @@ class FinishedFit {
       kappa.push_back(frameCurvature(d));
     }
     const double least = kWrongWay / (high - low).norm();
-    return countExtrema(kappa, least) > std::ssize(structure.extrema);
+    return countExtrema(kappa, least, false) > std::ssize(structure.extrema);
   }
 
   bool finishCurve(const FairPosterior& posterior, StructureResult& found, std::optional<double> circleCost) {

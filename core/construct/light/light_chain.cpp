@@ -17,7 +17,6 @@ namespace batten {
 namespace {
 
 constexpr int kQuinticChain = 5;
-constexpr double kSectionProminence = 2e-3;   // times 1 / diagonal: extrema that have a removal deviation
 constexpr int kJoinedOn = 3;                  // multiplicity of knots where a tight turn was joined on
 constexpr double kFewestSamplesOfCut = 12.0;  // of the reference, between two cuts
 constexpr int kChainRounds = 4;
@@ -257,7 +256,7 @@ std::optional<LightCurve> assembled(const std::vector<MadeSection>& made, const 
 LightSections lightSections(const NurbsCurve& dense, const LightReference& reference, const LightOptions& options,
                             int extremaPerSection) {
   LightSections sections;
-  const auto kept = significantExtrema(rankedExtrema(reference, kSectionProminence / reference.diagonal()),
+  const auto kept = significantExtrema(rankedExtrema(reference, kRankedProminence / reference.diagonal()),
                                        options.significance * options.tolerance);
   sections.extrema = static_cast<int>(kept.size());
   const std::vector<double> joined = joinedKnots(dense);
@@ -352,7 +351,7 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
       if (!keepDenseAtKinks(made, closed)) return std::nullopt;
       continue;
     }
-    chain->report.ranked = rankedExtrema(reference, kSectionProminence / reference.diagonal());
+    chain->report.ranked = rankedExtrema(reference, kRankedProminence / reference.diagonal());
     chain->report.extremaAsked = sections.extrema;
     chain->report.extrema = counts.extrema;
     chain->report.inflections = counts.inflections;

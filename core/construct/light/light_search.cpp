@@ -15,7 +15,6 @@
 namespace batten {
 namespace {
 
-constexpr double kRankedProminence = 2e-3;  // times 1 / diagonal: extrema that have a removal deviation
 constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
 constexpr int kMostSpanDegree = 7;
 // Times the prominence of an extremum: where the curvature of a piece rises by less in all, no direction is asked of
