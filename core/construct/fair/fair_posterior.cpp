@@ -153,17 +153,18 @@ CutoffTable cutoffTable(const FairFrame& frame, CancelCheck check) {
   return table;
 }
 
-CutoffChoice chooseCutoffs(const std::vector<CutoffTable>& tables, double gamma) {
+CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>& tables, double gamma) {
   CutoffChoice choice;
   choice.k.resize(tables.size());
   for (int round = 0; round < 3; ++round) {
     double rss = 0.0, freedom = 0.0;
     for (std::size_t i = 0; i < tables.size(); ++i) {
-      const CutoffTable& t = tables[i];
-      double best = 0.0;
       choice.k[i].reset();
+      if (!tables[i]) continue;
+      const CutoffTable& t = *tables[i];
+      double best = 0.0;
       for (int k = 0; k < CutoffTable::kCount; ++k) {
-        if (t.blocks == 0 || !t.valid[k]) continue;
+        if (!t.valid[k]) continue;
         const double left = t.blocks - t.dof[k];
         const double score = round == 0                   ? t.rss[k] / (left * left)
                              : choice.blockVariance > 0.0 ? t.rss[k] / choice.blockVariance + gamma * t.dof[k]

@@ -23,7 +23,8 @@ constexpr double kCrossingPx = 25.0;  // Gaussian: as long as merged strokes may
 // the line together.
 constexpr double kLeastWeight = 1.0 / 16.0, kMostWeight = 16.0;
 
-/// [px] Half-width of the bundle at each point, 0 where there is none. Where strokes cross, it is deceptively small.
+/// [px] Half-width of the bundle at each point; that of a single stroke is 0. Where strokes cross, it is deceptively
+/// small.
 std::vector<float> smoothSpread(const std::vector<PiecePoint>& points, bool closed) {
   std::vector<float> square;
   for (const PiecePoint& p : points) {
@@ -37,13 +38,13 @@ std::vector<float> smoothSpread(const std::vector<PiecePoint>& points, bool clos
 }
 
 /// Points that differ from their predecessor, about their mean, and what they weigh.
-void readPoints(FairPiece& piece, const ConstructPiece& in, double ordinarySigmaPx) {
+void readPoints(FairPiece& piece, const ConstructPiece& in, std::optional<double> ordinarySigmaPx) {
   std::vector<FairPoint> px;
   const std::vector<float> beside = smoothSpread(in.points, in.closed);
   for (int i = 0; i < std::ssize(in.points); ++i) {
     if (!in.points[i].at.allFinite()) continue;
     const double sigma = in.points[i].sigmaPx.value_or(0.0f);
-    const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
+    const double ratio = sigma > 0.0 && ordinarySigmaPx ? *ordinarySigmaPx / sigma : 1.0;
     FairPoint& p = px.emplace_back();
     p.at = in.points[i].at;
     p.weight = std::clamp(ratio * ratio, kLeastWeight, kMostWeight);
@@ -134,14 +135,14 @@ void rejectOutliers(FairData& data, double gatePx, double spacing) {
   }
 }
 
-double ordinarySigma(const ConstructContour& contour) {
+std::optional<double> ordinarySigma(const ConstructContour& contour) {
   std::vector<float> sigma;
   for (const ConstructPiece& piece : contour.pieces) {
     for (const PiecePoint& p : piece.points) {
       if (p.sigmaPx && *p.sigmaPx > 0.0f && std::isfinite(*p.sigmaPx)) sigma.push_back(*p.sigmaPx);
     }
   }
-  if (sigma.empty()) return 0.0;
+  if (sigma.empty()) return std::nullopt;
   return upperMedian(sigma);
 }
 
@@ -153,7 +154,7 @@ void weighByNoise(FairData& data, const LocalNoise& noise, double measured, doub
   }
 }
 
-FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double ordinarySigmaPx,
+FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, std::optional<double> ordinarySigmaPx,
                            const FairFitOptions& options, CancelCheck check) {
   FairPiece piece;
   readPoints(piece, in, ordinarySigmaPx);

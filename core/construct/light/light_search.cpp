@@ -34,6 +34,8 @@ constexpr double kCalmShare = 0.75;  // of the curvature that an end may have mo
 constexpr int kWorthCalmEnds = 5;    // control points more for ends without hooks: a quintic span of their own
 constexpr double kMoreWorkForCalmEnds = 3.0;  // times kWorkPerPoint: ends that are held make a fit harder
 
+LightSign signOf(bool isPositive) { return isPositive ? LightSign::Positive : LightSign::Negative; }
+
 class LightSearch {
  public:
   LightSearch(const NurbsCurve& dense, const LightReference& reference, const LightOptions& options,
@@ -48,14 +50,14 @@ class LightSearch {
     changes_ = static_cast<int>(kept.size());
     const double rise = reference.samples().back().kappa - reference.samples().front().kappa;
     if (!kept.empty()) {
-      firstSign_ = kept.front().maximum ? 1 : -1;
+      firstSlope_ = signOf(kept.front().maximum);
     } else if (!reference.isClosed() && std::abs(rise) > kLeastRise * lightProminence(reference)) {
-      firstSign_ = rise > 0.0 ? 1 : -1;
+      firstSlope_ = signOf(rise > 0.0);
     }
     const double least = lightProminence(reference);
     for (const LightSample& sample : reference.samples()) {
       if (std::abs(sample.kappa) <= least) continue;
-      firstKappaSign_ = sample.kappa > 0.0 ? 1 : -1;
+      firstKappa_ = signOf(sample.kappa > 0.0);
       break;
     }
     bounds_ = {options.tolerance, changes_, countInflections(reference, least)};
@@ -193,10 +195,10 @@ class LightSearch {
     if (!start) return false;
     LightAsk ask;
     ask.tolerance = options_.tolerance;
-    ask.firstSign = firstSign_;
+    ask.firstSlope = firstSlope_;
     ask.changes = changes_;
-    ask.firstKappaSign = firstKappaSign_;
-    ask.inflections = firstKappaSign_ == 0 ? 0 : bounds_.inflections;
+    ask.firstKappa = firstKappa_;
+    ask.inflections = firstKappa_ ? bounds_.inflections : 0;
     ask.start = options_.start;
     ask.end = options_.end;
     ask.firstPhase = firstPhase;
@@ -267,7 +269,8 @@ class LightSearch {
   const LightOptions& options_;
   const LightTask& task_;
   const RunContext& context_;
-  int changes_ = 0, firstSign_ = 0, firstKappaSign_ = 0;
+  int changes_ = 0;
+  std::optional<LightSign> firstSlope_, firstKappa_;
   std::optional<int> counted_;  ///< Extrema of the dense curve, once they are asked for.
   LightBounds bounds_;
   LightCurve result_, spare_;
