@@ -80,8 +80,8 @@ PathData dataOf(const TypicalLine& line) {
 }
 
 /// True when a fitted path is still on its line.
-bool isOnLine(const std::optional<PathFit>& fit, const PathData& data) {
-  return fit && fit->rms < kLostRmsPx + kLostSigmas * data.noise;
+bool isOnLine(const std::optional<FittedPath>& fitted) {
+  return fitted && fitted->fit.rms < kLostRmsPx + kLostSigmas * fitted->fit.noise;
 }
 
 /// Two places of the user mean one segment between them: a typical curve where the line bends one way, else a Hermite
@@ -128,9 +128,9 @@ std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> pla
       break;
     }
   }
-  const auto fit = fitTypicalStructure(path, data, PathSearch::Keep, context);
-  if (!isOnLine(fit, data)) return std::nullopt;
-  return FoundPath{std::move(path), fit->converged};
+  auto fitted = fitTypicalStructure(std::move(path), std::move(data), PathSearch::Keep, context);
+  if (!isOnLine(fitted)) return std::nullopt;
+  return FoundPath{std::move(fitted->path), fitted->fit.converged};
 }
 
 /// True for a curve that leaves its line: a loop between points, or an end that runs away, moves no point's foot.
@@ -165,16 +165,18 @@ struct Candidate {
   }
 };
 
-Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, const TypicalLine& line,
+Candidate fittedCandidate(TypicalPath start, PathData data, PathSearch search, const TypicalLine& line,
                           const RunContext& context) {
-  const auto fit = fitTypicalStructure(path, data, search, context);
-  if (!isOnLine(fit, data) || firstSliver(path) || (path.closed && !isClosed(path))) return {};
+  auto fitted = fitTypicalStructure(std::move(start), std::move(data), search, context);
+  if (!isOnLine(fitted)) return {};
+  const auto& [path, fit] = *fitted;
+  if (firstSliver(path) || (path.closed && !isClosed(path))) return {};
   const auto curve = pathCurve(path, line);
   if (!curve || leavesLine(*curve, line)) return {};
   const int known = line.fair ? countedExtrema(*line.fair, line.closed) : 0;
   const int more = std::max(0, countedExtrema(*curve, line.closed) - known);
   const double share = typicalShare(segmentNotes(path, line));
-  return {FoundPath{std::move(path), fit->converged}, more, fit->rms, share};
+  return {FoundPath{std::move(fitted->path), fit.converged}, more, fit.rms, share};
 }
 
 /// The better of a chain and the grown path: with no more extrema and no farther off than a light curve may be, the one
@@ -183,7 +185,7 @@ std::optional<FoundPath> orGrown(Candidate chain, const TypicalLine& line, const
                                  const RunContext& context) {
   if (!chain.path || chain.share >= kMostOfIt || chain.path->path.elements.size() > kManyElements)
     return std::move(chain.path);
-  auto grown = grownPath(line, {}, params, nullptr, context);
+  auto grown = grownPath(line, {}, params, StepRecord::None, context).found;
   // Growing sees only what lies before it: on a line that wavers it makes many short segments, which take long to fit.
   if (!grown || grown->path.elements.size() > kMostGrown * chain.path->path.elements.size())
     return std::move(chain.path);
@@ -227,7 +229,7 @@ std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const
                                         const ConstructParams& params, const RunContext& context) {
   TypicalLine divided = line;
   jointsAtPlaces(divided, places);
-  auto grown = grownPath(divided, places, params, nullptr, context);
+  auto grown = grownPath(divided, places, params, StepRecord::None, context).found;
   if (!grown) return std::nullopt;
   if (!places.empty() || params.growingAsInPaper) return grown;
   Candidate tidy = fittedCandidate(grown->path, dataOf(line), PathSearch::Tidy, line, context);

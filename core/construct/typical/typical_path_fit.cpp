@@ -353,6 +353,7 @@ class PathProblem final : public LevenbergProblem {
 /// How far the points lie from a path as it is.
 PathFit measured(const TypicalPath& path, const PathData& data) {
   PathFit fit;
+  fit.noise = data.noise;
   followFeet(geometryOf(path), data.points, fit.feet);
   double squares = 0.0;
   const double c2 = data.outlier * data.outlier;
@@ -367,7 +368,8 @@ PathFit measured(const TypicalPath& path, const PathData& data) {
 
 }  // namespace
 
-std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations, const RunContext& context) {
+std::optional<FittedPath> fitPath(TypicalPath path, const PathData& data, int maxIterations,
+                                  const RunContext& context) {
   if (path.elements.empty() || path.states.size() != path.elements.size() + 1) return std::nullopt;
   if (!path.closed) {
     path.states.front().point = data.start;
@@ -379,7 +381,7 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
     if (!isHeld(data) || !path.update()) return std::nullopt;
     PathFit fit = measured(path, data);
     fit.converged = true;
-    return fit;
+    return FittedPath{std::move(path), std::move(fit)};
   }
   LevenbergOptions options = kPathSteps;
   options.iterations = maxIterations;
@@ -391,7 +393,7 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
   fit.iterations = run.iterations;
   fit.converged = run.why != Termination::IterationLimit;
   fit.unknowns = problem.unknowns().count();
-  return fit;
+  return FittedPath{std::move(path), std::move(fit)};
 }
 
 }  // namespace batten
