@@ -126,8 +126,8 @@ int pointsOf(const std::vector<MadeSection>& made) {
 std::vector<MadeSection> lightenSection(const Section&, double diagonal, const LightOptions&, int extremaPerSection,
                                         const RunContext&);
 
-std::optional<std::vector<Section>> cut(const Section& whole, const std::vector<double>& cuts,
-                                        const RunContext& context) {
+std::optional<std::vector<Section>> cutAt(const Section& whole, const std::vector<double>& cuts,
+                                          const RunContext& context) {
   std::vector<Section> parts;
   NurbsCurve rest = whole.dense;
   for (const double u : cuts) {
@@ -158,7 +158,7 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   const int fewer = extremaPerSection / 2;
   if (one.report.kind != LightKind::Dense || fewer == 0 || same.report.points < kWorthCutting)
     return {{std::move(same), std::move(one)}};
-  const auto parts = cut(section, lightSections(section.dense, *reference, held, fewer).cuts, context);
+  const auto parts = cutAt(section, lightSections(section.dense, *reference, held, fewer).cuts, context);
   if (!parts || parts->size() < 2) return {{std::move(same), std::move(one)}};
   std::vector<MadeSection> made;
   for (const Section& part : *parts) {
@@ -329,7 +329,7 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
     whole.start = options.start;
     whole.end = options.end;
   }
-  const auto parts = cut(whole, sections.cuts, context);
+  const auto parts = cutAt(whole, sections.cuts, context);
   if (!parts) return std::nullopt;
   std::vector<std::vector<MadeSection>> madeOf(parts->size());
   parallelFor(context, static_cast<int>(madeOf.size()), 1, [&](int begin, int end) {

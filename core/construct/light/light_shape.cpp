@@ -173,13 +173,9 @@ Eigen::MatrixXd heldPart(const Normal& normal, bool isLast, const Vec2& at) {
 
 std::vector<double> LightShape::lengths() const {
   std::vector<double> result;
-  lengthsInto(result);
-  return result;
-}
-
-void LightShape::lengthsInto(std::vector<double>& result) const {
-  result.clear();
+  result.reserve(logLengths.size());
   for (const double q : logLengths) result.push_back(std::exp(q));
+  return result;
 }
 
 SpanKnots LightShape::knotsOf(int span, const std::vector<double>& lengths) const {

@@ -180,7 +180,7 @@ double LightSystem::endRows(const LightShape& shape, const LightWeights& weights
 }
 
 LightSystem::Cost LightSystem::evaluate(const LightShape& shape, const LightWeights& weights) {
-  shape.lengthsInto(lengths_);
+  lengths_ = shape.lengths();
   for (int span = 0; span < shape.spans(); ++span) placesOf(shape, span);
   meanSpeed_ = 0.0;
   for (const Place& place : places_) meanSpeed_ += place.state.speed / static_cast<double>(places_.size());
@@ -335,7 +335,7 @@ void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, 
   differentiate(shape, span);
   for (int k = 0; k < perSpan_; ++k) addPlace(places_[span * perSpan_ + k], weights);
   addEnds(shape, weights, span);
-  local_.finish();
+  local_.sumAndCarry();
   scatter(shape, span, matrix, gradient);
 }
 

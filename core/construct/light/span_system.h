@@ -35,7 +35,7 @@ class SpanSystem {
   /// its weight (squared) and weighted residual.
   void add(const PlaceTable::Place&, const PlaceState&, const DerivativeGradients&, double weight, double residual);
   /// After the last row.
-  void finish();
+  void sumAndCarry();
 
   /// Unknowns: x and y of every control point in turn, then lengths.
   int used() const { return 2 * (degree + 1) + lengthCount; }
