@@ -51,7 +51,7 @@ struct Profile {
     for (std::size_t i = 0; i + 1 < breaks.size() && !check.isCancelled(); ++i) {
       const double width = breaks[i + 1] - breaks[i];
       const double from = breaks[i], to = i + 2 == breaks.size() ? breaks[i + 1] : breaks[i + 1] - 1e-9 * width;
-      constexpr int kPerSpan = 24;
+      constexpr int kPerSpan = 24;  // steps, of which connect() halves those that are too long
       Sample last = sampleAt(from);
       push(last);
       for (int k = 1; k <= kPerSpan; ++k) {
@@ -80,9 +80,9 @@ struct Profile {
   /// Adds what lies after `a` up to `b`: more samples where the curve turns or slows down quickly, and the extremum
   /// between.
   void connect(const Sample& a, const Sample& b, int depth) {
-    constexpr double kTurn = 0.15;  // sine of the turn between two samples: 9 degrees
-    constexpr double kSlowing = 1.5;
-    constexpr int kMostHalvings = 12;
+    constexpr double kTurn = 0.15;     // sine of the turn between two samples: 9 degrees
+    constexpr double kSlowing = 1.5;   // of the speeds at both ends
+    constexpr int kMostHalvings = 12;  // of a step: ends them at a cusp, which has no shortest step
     const double va = a.d[1].norm(), vb = b.d[1].norm();
     const bool turns = std::abs(cross(a.d[1], b.d[1])) > kTurn * va * vb || a.d[1].dot(b.d[1]) < 0.0;
     const bool slows = std::max(va, vb) > kSlowing * std::min(va, vb);

@@ -10,8 +10,8 @@
 namespace batten {
 namespace {
 
-constexpr std::size_t kLeafSize = 8;
-constexpr double kRounding = 1e-12;  // relative; some thousand times that of the distances
+constexpr std::size_t kLeafSize = 8;  // places that are looked at one by one
+constexpr double kRounding = 1e-12;   // relative; some thousand times that of the distances
 
 }  // namespace
 

@@ -18,9 +18,9 @@ constexpr double kKernelWidths = 8.0;  // standard deviations of a Gaussian; bey
 /// curvature misses, change of that miss along a segment. Tuned on ellipses and roof lines with noise of 0 to 0.3 px.
 constexpr double kOffsetWeight = 0.2;
 constexpr double kPinnedWeight = 1e6;  // of the offset of an end: it stays where it is
-constexpr double kAngleWeight = 0.05;
-constexpr double kLevelWeight = 0.05;
-constexpr double kChangeWeight = 3.0;
+constexpr double kAngleWeight = 0.05;  // of the turn of a joint
+constexpr double kLevelWeight = 0.05;  // of the sagitta that is missed
+constexpr double kChangeWeight = 3.0;  // of its change: the path may lie beside its target over a bend, but is fair
 /// Places within a piece, as shares of its length, at which the curvature is compared; the start stands for the joint.
 constexpr std::array<double, 5> kPlaces = {0.0, 0.2, 0.4, 0.6, 0.8};
 
@@ -187,7 +187,7 @@ struct TurningData {
 };
 
 std::vector<std::vector<Vec2>> polylinesOf(const std::vector<Quintic>& path) {
-  constexpr int kSteps = 16;
+  constexpr int kSteps = 16;  // of a piece: a chord leaves it by 1/256 of what the piece bends out
   std::vector<std::vector<Vec2>> lines;
   for (const Quintic& q : path) {
     auto& line = lines.emplace_back();
@@ -279,7 +279,7 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double lowPass, co
 }
 
 StationSet bezierStations(const ConstructPiece& piece, const ConstructParams& params, const RunContext& context) {
-  StationSet set = givenStations(usableStations(piece, 6, params.ends));
+  StationSet set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 3u : 2u)) return set;
   const auto plain = [closed](const StationSet& now) { return polylinesOf(bezierPath(now.plain(), closed)); };
@@ -323,7 +323,7 @@ Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, const
   }
   auto made = chainThrough(set, piece.closed, params, context);
   if (!made && set.added > 0 && !context.isCancelled()) {
-    set = givenStations(usableStations(piece, 6, params.ends));
+    set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
     made = chainThrough(set, piece.closed, params, context);
   }
   if (!made) return made;

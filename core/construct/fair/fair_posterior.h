@@ -25,7 +25,7 @@ struct FairPosterior {
 
 /// The candidates for the cut-off wavelength of a piece: ell_k = 24 * 1.15^k px, and what each one costs.
 struct CutoffTable {
-  static constexpr int kCount = 28;
+  static constexpr int kCount = 28;  // up to 1045 px
   static double cutoffPx(int k);
   int blocks = 0;                    ///< Of data.
   std::array<double, kCount> rss{};  ///< [px^2] weighted sum of squared residuals of the blocks.

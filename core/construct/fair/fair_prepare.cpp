@@ -13,11 +13,11 @@
 namespace batten {
 namespace {
 
-constexpr double kGuardOutlinePx = 4.0, kGuardStrokePx = 8.0;
-constexpr double kGuardShare = 0.1;       // of the length: short pieces keep most of their points
-constexpr double kShortestFairPx = 40.0;  // below, a low degree says all there is to say
-constexpr std::size_t kFewestBlocks = 5;
-constexpr int kGateReach = 5;
+constexpr double kGuardOutlinePx = 4.0, kGuardStrokePx = 8.0;  // of line beside a corner, which blur has rounded
+constexpr double kGuardShare = 0.1;                            // of the length: short pieces keep most of their points
+constexpr double kShortestFairPx = 40.0;                       // below, a low degree says all there is to say
+constexpr std::size_t kFewestBlocks = 5;                       // of data: from fewer no cut-off is chosen
+constexpr int kGateReach = 5;         // points to either side, whose medians show where a point belongs
 constexpr double kCrossingPx = 25.0;  // Gaussian: as long as merged strokes may look like one where they cross
 // So that a wrong estimate of the noise does little harm; points that were not placed, in crossings mostly, still hold
 // the line together.

@@ -17,10 +17,11 @@
 namespace batten {
 namespace {
 
+// length of a piece that shows no bend, and one that shows no change of it
 constexpr double kStraightBelowPx = 12.0, kQuadraticBelowPx = 25.0;
 constexpr double kLoopCutoffShare = 0.25;  // of the length of a small closed line: shorter waves are noise
 constexpr double kLoopSpacingPx = 16.0;    // of its knots
-constexpr double kPinWeight = 1e8;
+constexpr double kPinWeight = 1e8;         // of an exact end, in weights of a point; openCurve() sets the last digits
 
 /// A piece of 2, 3 or 4 Bezier points.
 Result<NurbsCurve> bezier(const std::vector<Vec2>& p, double length) {

@@ -18,11 +18,12 @@
 namespace batten {
 namespace {
 
-constexpr int kFewestClosed = 8;      // spans of a closed curve
-constexpr double kLeastGain = 0.85;   // of the spans: more are not worth another curve
-constexpr double kFirstGuess = 0.25;  // of the spans
-constexpr int kTrials = 6;
+constexpr int kFewestClosed = 8;       // spans of a closed curve
+constexpr double kLeastGain = 0.85;    // of the spans: more are not worth another curve
+constexpr double kFirstGuess = 0.25;   // of the spans
+constexpr int kTrials = 6;             // numbers of spans: each is a fit, of which the last ones gain little
 constexpr double kCloseEnough = 0.06;  // of the spans: that many more or less are not worth a trial
+// limits: what counts for other extrema than the full curve has, and for no fit
 constexpr double kExtremaExcess = 1.6, kNoFit = 20.0;
 constexpr double kLeastExcess = 0.05;     // taken of a fit: a trial then has half the spans at least (fourth root)
 constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth another solution

@@ -9,7 +9,7 @@
 
 namespace batten {
 
-inline constexpr int kMostLightDegree = kMostBernsteinDegree;
+inline constexpr int kMostLightDegree = kMostBernsteinDegree;  // what bernsteinPolynomials() goes to
 /// Control points that a span of a curve depends on.
 inline constexpr std::size_t kSpanPoints = kMostLightDegree + 1;
 
@@ -37,6 +37,7 @@ using SpanKnots = std::array<double, 2 * kMostLightDegree>;
 template <class Value>
 void bezierOfSpan(int degree, const SpanKnots& knots, const std::array<Value, kSpanPoints>& points,
                   std::array<Value, kSpanPoints>& bezier) {
+  // one for each mix of two points
   constexpr std::size_t kMostShares = kMostLightDegree * (kMostLightDegree + 1) / 2;
   const std::size_t p = degree;
   std::array<double, kMostShares> atStart, atEnd;  // level by level

@@ -16,13 +16,13 @@
 namespace batten {
 namespace {
 
-constexpr int kQuinticChain = 5;
+constexpr int kQuinticChain = 5;              // degree of the sections
 constexpr int kJoinedOn = 3;                  // multiplicity of knots where a tight turn was joined on
 constexpr double kFewestSamplesOfCut = 12.0;  // of the reference, between two cuts
-constexpr int kChainRounds = 4;
-constexpr int kWorthCutting = 12;      // control points of a section
-constexpr double kSameTangent = 1e-6;  // sine of the angle at a joint
-constexpr double kMostStretch = 4.0;   // of one domain at a joint
+constexpr int kChainRounds = 4;               // of making sections dense again where they brought extrema
+constexpr int kWorthCutting = 12;             // control points of a section
+constexpr double kSameTangent = 1e-6;         // sine of the angle at a joint
+constexpr double kMostStretch = 4.0;          // of one domain at a joint
 
 /// Inner knots of high multiplicity.
 std::vector<double> joinedKnots(const NurbsCurve& curve) {

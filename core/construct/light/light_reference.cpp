@@ -16,8 +16,8 @@ constexpr double kTurnCosine = 0.985;   // cosine of 10 degrees: more between tw
 constexpr int kMostHalvings = 6;        // of one step
 constexpr int kFewestSteps = 4;         // in a span of the curve
 constexpr int kMostSamples = 40000;     // of a curve: longer ones get larger steps
-constexpr int kFewestSamples = 48;
-constexpr double kSlopeWindow = 0.01;  // of the length, over which the slope of the curvature is looked at
+constexpr int kFewestSamples = 48;      // of a curve, however short
+constexpr double kSlopeWindow = 0.01;   // of the length, over which the slope of the curvature is looked at
 
 std::optional<LightSample> lightSampleAt(const NurbsCurve& curve, double u) {
   const std::array<Vec2, 5> d = curve.derivatives(u, 3);

@@ -15,8 +15,9 @@
 namespace batten {
 namespace {
 
+// control points of a curve that bends: lines come before, in exact()
 constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
-constexpr int kMostSpanDegree = 7;
+constexpr int kMostSpanDegree = 7;  // of a curve of one span
 // Times the prominence of an extremum: where the curvature of a piece rises by less in all, no direction is asked of
 // it. The piece may be a side of a shape ten times its size, and extrema are counted by the size of the shape.
 constexpr double kLeastRise = 0.1;
@@ -29,7 +30,7 @@ constexpr double kHopeless = 5.0;        // tolerances after the first phase: no
 constexpr double kAskedLess = 0.98;      // of the tolerance over what was missed: the next round's
 constexpr double kMoreSignMargin = 5.0;  // times the margin of the signs, in the next round
 constexpr double kMoreSigns = 3.0;       // their weight then
-constexpr int kLightQuintic = 5, kLightCubic = 3;
+constexpr int kLightQuintic = 5, kLightCubic = 3;  // degrees of splines
 constexpr double kCalmShare = 0.75;  // of the curvature that an end may have more: beside it the curves differ, too
 constexpr int kWorthCalmEnds = 5;    // control points more for ends without hooks: a quintic span of their own
 constexpr double kMoreWorkForCalmEnds = 3.0;  // times kWorkPerPoint: ends that are held make a fit harder

@@ -12,8 +12,8 @@ namespace batten {
 
 namespace {
 
-constexpr int kDegree = 5;
-constexpr double kPinned = 1e7;
+constexpr int kDegree = 5;       // of the curve
+constexpr double kPinned = 1e7;  // weight of a pinned end: what is left of its misfit is smaller by the square, 1e-14
 
 /// x and y of a control point are neighbouring unknowns: the normal rows tie them together.
 class System {

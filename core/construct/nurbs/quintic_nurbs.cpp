@@ -18,7 +18,7 @@ namespace batten {
 
 namespace {
 
-constexpr int kQuintic = 5;
+constexpr int kQuintic = 5;  // degree
 /// Weight of a pinned end against the other equations: what is left of the misfit is its square smaller, 1e-14.
 constexpr double kPinnedWeight = 1e7;
 /// Stations whose distances differ by more than this get knots at their distances instead of uniform ones.
@@ -201,7 +201,7 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
 
 /// From station to station.
 std::vector<std::vector<Vec2>> polylinesOf(const CurveOnStations& made) {
-  constexpr int kSteps = 16;
+  constexpr int kSteps = 16;  // from station to station: a chord leaves the curve by 1/256 of what it bends out there
   std::vector<std::vector<Vec2>> lines;
   for (std::size_t i = 0; i + 1 < made.places.size(); ++i) {
     auto& line = lines.emplace_back();
@@ -268,7 +268,7 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
 Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, const ConstructParams& params,
                                                const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  StationSet set = givenStations(usableStations(piece, 6, params.ends));
+  StationSet set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 6u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
@@ -286,7 +286,7 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, cons
   }
   auto made = curveThrough(set.plain(), closed, params);
   if (!made && set.added > 0) {
-    set = givenStations(usableStations(piece, 6, params.ends));
+    set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
     made = curveThrough(set.plain(), closed, params);
   }
   if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was used.");

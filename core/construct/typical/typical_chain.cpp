@@ -135,7 +135,7 @@ std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> pla
 
 /// True for a curve that leaves its line: a loop between points, or an end that runs away, moves no point's foot.
 bool leavesLine(const NurbsCurve& curve, const TypicalLine& line) {
-  constexpr double kFarthestPx = 3.0, kLonger = 1.2;
+  constexpr double kFarthestPx = 3.0, kLonger = 1.2;  // from the fair fit; times the length of the joints
   if (line.fair && !(deviation(curve, *line.fair).max < kFarthestPx)) return true;
   double length = 0.0;
   for (std::size_t i = 1; i < line.joints.size(); ++i)
@@ -145,7 +145,7 @@ bool leavesLine(const NurbsCurve& curve, const TypicalLine& line) {
 
 /// True when the ends of a closed path share place, direction and curvature.
 bool isClosed(const TypicalPath& path) {
-  constexpr double kShare = 1e-10;
+  constexpr double kShare = 1e-10;  // of the curvature, and radians: fitPath() closes a path to the last digits
   const PathState &a = path.states.front(), &b = path.states.back();
   const double turned = std::remainder(b.angleRad - a.angleRad, 2.0 * std::numbers::pi);
   return (b.point - a.point).norm() < 1e-9 && std::abs(turned) < kShare &&

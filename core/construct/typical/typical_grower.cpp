@@ -20,24 +20,24 @@ namespace {
 constexpr std::array<double, 2> kExtrapolations = {1.35, 1.12};
 /// Segments shorter than this [px] mean that the growing has come to an end of its own.
 constexpr double kShortestPx = 6.0;
-constexpr double kLargestGrownTurn = 0.7;
-constexpr double kMostSeedTurnRad = 1.2;  // of a curve that goes on from one before: the fit may let it turn more
+constexpr double kLargestGrownTurn = 0.7;  // [rad] from edge to edge: beyond, a fit is not good enough
+constexpr double kMostSeedTurnRad = 1.2;   // of a curve that goes on from one before: the fit may let it turn more
 /// A fit whose points lie this far [px] to one side in the mean has lost the line, whatever its normals say.
 constexpr double kLostPx = 0.25;
 /// Half of the stretch [px] from whose points a normal is taken.
 constexpr double kNormalReachPx = 16.0;
-constexpr int kMostSteps = 400;
+constexpr int kMostSteps = 400;  // curves of a stretch: ends what does not come to its end
 /// Points behind a curve's start that are looked at, and the line [of the curve's size, and px] in which its own lie.
 constexpr std::size_t kBehind = 2;
-constexpr double kReachOfSize = 1.5, kReachPx = 10.0;
+constexpr double kReachOfSize = 1.5, kReachPx = 10.0;  // the line
 // Feet of points on a curve 0..1: those of the points beside its ends lie a little beyond.
 constexpr int kFootSteps = 15;
-constexpr double kLongestFootStep = 0.5, kFirstFoot = -0.3, kLastFoot = 1.5;
-constexpr double kFootSettled = 1e-8;
+constexpr double kLongestFootStep = 0.5, kFirstFoot = -0.3, kLastFoot = 1.5;  // [parameter]
+constexpr double kFootSettled = 1e-8;                                         // [parameter]
 // Unknowns of the first curve of a chain, by which they are held where the points say nothing.
 constexpr double kFirstPointPx = 0.3;                         ///< [px] standard deviation of a point
 constexpr double kFirstAngleRad = 0.1, kFirstLogKappa = 0.4;  ///< as the seed is known, from a few directions
-constexpr double kFirstLogTurn = 0.4;
+constexpr double kFirstLogTurn = 0.4;                         // of its change of direction
 // A fit of the change of direction.
 constexpr int kTurnFits = 12;
 constexpr double kTurnDifference = 1e-5;                    ///< Relative, of its derivative.

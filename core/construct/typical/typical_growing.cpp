@@ -73,6 +73,7 @@ std::vector<GrowingStretch> stretchesOf(const TypicalLine& line, std::span<const
 
 /// A curve that a path can hold.
 bool isDrawable(const TypicalCurve& curve) {
+  // inside what TypicalPath::update() takes (0.85, 1.7)
   constexpr double kMostDrawnTurn = 0.84, kMostDrawnLogRatio = 1.6;
   return std::abs(curve.turnRad) < kMostDrawnTurn && std::abs(std::log(curve.ratio)) < kMostDrawnLogRatio &&
          std::isfinite(curve.edge);
@@ -81,7 +82,7 @@ bool isDrawable(const TypicalCurve& curve) {
 /// The last joint of a stretch that grown curves have passed: near their end, and about as far along the line as they
 /// are long, for a closed line comes near its start again.
 std::size_t passedJoint(const TypicalLine& line, const GrowingStretch& stretch, std::span<const TypicalCurve> grown) {
-  constexpr double kLengthShare = 0.25;
+  constexpr double kLengthShare = 0.25;  // by which the line to a joint and the curves may differ
   const auto chord = [&](std::size_t i) { return (line.joints[i + 1].point - line.joints[i].point).norm(); };
   double length = 0.0;
   for (const TypicalCurve& c : grown) length += c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio);

@@ -16,12 +16,12 @@ namespace batten {
 
 namespace {
 
-constexpr std::size_t kMostElements = 60;
+constexpr std::size_t kMostElements = 60;  // of a path that is still divided: a fit solves dense equations
 /// Points nearer than this to the path are near enough: what scans can tell at best.
 constexpr double kFloor = 0.04;
 /// [chi2] An extremum that costs less to remove goes.
 constexpr double kExtremumCost = 20.0;
-constexpr double kTurnCost = 8.0;
+constexpr double kTurnCost = 8.0;  // [chi2] of each turn of the curvature at a joint
 /// Steps of a fit: of a change that is only tried, of one that divides, of one that is to be kept or refused, and of
 /// the last one, which is to come to rest.
 constexpr int kTriedSteps = 12, kDividingSteps = 15, kKeptSteps = 25, kRestingSteps = 60;
