@@ -23,10 +23,10 @@ inline constexpr double kStraightCurvature = 1e-4;
 /// Used when the file states no resolution and the user has not calibrated: one CSS pixel.
 inline constexpr double kAssumedDpi = 96.0;
 
-inline constexpr double kMillimetresPerInch = 25.4;
+inline constexpr double kMillimetresPerInch = 25.4;  // by definition
 
 /// The papers' 64 regions: 8 x 8.
 inline constexpr int kRegionsPerSide = 8;
-inline constexpr int kRegions = kRegionsPerSide * kRegionsPerSide;
+inline constexpr int kRegions = kRegionsPerSide * kRegionsPerSide;  // of a page
 
 }  // namespace batten

@@ -51,7 +51,7 @@ class Builder {
   }
 
  private:
-  static constexpr std::size_t kShownKey = 60;
+  static constexpr std::size_t kShownKey = 60;  // bytes of a key in a message
 
   struct Level {
     Json* value;

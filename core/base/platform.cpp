@@ -179,7 +179,7 @@ tl::expected<ReplacingFile, std::error_code> ReplacingFile::create(const std::fi
   const bool replaces = ::fstatat(folder->descriptor, last.c_str(), &before, 0) == 0;
   // A file that may not be written is not replaced either, though its folder would allow it.
   if (replaces && ::faccessat(folder->descriptor, last.c_str(), W_OK, AT_EACCESS) != 0) return failed();
-  constexpr int kFresh = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  constexpr int kFresh = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;  // only as a new file
   OpenFile file = owned(::openat(folder->descriptor, name.c_str(), kFresh, 0666));
   if (!file) return failed();
   // Between these two calls another program may have taken the file for a leftover.
@@ -290,6 +290,7 @@ LockState LockFile::tryHold() {
     return LockState::Held;
   }
   release();
+  // A lock that is deleted between opening and locking it is taken anew, so many times.
   constexpr int kFlags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kAttempts = 10;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     OpenFile file = owned(::open(path_.c_str(), O_RDWR | O_CREAT | kFlags, 0644));

@@ -40,6 +40,7 @@ std::optional<std::uint64_t> machineMemory() {
 struct GroupHierarchy {
   const char *mark, *root, *limit, *used, *fileCache;
 };
+// Both versions of control groups.
 constexpr GroupHierarchy kHierarchies[] = {
     {"0::", "/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"},
     {":memory:", "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"}};
@@ -103,7 +104,7 @@ void returnFreeMemory() {
 
 void keepFewHeaps() {
 #if defined(__GLIBC__)
-  constexpr int kOwnBlockBytes = 2 << 20, kHeaps = 2;
+  constexpr int kOwnBlockBytes = 2 << 20, kHeaps = 2;  // blocks that go back to the system when freed
   // Stating it also stops the library from raising it with every large block that is freed.
   mallopt(M_MMAP_THRESHOLD, kOwnBlockBytes);
   mallopt(M_ARENA_MAX, kHeaps);

@@ -72,6 +72,7 @@ OpenFile owned(HANDLE handle) {
   return OpenFile(isOpen ? new SystemFile{handle} : nullptr);
 }
 
+// Others may do with the file what they like while it is open.
 constexpr DWORD kShareAll = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 /// No other program may open the file meanwhile, not even to delete it: that is the lock, and it ends with the program.
 constexpr DWORD kShareNothing = 0;
@@ -274,6 +275,7 @@ std::error_code ReplacingFile::takePlace() {
 
 void removeLeftover(const fs::path& path) {
   const DWORD attributes = GetFileAttributesW(path.c_str());
+  // No ordinary files: what is there is not ours.
   constexpr DWORD kForeign = FILE_ATTRIBUTE_DIRECTORY | FILE_ATTRIBUTE_REPARSE_POINT | FILE_ATTRIBUTE_DEVICE;
   if (attributes == INVALID_FILE_ATTRIBUTES || (attributes & kForeign) != 0) return;
   DeleteFileW(path.c_str());  // fails while a program writes it

@@ -24,6 +24,7 @@ Character firstOf(std::string_view text) {
     if ((byte(i) & 0xc0u) != 0x80u) return {};
     code = code << 6 | (byte(i) & 0x3fu);
   }
+  // code of so many bytes: a smaller one is written too long
   constexpr std::array<std::uint32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
   const bool isSurrogate = code >= 0xd800 && code <= 0xdfff;
   if (code < kLeast[length] || code > 0x10ffff || isSurrogate) return {};

@@ -12,9 +12,9 @@ namespace batten {
 
 namespace {
 
-constexpr auto kTenPoints = gaussLegendre<10>();
-constexpr double kRelativeChange = 1e-11;
-constexpr int kMaxDepth = 30;
+constexpr auto kTenPoints = gaussLegendre<10>();  // of a part; its halves by the same rule say how good it is
+constexpr double kRelativeChange = 1e-11;         // by halving a part once more
+constexpr int kMaxDepth = 30;                     // halvings of a span, to a thousand-millionth of it
 
 double speed(const SpanPolynomials& curve, double u) { return curve.at(u)[1].norm(); }
 

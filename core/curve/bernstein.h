@@ -5,7 +5,7 @@
 
 namespace batten {
 
-inline constexpr int kMostBernsteinDegree = 7;
+inline constexpr int kMostBernsteinDegree = 7;  // the highest degree of a curve (kMaxDegree)
 
 /// The Bernstein polynomials of a degree at a place 0..1, in order; 0 behind them. @pre 0 <= degree <= 7.
 inline std::array<double, kMostBernsteinDegree + 1> bernsteinPolynomials(int degree, double at) {

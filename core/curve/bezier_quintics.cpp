@@ -2,6 +2,7 @@
 #include "core/curve/bezier_quintics.h"
 
 #include <cmath>
+#include <tuple>
 
 #include "core/base/angle.h"
 
@@ -19,6 +20,15 @@ std::array<Vec2, N + 1> raised(const std::array<Vec2, N>& b) {
   }
   result.back() = b.back();
   return result;
+}
+
+template <std::size_t N>
+Quintic asQuintic(const std::array<Vec2, N>& b) {
+  if constexpr (N == std::tuple_size_v<Quintic>) {
+    return b;
+  } else {
+    return asQuintic(raised(b));
+  }
 }
 
 /// 4/5 h / a^2 and its inverse share the unit tangent and the edge.
@@ -46,13 +56,14 @@ QuinticPoint evaluate(const Quintic& q, double t) {
   return {b[0], first, second};
 }
 
+Quintic elevatedLine(const Vec2& q0, const Vec2& q1) { return asQuintic(std::array<Vec2, 2>{q0, q1}); }
+
 Quintic elevatedCubic(const Vec2& q0, const Vec2& q1, const Vec2& q2, const Vec2& q3) {
-  return raised(raised(std::array<Vec2, 4>{q0, q1, q2, q3}));
+  return asQuintic(std::array<Vec2, 4>{q0, q1, q2, q3});
 }
 
 Quintic elevatedQuadratic(const Vec2& q0, const Vec2& q1, const Vec2& q2) {
-  const auto cubic = raised(std::array<Vec2, 3>{q0, q1, q2});
-  return elevatedCubic(cubic[0], cubic[1], cubic[2], cubic[3]);
+  return asQuintic(std::array<Vec2, 3>{q0, q1, q2});
 }
 
 std::optional<double> startCurvature(const Quintic& q) {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/curve/arc_length.h"
-#include "core/curve/turning_points.h"
+#include "core/curve/extremum_indices.h"
 
 namespace batten {
 
@@ -51,7 +51,7 @@ struct Profile {
     for (std::size_t i = 0; i + 1 < breaks.size() && !check.isCancelled(); ++i) {
       const double width = breaks[i + 1] - breaks[i];
       const double from = breaks[i], to = i + 2 == breaks.size() ? breaks[i + 1] : breaks[i + 1] - 1e-9 * width;
-      constexpr int kPerSpan = 24;
+      constexpr int kPerSpan = 24;  // steps, of which connect() halves those that are too long
       Sample last = sampleAt(from);
       push(last);
       for (int k = 1; k <= kPerSpan; ++k) {
@@ -80,9 +80,9 @@ struct Profile {
   /// Adds what lies after `a` up to `b`: more samples where the curve turns or slows down quickly, and the extremum
   /// between.
   void connect(const Sample& a, const Sample& b, int depth) {
-    constexpr double kTurn = 0.15;  // sine of the turn between two samples: 9 degrees
-    constexpr double kSlowing = 1.5;
-    constexpr int kMostHalvings = 12;
+    constexpr double kTurn = 0.15;     // sine of the turn between two samples: 9 degrees
+    constexpr double kSlowing = 1.5;   // of the speeds at both ends
+    constexpr int kMostHalvings = 12;  // of a step: ends them at a cusp, which has no shortest step
     const double va = a.d[1].norm(), vb = b.d[1].norm();
     const bool turns = std::abs(cross(a.d[1], b.d[1])) > kTurn * va * vb || a.d[1].dot(b.d[1]) < 0.0;
     const bool slows = std::max(va, vb) > kSlowing * std::min(va, vb);
@@ -148,10 +148,10 @@ std::vector<Profile::Point> fromMostBent(const Profile& profile, bool periodic) 
   return ordered(profile, indexOfMax(profile.points, [](double kappa) { return std::abs(kappa); }), periodic);
 }
 
-std::vector<TurningPoint> turningsOf(const std::vector<Profile::Point>& points, double prominence, bool periodic) {
+std::vector<ExtremumIndex> extremaOf(const std::vector<Profile::Point>& points, double prominence, bool periodic) {
   std::vector<double> kappas;
   for (const Profile::Point& p : points) kappas.push_back(p.kappa);
-  return turningPoints(kappas, prominence, periodic ? TurningStart::OnMaximum : TurningStart::AtEnd);
+  return extremumIndices(kappas, prominence, periodic ? SequenceStart::OnMaximum : SequenceStart::AtEnd);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ CurvatureCounts curvatureCounts(const NurbsCurve& curve, double prominence, bool
   const Profile profile(curve, check);
   CurvatureCounts counts;
   if (profile.points.empty()) return counts;
-  counts.extrema = static_cast<int>(turningsOf(fromHighest(profile, periodic), prominence, periodic).size());
+  counts.extrema = static_cast<int>(extremaOf(fromHighest(profile, periodic), prominence, periodic).size());
   const double reach = std::max(prominence, std::numeric_limits<double>::min());
   int last = 0;
   for (const Profile::Point& p : fromMostBent(profile, periodic)) {
@@ -186,9 +186,9 @@ std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, do
   std::vector<CurvatureExtremumPoint> extrema;
   if (profile.points.empty()) return extrema;
   const auto points = fromHighest(profile, periodic);
-  for (const TurningPoint& turning : turningsOf(points, prominence, periodic)) {
-    const Profile::Point& p = points[turning.index];
-    extrema.push_back({p.u, 0.0, p.kappa, turning.maximum});
+  for (const ExtremumIndex& extremum : extremaOf(points, prominence, periodic)) {
+    const Profile::Point& p = points[extremum.index];
+    extrema.push_back({p.u, 0.0, p.kappa, extremum.maximum});
   }
   std::sort(extrema.begin(), extrema.end(), [](const auto& a, const auto& b) { return a.u < b.u; });
   if (!extrema.empty()) {

@@ -168,34 +168,4 @@ CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStr
   return result;
 }
 
-int countExtrema(std::span<const double> kappa, double flat, bool closed) {
-  // An extremum counts once the profile has come back from it by more than `flat`.
-  int found = 0, direction = 0, firstDirection = 0;
-  const std::size_t count = kappa.size();
-  if (count == 0) return 0;
-  double extreme = kappa[0], lowest = kappa[0], highest = kappa[0];
-  const std::size_t end = closed ? 2 * count : count;
-  for (std::size_t k = 1; k < end; ++k) {
-    const double value = kappa[k % count];
-    if (direction == 0) {
-      lowest = std::min(lowest, value);
-      highest = std::max(highest, value);
-      if (value - lowest > flat) direction = 1, extreme = value;
-      if (highest - value > flat) direction = -1, extreme = value;
-      firstDirection = direction;
-      continue;
-    }
-    // Closed: the first time around only finds the direction; extrema count from the start of the second.
-    if (closed && k == count) found = 0, firstDirection = direction;
-    if (direction > 0 ? value > extreme : value < extreme) extreme = value;
-    if (direction > 0 ? extreme - value > flat : value - extreme > flat) {
-      ++found;
-      direction = -direction;
-      extreme = value;
-    }
-  }
-  if (closed && direction != firstDirection) ++found;
-  return found;
-}
-
 }  // namespace batten

@@ -38,7 +38,4 @@ std::vector<StructureLevel> structureLevels(std::span<const double> s, std::span
 CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStructure& all,
                                std::span<const int> samples, bool closed);
 
-/// Number of times that a profile turns back; steps smaller than `flat` count as none.
-int countExtrema(std::span<const double> kappa, double flat, bool closed);
-
 }  // namespace batten

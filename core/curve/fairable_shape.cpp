@@ -18,11 +18,12 @@
 namespace batten {
 namespace {
 
-constexpr int kFairableDegree = 5;
+constexpr int kFairableDegree = 5;           // whose curvature has a continuous slope
 constexpr double kLongestSpan = 1.0 / 16.0;  // of the length
 constexpr int kMostParts = 64;               // of one span
+// of the curve: numbers that are tried in turn
 constexpr std::array kSmoothSpans = {16, 24, 32, 48, 64, 96, 128, 192, 256};
-constexpr int kPlacesPerSpan = 12;
+constexpr int kPlacesPerSpan = 12;  // samples of each
 
 /// Quintic knots over equal spans of the length: clamped, or running on over the seam.
 std::vector<double> evenKnots(int spans, double length, bool closed) {

@@ -8,9 +8,9 @@
 namespace batten {
 namespace {
 
-constexpr double kFarthestMm = 1e5;
-constexpr std::size_t kMostLines = 20000;
-constexpr std::size_t kMostPoints = 500000;
+constexpr double kFarthestMm = 1e5;          // 100 m: no drawing is larger
+constexpr std::size_t kMostLines = 20000;    // of a file: bounds what a foreign one may take of time and memory
+constexpr std::size_t kMostPoints = 500000;  // of all lines, as well
 constexpr std::size_t kMostCorners = 50000;  // of points that turn sharply
 /// Of the size of a line: curves that are farther apart do not follow each other.
 constexpr double kSamePlace = 1e-6;

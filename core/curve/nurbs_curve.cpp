@@ -12,8 +12,8 @@ namespace batten {
 
 namespace {
 
-constexpr int kMaxOrder = 4;
-constexpr int kAnyDegree = 0;
+constexpr int kMaxOrder = 4;      // of derivatives that are asked for
+constexpr int kAnyDegree = 0;     // stands for a degree that the compiler does not know
 constexpr int kQuinticBasis = 5;  // nearly all curves
 
 /// A parameter on a span of a knot vector.

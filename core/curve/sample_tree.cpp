@@ -5,18 +5,13 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/segment_foot.h"
+
 namespace batten {
 namespace {
 
-constexpr std::size_t kLeafSize = 8;
-constexpr double kRounding = 1e-12;  // relative; some thousand times that of the distances
-
-double distanceToChord(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 chord = b - a;
-  const double squared = chord.squaredNorm();
-  const double share = squared > 0.0 ? std::clamp((p - a).dot(chord) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - share * chord).norm();
-}
+constexpr std::size_t kLeafSize = 8;  // places that are looked at one by one
+constexpr double kRounding = 1e-12;   // relative; some thousand times that of the distances
 
 }  // namespace
 
@@ -61,7 +56,9 @@ double SampleTree::distanceTo(const Box& box, const Vec2& p) {
 
 double SampleTree::distanceToChords(std::size_t i, const Vec2& p) const {
   const Vec2& point = places_[i].point;
-  return std::min(distanceToChord(p, before(i), point), distanceToChord(p, point, behind(i))) * (1.0 - kRounding);
+  const double toBefore = footOnSegment(p, before(i), point).away.norm();
+  const double toBehind = footOnSegment(p, point, behind(i)).away.norm();
+  return std::min(toBefore, toBehind) * (1.0 - kRounding);
 }
 
 std::size_t SampleTree::nearest(const Vec2& p) const {

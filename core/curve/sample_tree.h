@@ -23,7 +23,7 @@ struct CurvePlace {
 /// to the last bit.
 class SampleTree {
  public:
-  static constexpr std::size_t kFew = 8;
+  static constexpr std::size_t kFew = 8;  // places, which are visited as they come
 
   /// @pre at least one place and fewer than 2^32, all finite.
   explicit SampleTree(std::vector<CurvePlace> places);

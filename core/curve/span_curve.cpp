@@ -10,7 +10,7 @@
 namespace batten {
 namespace {
 
-constexpr int kPartsPerSpan = 2;
+constexpr int kPartsPerSpan = 2;  // each with a rule of its own for the arc length
 
 /// Places where the speed is taken on 0..1.
 constexpr std::size_t kNodes = 7;

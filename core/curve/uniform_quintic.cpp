@@ -53,7 +53,7 @@ PieceLanes pieceValues(double t, double scale) {
   return values;
 }
 
-constexpr double kPieceScale = 1.0 / 120.0;
+constexpr double kPieceScale = 1.0 / 120.0;  // of kPieces
 
 }  // namespace
 

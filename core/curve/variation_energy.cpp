@@ -10,8 +10,8 @@
 namespace batten {
 namespace {
 
-constexpr auto kFivePoints = gaussLegendre<5>();
-constexpr int kEnergyPartsPerSpan = 4;
+constexpr auto kFivePoints = gaussLegendre<5>();  // of a part
+constexpr int kEnergyPartsPerSpan = 4;  // the integrand is a quotient, which no rule takes exactly: short parts
 
 }  // namespace
 

@@ -67,15 +67,15 @@ std::vector<WidthBin> withoutBlobs(const std::vector<WidthBin>& bins) {
 
 /// Standard deviation of a bin, by fourth differences: they see nothing of a width that changes slowly.
 double noiseOf(const std::vector<WidthBin>& bins, double pixel) {
-  constexpr std::array kFourth = {1.0, -4.0, 6.0, -4.0, 1.0};
-  constexpr double kFourthVariance = 70.0;
+  constexpr std::array kFourth = {1.0, -4.0, 6.0, -4.0, 1.0};  // a fourth difference
+  constexpr double kFourthVariance = 70.0;                     // sum of their squares
   std::vector<double> differences;
   for (std::ptrdiff_t i = 0; i + std::ptrdiff_t{4} * kNoiseLag < std::ssize(bins); ++i) {
     double sum = 0.0;
     for (std::ptrdiff_t k = 0; k < std::ssize(kFourth); ++k) sum += kFourth[k] * bins[i + k * kNoiseLag].width;
     differences.push_back(sum / std::sqrt(kFourthVariance));
   }
-  constexpr std::size_t kFewest = 5;
+  constexpr std::size_t kFewest = 5;  // differences: fewer say nothing of the noise
   if (differences.size() < kFewest) return kUnknownNoisePx * pixel;
   return std::max(kLeastNoisePx * pixel, robustSigma(differences));
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/conventions.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/bezier_powers.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 
@@ -17,31 +18,13 @@ constexpr int kSeriesSamples = 201;  // along a curve
 
 SeriesJson finiteOrNull(double value) { return std::isfinite(value) ? SeriesJson(value) : SeriesJson(nullptr); }
 
-/// Powers of t from Bernstein coefficients: a_k = C(n, k) sum_i (-1)^(k - i) C(k, i) b_i.
-std::vector<Vec2> powersOf(const std::vector<Vec2>& bezier) {
-  const int n = static_cast<int>(bezier.size()) - 1;
-  std::vector<Vec2> powers;
-  double choose = 1.0;  // C(n, k)
-  for (int k = 0; k <= n; ++k) {
-    Vec2 sum = Vec2::Zero();
-    double inner = 1.0;  // C(k, i)
-    for (int i = 0; i <= k; ++i) {
-      sum += ((k - i) % 2 == 0 ? inner : -inner) * bezier[i];
-      inner *= static_cast<double>(k - i) / (i + 1);
-    }
-    powers.emplace_back(choose * sum);
-    choose *= static_cast<double>(n - k) / (k + 1);
-  }
-  return powers;
-}
-
 SeriesJson polynomialsOf(const NurbsCurve& curve) {
   SeriesJson list = SeriesJson::array();
   const auto pieces = bezierPieces(curve);
   if (!pieces) return list;
   for (const BezierPiece& piece : *pieces) {
     SeriesJson x = SeriesJson::array(), y = SeriesJson::array();
-    for (const Vec2& power : powersOf(piece.controlPoints)) {
+    for (const Vec2& power : powersOfBezier(piece.controlPoints)) {
       x.push_back(finiteOrNull(power.x()));
       y.push_back(finiteOrNull(power.y()));
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/base/segment_foot.h"
 #include "core/base/vec2.h"
 
 namespace batten {
@@ -26,12 +26,7 @@ double polygonArea(std::span<const Vec2> points);
 std::vector<double> cumulativeLength(std::span<const Vec2> points);
 
 /// The way to p from the place of the segment a-b that is nearest to it.
-inline Vec2 awayFromSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double square = along.squaredNorm();
-  const double f = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
-  return p - a - f * along;
-}
+inline Vec2 awayFromSegment(const Vec2& p, const Vec2& a, const Vec2& b) { return footOnSegment(p, a, b).away; }
 
 /// Gaussian smoothing over the index (points about evenly spaced), sigma in samples. Closed: periodic. Open: the
 /// continuation beyond an end is the point mirrored at that end, so that ends stay where they are.

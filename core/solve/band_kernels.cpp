@@ -43,7 +43,7 @@ void addOuterPlain(const RowFours& rows, const double* weight, double* m) {
   }
 }
 
-constexpr BandKernels kPlain{timesPlain, addTransposedPlain, addOuterPlain};
+constexpr BandKernels kPlain{timesPlain, addTransposedPlain, addOuterPlain};  // for every processor
 
 #ifdef BATTEN_HAS_AVX2
 

@@ -78,11 +78,11 @@ class InteriorPoint {
   }
 
  private:
-  static constexpr double kStep = 0.99;
+  static constexpr double kStep = 0.99;  // of the longest step that leaves slacks and multipliers positive
   /// So many steps in a row below this share leave everything as it is: the rows ask for what lies so far off, in units
   /// of their scale, or contradict each other so much, that slacks and multipliers of one are no start.
   static constexpr int kStuckSteps = 5;
-  static constexpr double kStuck = 1e-10;
+  static constexpr double kStuck = 1e-10;  // of a whole step
 
   /// All rows, scaled.
   void rows(const Eigen::VectorXd& v, Eigen::VectorXd& out) const {

@@ -9,6 +9,7 @@
 
 #include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 #include "tests/bench/truth_index.h"
 
 namespace batten::test {
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kCornerZonePx = 10.0;
 constexpr double kFoundWithinPx = 2.0, kOutlierPx = 6.0, kCornerWithinPx = 4.0;
-constexpr double kProminence = 5e-3;  // of kappa times the diagonal
 constexpr double kSamplePx = 0.5;
 constexpr int kPointsOfArc = 3;  // an arc or circle counts as what it takes to draw it
 
@@ -43,7 +43,7 @@ std::vector<Placed> trueExtremaOf(const TruthShape& shape, std::size_t piece) {
     s.push_back(arc);
   }
   std::vector<Placed> placed;
-  for (const ProfileExtremum& e : extremaOf(kappa, kProminence / shape.diagonal(), shape.corners.empty()))
+  for (const ProfileExtremum& e : extremaOf(kappa, kExtremumProminence / shape.diagonal(), shape.corners.empty()))
     placed.push_back({s[e.index], e.isMaximum});
   std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.s < b.s; });
   return placed;
@@ -179,7 +179,7 @@ class Comparison {
 
   void addExtrema(const SampledCurve& curve, const std::vector<Foot>& feet, double sign) {
     const std::size_t n = feet.size();
-    const double prominence = kProminence / shape_.diagonal();
+    const double prominence = kExtremumProminence / shape_.diagonal();
     for (std::size_t begin = 0; begin < n;) {
       std::size_t end = begin;
       const int piece = feet[begin].piece;
@@ -206,7 +206,7 @@ class Comparison {
         s.push_back(s.empty() ? 0.0 : s.back() + (piece.points[i] - piece.points[i - 1]).norm());
         kappa.push_back(piece.kappa[i]);
       }
-      if (s.size() > 1) truth.add(s, kappa, kProminence / shape_.diagonal(), shape_.corners.empty());
+      if (s.size() > 1) truth.add(s, kappa, kExtremumProminence / shape_.diagonal(), shape_.corners.empty());
     }
     return truth;
   }

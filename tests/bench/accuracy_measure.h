@@ -34,8 +34,9 @@ struct Accuracy {
   double rmsPx = 0.0;           ///< Of the curves from the truth on smooth parts.
   double maxPx = 0.0;           ///< There.
   double curvatureError = 0.0;  ///< rms of (kappa - truth) times the diagonal of the shape, on smooth parts.
-  int falseExtrema = 0;         ///< Curvature extrema (prominence 5e-3 / diagonal) with no true one of their kind near.
-  int missedExtrema = 0;        ///< True ones with none of their kind near.
+  int falseExtrema =
+      0;  ///< Curvature extrema (prominence kExtremumProminence / diagonal) with no true one of their kind near.
+  int missedExtrema = 0;  ///< True ones with none of their kind near.
   int trueExtrema = 0;
   double monotonePx = 0.0;                        ///< [px] of the stretches between extrema, smooth parts only,
   double flatPx = 0.0;                            ///< and how much of them lies flat (a plateau of the curvature).

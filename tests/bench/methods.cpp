@@ -111,7 +111,7 @@ Outcome measure(const OpenTruth& truth, const Recipe& recipe, double noise, unsi
     size += std::pow(truth.kappa[at], 2);
   }
   out.kappa = std::sqrt(misfit / size);
-  out.extrema = static_cast<int>(curvatureExtrema(curve, 5e-3 / extent(curve), false).size());
+  out.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / extent(curve), false).size());
   out.jump = largestCurvatureJump(curve, false);
   out.controlPoints = curve.controlPointCount();
   for (const SegmentNote& note : made->front().report.segments) {
@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
     if (!isIn(shapes, truth.name)) continue;
     Vec2 low = truth.points.front(), high = low;
     for (const Vec2& p : truth.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    const int trueExtrema = countExtrema(truth.kappa, 5e-3 / (high - low).norm(), false);
+    const int trueExtrema = countExtrema(truth.kappa, kExtremumProminence / (high - low).norm(), false);
     std::printf("\n%s, noise %.2f px, %d seeds, %d extrema\n%-16s %8s %8s %8s %9s %9s %7s %9s %8s\n",
                 truth.name.c_str(), noise, seeds, trueExtrema, "method", "rms px", "max px", "kappa", "false ex",
                 "missed", "points", "jump", "ms");

@@ -18,9 +18,9 @@ constexpr double kKernelWidths = 8.0;  // standard deviations of a Gaussian; bey
 /// curvature misses, change of that miss along a segment. Tuned on ellipses and roof lines with noise of 0 to 0.3 px.
 constexpr double kOffsetWeight = 0.2;
 constexpr double kPinnedWeight = 1e6;  // of the offset of an end: it stays where it is
-constexpr double kAngleWeight = 0.05;
-constexpr double kLevelWeight = 0.05;
-constexpr double kChangeWeight = 3.0;
+constexpr double kAngleWeight = 0.05;  // of the turn of a joint
+constexpr double kLevelWeight = 0.05;  // of the sagitta that is missed
+constexpr double kChangeWeight = 3.0;  // of its change: the path may lie beside its target over a bend, but is fair
 /// Places within a piece, as shares of its length, at which the curvature is compared; the start stands for the joint.
 constexpr std::array<double, 5> kPlaces = {0.0, 0.2, 0.4, 0.6, 0.8};
 
@@ -33,11 +33,13 @@ Vec2 rotated(const Vec2& v, double angle) {
 /// [px of sagitta]; all about 1.
 class Chain {
  public:
-  Chain(std::vector<Joint> joints, std::vector<double> lengths, std::vector<double> share, bool closed)
-      : joints_(std::move(joints)), lengths_(std::move(lengths)), share_(std::move(share)), closed_(closed) {
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
+  /// @param share as SpacedStation::share, of every joint. @param lengths of the pieces between the joints.
+  Chain(std::span<const Joint> joints, std::span<const double> share, std::vector<double> lengths, bool closed)
+      : lengths_(std::move(lengths)), closed_(closed) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
       const double before = lengths_[i > 0 ? i - 1 : (closed ? lengths_.size() - 1 : 0)];
-      reach_.push_back(0.5 * (before + (i < lengths_.size() ? lengths_[i] : before)));
+      const double reach = 0.5 * (before + (i < lengths_.size() ? lengths_[i] : before));
+      joints_.push_back({joints[i], share[i], reach});
     }
   }
 
@@ -47,14 +49,14 @@ class Chain {
   std::size_t next(std::size_t i) const { return (i + 1) % joints_.size(); }
 
   Joint moved(std::size_t i, const double* x) const {
-    Joint joint = joints_[i];
+    Joint joint = joints_[i].at;
     joint.point += x[0] * leftNormal(joint.tangent);
     joint.tangent = rotated(joint.tangent, x[1] * angleUnit(i));
     joint.kappa += x[2] * kappaUnit(i);
     return joint;
   }
-  double angleUnit(std::size_t i) const { return 1.0 / (0.25 * reach_[i]); }
-  double kappaUnit(std::size_t i) const { return 8.0 / (reach_[i] * reach_[i]); }
+  double angleUnit(std::size_t i) const { return 1.0 / (0.25 * joints_[i].reach); }
+  double kappaUnit(std::size_t i) const { return 8.0 / (joints_[i].reach * joints_[i].reach); }
 
   std::vector<ResidualBlock> blocks(const std::vector<double>& targets) const {
     std::vector<ResidualBlock> result;
@@ -65,7 +67,7 @@ class Chain {
         for (int k = 0; k < 3; ++k) block.columns.push_back(static_cast<int>(3 * joint) + k);
       }
       block.size = 2 * static_cast<int>(kPlaces.size());
-      const double reach = std::max(lengths_[i], kShortestLowPassPx * std::min(share_[i], share_[j]));
+      const double reach = std::max(lengths_[i], kShortestLowPassPx * std::min(joints_[i].share, joints_[j].share));
       const double weight = reach * reach / 8.0 / std::sqrt(static_cast<double>(kPlaces.size()));
       block.evaluate = [this, i, j, weight, &targets](std::span<const double> x, std::span<double> r) {
         const Quintic q = quinticHermite(moved(i, &x[0]), moved(j, &x[3]), lengths_[i]);
@@ -111,8 +113,14 @@ class Chain {
   }
 
  private:
-  std::vector<Joint> joints_;
-  std::vector<double> lengths_, share_, reach_;
+  struct ChainJoint {
+    Joint at;
+    double share = 1.0;  ///< Of the distance that there was before stations were set closer.
+    double reach = 0.0;  ///< [px] Mean length of the pieces beside it.
+  };
+
+  std::vector<ChainJoint> joints_;
+  std::vector<double> lengths_;  ///< [px] Of the pieces; open: one fewer than joints.
   bool closed_;
 };
 
@@ -135,35 +143,42 @@ std::vector<Joint> jointsOf(std::vector<Quintic> path, std::span<const Station> 
   return joints;
 }
 
-/// Changes of direction between stations over their distances, at the middles.
+/// Change of direction from one station to the next over their distance.
+struct StationTurn {
+  double start = 0.0, length = 0.0;  ///< [px] along the stations
+  double kappa = 0.0;                ///< [1/px] at the middle.
+  double missed = 0.0;               ///< What smoothing it once leaves.
+
+  double middle() const { return start + 0.5 * length; }
+};
 struct TurningData {
   bool closed;
-  std::vector<double> lengths, start, middle, kappa;
+  std::vector<StationTurn> turns;
   double total = 0.0;
 
-  TurningData(std::span<const Station> stations, bool isClosed)
-      : closed(isClosed), lengths(arcCorrectedDistances(stations, isClosed)) {
+  TurningData(std::span<const Station> stations, bool isClosed) : closed(isClosed) {
+    const std::vector<double> lengths = arcCorrectedDistances(stations, isClosed);
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       const Vec2 &a = stations[i].direction, &b = stations[(i + 1) % stations.size()].direction;
-      start.push_back(total);
-      middle.push_back(total + 0.5 * lengths[i]);
-      kappa.push_back(lengths[i] > 0.0 ? std::atan2(cross(a, b), a.dot(b)) / lengths[i] : 0.0);
+      const double kappa = lengths[i] > 0.0 ? std::atan2(cross(a, b), a.dot(b)) / lengths[i] : 0.0;
+      turns.push_back({total, lengths[i], kappa});
       total += lengths[i];
     }
   }
-  /// Local-linear Gaussian of values that belong to the middles.
-  double smoothed(const std::vector<double>& values, double s, double width) const {
+  /// Local-linear Gaussian of a value of the turns. Unlike smoothPolyline() it weighs by length, as stations lie at any
+  /// distances, keeps slopes at open ends, and takes another width at every place.
+  double smoothed(double StationTurn::*value, double s, double width) const {
     double w0 = 0, w1 = 0, w2 = 0, k0 = 0, k1 = 0;
-    for (std::size_t i = 0; i < lengths.size(); ++i) {
-      double away = middle[i] - s;
+    for (const StationTurn& turn : turns) {
+      double away = turn.middle() - s;
       if (closed) away -= total * std::round(away / total);
       if (std::abs(away) > kKernelWidths * width) continue;
-      const double w = lengths[i] * std::exp(-0.5 * away * away / (width * width));
+      const double w = turn.length * std::exp(-0.5 * away * away / (width * width));
       w0 += w;
       w1 += w * away;
       w2 += w * away * away;
-      k0 += w * values[i];
-      k1 += w * away * values[i];
+      k0 += w * turn.*value;
+      k1 += w * away * turn.*value;
     }
     const double determinant = w0 * w2 - w1 * w1;
     if (determinant > 1e-9 * w0 * w2) return (w2 * k0 - w1 * k1) / determinant;
@@ -172,7 +187,7 @@ struct TurningData {
 };
 
 std::vector<std::vector<Vec2>> polylinesOf(const std::vector<Quintic>& path) {
-  constexpr int kSteps = 16;
+  constexpr int kSteps = 16;  // of a piece: a chord leaves it by 1/256 of what the piece bends out
   std::vector<std::vector<Vec2>> lines;
   for (const Quintic& q : path) {
     auto& line = lines.emplace_back();
@@ -218,19 +233,19 @@ std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool c
 
 std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool closed, std::span<const double> widths,
                                        std::span<const double> arcLengths) {
-  const TurningData data(stations, closed);
+  TurningData data(stations, closed);
   const auto widthAt = [&](double s) {
-    const auto after = std::upper_bound(data.start.begin(), data.start.end(), s) - data.start.begin();
-    const std::size_t i = std::clamp<std::ptrdiff_t>(after - 1, 0, std::ssize(data.lengths) - 1);
-    const double t = data.lengths[i] > 0.0 ? std::clamp((s - data.start[i]) / data.lengths[i], 0.0, 1.0) : 0.0;
+    const auto after = std::ranges::upper_bound(data.turns, s, {}, &StationTurn::start) - data.turns.begin();
+    const std::size_t i = std::clamp<std::ptrdiff_t>(after - 1, 0, std::ssize(data.turns) - 1);
+    const StationTurn& turn = data.turns[i];
+    const double t = turn.length > 0.0 ? std::clamp((s - turn.start) / turn.length, 0.0, 1.0) : 0.0;
     return (1.0 - t) * widths[i] + t * widths[(i + 1) % widths.size()];
   };
   // Once over the data and once over what it missed there: the bends keep their height.
-  const auto at = [&](const std::vector<double>& values, double s) { return data.smoothed(values, s, widthAt(s)); };
-  std::vector<double> missed;
-  for (std::size_t i = 0; i < data.kappa.size(); ++i) missed.push_back(data.kappa[i] - at(data.kappa, data.middle[i]));
+  const auto at = [&](double StationTurn::*value, double s) { return data.smoothed(value, s, widthAt(s)); };
+  for (StationTurn& turn : data.turns) turn.missed = turn.kappa - at(&StationTurn::kappa, turn.middle());
   std::vector<double> result;
-  for (const double s : arcLengths) result.push_back(at(data.kappa, s) + at(missed, s));
+  for (const double s : arcLengths) result.push_back(at(&StationTurn::kappa, s) + at(&StationTurn::missed, s));
   return result;
 }
 
@@ -255,7 +270,7 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double lowPass, co
   std::vector<double> widths;
   for (const double share : shares) widths.push_back(share * width);
   const auto targets = lowPassedCurvature(stations, closed, widths, places);
-  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, shares, closed);
+  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), shares, lengths, closed);
   const auto blocks = chain.blocks(targets);
   const auto unknowns = static_cast<Eigen::Index>(3 * chain.count());
   const BlockSolution solved =
@@ -264,7 +279,7 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double lowPass, co
 }
 
 StationSet bezierStations(const ConstructPiece& piece, const ConstructParams& params, const RunContext& context) {
-  StationSet set = givenStations(usableStations(piece, 6, params.ends));
+  StationSet set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 3u : 2u)) return set;
   const auto plain = [closed](const StationSet& now) { return polylinesOf(bezierPath(now.plain(), closed)); };
@@ -308,7 +323,7 @@ Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, const
   }
   auto made = chainThrough(set, piece.closed, params, context);
   if (!made && set.added > 0 && !context.isCancelled()) {
-    set = givenStations(usableStations(piece, 6, params.ends));
+    set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
     made = chainThrough(set, piece.closed, params, context);
   }
   if (!made) return made;

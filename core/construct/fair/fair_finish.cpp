@@ -16,20 +16,23 @@
 #include "core/construct/fair/fair_structure_search.h"
 #include "core/construct/fair/fewest_knots.h"
 #include "core/construct/fair/sharp_features.h"
+#include "core/curve/extremum_indices.h"
 #include "core/solve/banded_cholesky.h"
 
 namespace batten {
 namespace {
 
 constexpr double kPinPrecisionPx = 1e-3;  // the rest of the way a linear shift does
+// of a span: places of the constraints, and closer ones for what they miss
 constexpr int kChecksPerSpan = 4, kFineChecksPerSpan = 8;
-constexpr int kRefinements = 3;
+constexpr int kRefinements = 3;         // times that the frame is laid about the curve anew: each costs a solution
 constexpr double kWrongWay = 2e-3;      // [1/diagonal] curvature that may turn back unasked before the frame is refined
 constexpr double kLeastNoisePx = 0.02;  // systematic error of edges on perfect pages
 constexpr double kResidualSigmas = 6.0;    // points farther off are left out of the report's residuals
 constexpr double kKappaShare = 2.0;        // of the share of the noise, for the curvature
 constexpr double kLeastMeanWeight = 1e-3;  // [1/px^2] of blocks: fewer points are as good as none
 constexpr double kCornerReachPx = 16.0;    // an end may lie this far beyond the curve of the moment
+// in the report of the piece:
 constexpr const char* kShortNote = "Too short for the fair fit; a low-degree curve was fitted to the points.";
 constexpr const char* kPlainNote = "The fair fit could not be solved; a smoothed curve was used.";
 
@@ -266,7 +269,7 @@ class FinishedFit {
       kappa.push_back(frameCurvature(d));
     }
     const double least = kWrongWay / (high - low).norm();
-    return countExtrema(kappa, least) > std::ssize(structure.extrema);
+    return countExtrema(kappa, least, false) > std::ssize(structure.extrema);
   }
 
   bool finishCurve(const FairPosterior& posterior, StructureResult& found, std::optional<double> circleCost) {

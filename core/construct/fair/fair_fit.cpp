@@ -54,14 +54,14 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
                                                 const FairFitOptions& options, const RunContext& context) {
   const int count = static_cast<int>(contour.pieces.size());
   std::vector<FairPiece> pieces(contour.pieces.size());
-  const double ordinary = ordinarySigma(contour);
+  const std::optional<double> ordinary = ordinarySigma(contour);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       pieces[i] = prepareFairPiece(contour.pieces[i], contour.isStroke, ordinary, options, context);
     }
   });
   if (context.isCancelled()) return cancelled();
-  std::vector<CutoffTable> tables;
+  std::vector<std::optional<CutoffTable>> tables;
   for (const FairPiece& piece : pieces) tables.push_back(piece.table);
   const CutoffChoice choice = chooseCutoffs(tables, options.effectiveDofWeight);
   const bool measured = std::any_of(choice.k.begin(), choice.k.end(), [](const auto& k) { return k.has_value(); });

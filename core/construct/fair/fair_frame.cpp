@@ -13,7 +13,8 @@
 namespace batten {
 namespace {
 
-constexpr double kPilotCutoffPx = 50.0;
+constexpr double kPilotCutoffPx = 50.0;  // wavelength: the pilot follows the course of the line, its frame the rest
+// standard deviation of the smoothing that the first parameters are measured along
 constexpr double kSmoothingSamples = 3.0;
 constexpr double kGateSigmas = 6.0,
                  kLeastSigmaPx = 0.02;   // points farther off than as many robust sigmas are no points of the line
@@ -24,7 +25,9 @@ constexpr double kFullShare = 0.6;    // of the points expected: from here on a 
 constexpr auto kTwoPoints = gaussLegendre<2>(-1.0, 0.0);  // of an interval that ends at 0
 constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
 
-/// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place.
+/// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place. As
+/// smoothPolyline() but for two things on which the curves of every page depend: lines of few points are smoothed as
+/// far as long ones, and the sums are taken in the order of the points.
 std::vector<Vec2> smoothedByOrder(std::span<const Vec2> p, bool closed) {
   const int n = static_cast<int>(p.size());
   const int radius = static_cast<int>(3.0 * kSmoothingSamples);

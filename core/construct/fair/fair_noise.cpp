@@ -14,8 +14,8 @@ constexpr double kNoiseSurprise = 6.0;  // times the local mean; beyond, no nois
 constexpr double kAdjacent = 1.6;       // block lengths between the means of neighbours
 constexpr double kBlockFreedom = 0.51;  // of a block: second differences of neighbours are correlated
 constexpr double kPriorWindows = 2.0;   // of equal noise
-constexpr double kMostFactor = 36.0;
-constexpr double kLeastMean = 1e-6;  // of what is usual: blocks without any noise have a logarithm too
+constexpr double kMostFactor = 36.0;    // of the usual variance, and its inverse: 6 times the standard deviation
+constexpr double kLeastMean = 1e-6;     // of what is usual: blocks without any noise have a logarithm too
 
 /// A block of a trace on its way to local noise.
 struct NoiseBlock {
@@ -24,7 +24,8 @@ struct NoiseBlock {
   double blocks = 0.0;  ///< … and how many blocks it is as good as.
 };
 
-/// Sets the local means.
+/// Sets the local means: Gaussian, at open ends over what there is. No smoothing of core/polyline also says of how many
+/// blocks a mean is.
 void averageLocally(const NoiseTrace& trace, std::vector<NoiseBlock>& values) {
   const double reach = std::min(3.0 * kNoiseAlongPx, trace.closed ? 0.5 * trace.length : trace.length);
   const int steps = static_cast<int>(reach / trace.blockLength);

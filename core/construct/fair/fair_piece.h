@@ -16,13 +16,13 @@ namespace batten {
 
 /// One piece of a contour between the steps of the fair fit.
 struct FairPiece {
-  FairData data;                   ///< px, relative to `origin`.
-  Vec2 origin = Vec2::Zero();      ///< px.
-  FairPins pins;                   ///< As data.
-  std::optional<FairFrame> frame;  ///< About the pilot; absent: too short for the fair fit.
-  CutoffTable table;
-  Eigen::VectorXd rough;  ///< Offsets from the pilot by the cut-off of the piece.
-  double squares = 0.0;   ///< Of the residuals of single points about the result.
+  FairData data;                     ///< px, relative to `origin`.
+  Vec2 origin = Vec2::Zero();        ///< px.
+  FairPins pins;                     ///< As data.
+  std::optional<FairFrame> frame;    ///< About the pilot; absent: too short for the fair fit.
+  std::optional<CutoffTable> table;  ///< Absent: without a frame.
+  Eigen::VectorXd rough;             ///< Offsets from the pilot by the cut-off of the piece.
+  double squares = 0.0;              ///< Of the residuals of single points about the result.
   int pointCount = 0;
   std::optional<Result<ConstructedPiece>> result;
 };

@@ -15,9 +15,9 @@ constexpr double kSlopeShare = 0.25;  // of the mean slope of a stretch
 constexpr double kStretchCost = 1.0;  // [chi2] what a stretch may pay for it
 constexpr double kLessSlope = 0.4;    // next try of a stretch that paid more
 constexpr double kNearWindows = 1.5;  // half windows of an extremum: flat is what the curve is there anyhow
-constexpr int kPlateauRounds = 3;
-constexpr double kFlatSlope = 0.05;  // of the mean slope: a plateau
-constexpr double kFlatShare = 0.02;  // of a stretch that may be plateaus as it is
+constexpr int kPlateauRounds = 3;     // tries of a stretch; the last one asks for no slope
+constexpr double kFlatSlope = 0.05;   // of the mean slope: a plateau
+constexpr double kFlatShare = 0.02;   // of a stretch that may be plateaus as it is
 
 /// Number of the stretch that a place belongs to; the end of a closed curve belongs to its first stretch.
 std::size_t stretchAt(const FairStructure& structure, bool closed, double u) {

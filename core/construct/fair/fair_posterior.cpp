@@ -14,7 +14,7 @@ namespace batten {
 namespace {
 
 constexpr double kShortestCutoffPx = 24.0, kCutoffStep = 1.15;  // the first candidate, and each over the one before
-constexpr double kLongestCutoffPx = 1400.0;
+constexpr double kLongestCutoffPx = 1400.0;                     // what the local prior smooths at most
 constexpr double kOrdinaryBlocks = 4.0, kOrdinaryVariance = 1.25e-3;  // [px^2] of a mean over 8 px: .01 px^2 px
 constexpr int kMeasuredStep = 3;                                      // of the candidates for the cut-off
 
@@ -23,7 +23,7 @@ double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::nu
 /// out[i] = the sum of kernel[|k|] * v[i + k], |k| <= radius, over `weight`.
 BATTEN_HOT_LOOP void averageInside(const double* v, int count, const double* kernel, int radius, double weight,
                                    double* __restrict out) {
-  constexpr int kLanes = 8;
+  constexpr int kLanes = 8;  // sums side by side, independent of each other: what vectors are filled with
   int i = radius;
   for (; i + kLanes <= count - radius; i += kLanes) {
     double sums[kLanes] = {};
@@ -41,7 +41,8 @@ BATTEN_HOT_LOOP void averageInside(const double* v, int count, const double* ker
   }
 }
 
-/// Gaussian average along the piece; open ends: over what there is.
+/// Gaussian average along the piece; open ends: over what there is. smoothValues() mirrors instead, which would count
+/// the stations next to an end twice in their own prior.
 std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bool closed) {
   const int n = static_cast<int>(v.size());
   const int radius = std::min(static_cast<int>(std::ceil(3.0 * sigma)), closed ? (n - 1) / 2 : n - 1);
@@ -95,7 +96,7 @@ bool assemble(FairPosterior& p, BandedCholesky& cholesky, const FairFrame& frame
 /// Both figures are smooth in the logarithm of the cut-off: every third is measured, the others are interpolated
 /// (cubic, in logarithms).
 void fillBetween(CutoffTable& table) {
-  constexpr int kLast = CutoffTable::kCount - 1;
+  constexpr int kLast = CutoffTable::kCount - 1;  // number of the longest cut-off
   static_assert(kLast % kMeasuredStep == 0);
   for (int k = 0; k < CutoffTable::kCount; ++k) {
     if (k % kMeasuredStep == 0) continue;
@@ -153,17 +154,18 @@ CutoffTable cutoffTable(const FairFrame& frame, CancelCheck check) {
   return table;
 }
 
-CutoffChoice chooseCutoffs(const std::vector<CutoffTable>& tables, double gamma) {
+CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>& tables, double gamma) {
   CutoffChoice choice;
   choice.k.resize(tables.size());
   for (int round = 0; round < 3; ++round) {
     double rss = 0.0, freedom = 0.0;
     for (std::size_t i = 0; i < tables.size(); ++i) {
-      const CutoffTable& t = tables[i];
-      double best = 0.0;
       choice.k[i].reset();
+      if (!tables[i]) continue;
+      const CutoffTable& t = *tables[i];
+      double best = 0.0;
       for (int k = 0; k < CutoffTable::kCount; ++k) {
-        if (t.blocks == 0 || !t.valid[k]) continue;
+        if (!t.valid[k]) continue;
         const double left = t.blocks - t.dof[k];
         const double score = round == 0                   ? t.rss[k] / (left * left)
                              : choice.blockVariance > 0.0 ? t.rss[k] / choice.blockVariance + gamma * t.dof[k]

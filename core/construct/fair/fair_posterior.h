@@ -25,9 +25,9 @@ struct FairPosterior {
 
 /// The candidates for the cut-off wavelength of a piece: ell_k = 24 * 1.15^k px, and what each one costs.
 struct CutoffTable {
-  static constexpr int kCount = 28;
+  static constexpr int kCount = 28;  // up to 1045 px
   static double cutoffPx(int k);
-  int blocks = 0;                    ///< Blocks of data; 0: the piece takes no part.
+  int blocks = 0;                    ///< Of data.
   std::array<double, kCount> rss{};  ///< [px^2] weighted sum of squared residuals of the blocks.
   std::array<double, kCount> dof{};  ///< Trace of the hat matrix.
   std::array<bool, kCount> valid{};
@@ -37,10 +37,10 @@ CutoffTable cutoffTable(const FairFrame&, CancelCheck);
 /// Cut-offs per piece and the pooled variance of a block mean: GCV first, then twice argmin rss / sigma^2 + gamma dof.
 /// The variance counts four blocks of an ordinary scan besides, so that a short contour cannot be quiet by luck.
 struct CutoffChoice {
-  std::vector<std::optional<int>> k;  ///< Per table; absent: no candidate.
+  std::vector<std::optional<int>> k;  ///< Per table; absent: no table, or no candidate in it.
   double blockVariance = 0.0;
 };
-CutoffChoice chooseCutoffs(const std::vector<CutoffTable>&, double gamma);
+CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>&, double gamma);
 
 /// Local prior by empirical Bayes, starting from the cut-off or from `tau2` (same number of stations).
 std::optional<FairPosterior> localPosterior(const FairFrame&, double s0, std::vector<double> tau2, int rounds,

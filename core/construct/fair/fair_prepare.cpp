@@ -13,17 +13,18 @@
 namespace batten {
 namespace {
 
-constexpr double kGuardOutlinePx = 4.0, kGuardStrokePx = 8.0;
-constexpr double kGuardShare = 0.1;       // of the length: short pieces keep most of their points
-constexpr double kShortestFairPx = 40.0;  // below, a low degree says all there is to say
-constexpr std::size_t kFewestBlocks = 5;
-constexpr int kGateReach = 5;
+constexpr double kGuardOutlinePx = 4.0, kGuardStrokePx = 8.0;  // of line beside a corner, which blur has rounded
+constexpr double kGuardShare = 0.1;                            // of the length: short pieces keep most of their points
+constexpr double kShortestFairPx = 40.0;                       // below, a low degree says all there is to say
+constexpr std::size_t kFewestBlocks = 5;                       // of data: from fewer no cut-off is chosen
+constexpr int kGateReach = 5;         // points to either side, whose medians show where a point belongs
 constexpr double kCrossingPx = 25.0;  // Gaussian: as long as merged strokes may look like one where they cross
 // So that a wrong estimate of the noise does little harm; points that were not placed, in crossings mostly, still hold
 // the line together.
 constexpr double kLeastWeight = 1.0 / 16.0, kMostWeight = 16.0;
 
-/// [px] Half-width of the bundle at each point, 0 where there is none. Where strokes cross, it is deceptively small.
+/// [px] Half-width of the bundle at each point; that of a single stroke is 0. Where strokes cross, it is deceptively
+/// small.
 std::vector<float> smoothSpread(const std::vector<PiecePoint>& points, bool closed) {
   std::vector<float> square;
   for (const PiecePoint& p : points) {
@@ -37,13 +38,13 @@ std::vector<float> smoothSpread(const std::vector<PiecePoint>& points, bool clos
 }
 
 /// Points that differ from their predecessor, about their mean, and what they weigh.
-void readPoints(FairPiece& piece, const ConstructPiece& in, double ordinarySigmaPx) {
+void readPoints(FairPiece& piece, const ConstructPiece& in, std::optional<double> ordinarySigmaPx) {
   std::vector<FairPoint> px;
   const std::vector<float> beside = smoothSpread(in.points, in.closed);
   for (int i = 0; i < std::ssize(in.points); ++i) {
     if (!in.points[i].at.allFinite()) continue;
     const double sigma = in.points[i].sigmaPx.value_or(0.0f);
-    const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
+    const double ratio = sigma > 0.0 && ordinarySigmaPx ? *ordinarySigmaPx / sigma : 1.0;
     FairPoint& p = px.emplace_back();
     p.at = in.points[i].at;
     p.weight = std::clamp(ratio * ratio, kLeastWeight, kMostWeight);
@@ -134,14 +135,14 @@ void rejectOutliers(FairData& data, double gatePx, double spacing) {
   }
 }
 
-double ordinarySigma(const ConstructContour& contour) {
+std::optional<double> ordinarySigma(const ConstructContour& contour) {
   std::vector<float> sigma;
   for (const ConstructPiece& piece : contour.pieces) {
     for (const PiecePoint& p : piece.points) {
       if (p.sigmaPx && *p.sigmaPx > 0.0f && std::isfinite(*p.sigmaPx)) sigma.push_back(*p.sigmaPx);
     }
   }
-  if (sigma.empty()) return 0.0;
+  if (sigma.empty()) return std::nullopt;
   return upperMedian(sigma);
 }
 
@@ -153,7 +154,7 @@ void weighByNoise(FairData& data, const LocalNoise& noise, double measured, doub
   }
 }
 
-FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double ordinarySigmaPx,
+FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, std::optional<double> ordinarySigmaPx,
                            const FairFitOptions& options, CancelCheck check) {
   FairPiece piece;
   readPoints(piece, in, ordinarySigmaPx);

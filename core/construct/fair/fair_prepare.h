@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "core/base/cancel_check.h"
 #include "core/construct/fair/fair_piece.h"
 
 namespace batten {
 
-/// [px] Median of the standard deviations that the points of a contour came with; 0: they came with none.
-double ordinarySigma(const ConstructContour&);
+/// [px] Median of the standard deviations that the points of a contour came with; absent: they came with none.
+std::optional<double> ordinarySigma(const ConstructContour&);
 
 /// Points cleaned and gated; pilot, first frame and the table of cut-offs. @param piece in px.
-FairPiece prepareFairPiece(const ConstructPiece& piece, bool isStroke, double ordinarySigmaPx, const FairFitOptions&,
-                           CancelCheck);
+FairPiece prepareFairPiece(const ConstructPiece& piece, bool isStroke, std::optional<double> ordinarySigmaPx,
+                           const FairFitOptions&, CancelCheck);
 
 /// [-] What merged strokes leave open about the line that was meant: a noise density of this part of the cube of half
 /// their half-width (a hand wanders over a length proportional to its excursion), …

@@ -9,31 +9,28 @@
 #include <numbers>
 #include <utility>
 
+#include "core/curve/bernstein.h"
+#include "core/curve/bezier_quintics.h"
 #include "core/polyline/circle_fit.h"
 #include "core/solve/dense_solve.h"
 
 namespace batten {
 namespace {
 
+// length of a piece that shows no bend, and one that shows no change of it
 constexpr double kStraightBelowPx = 12.0, kQuadraticBelowPx = 25.0;
 constexpr double kLoopCutoffShare = 0.25;  // of the length of a small closed line: shorter waves are noise
 constexpr double kLoopSpacingPx = 16.0;    // of its knots
-constexpr double kPinWeight = 1e8;
+constexpr double kPinWeight = 1e8;         // of an exact end, in weights of a point; openCurve() sets the last digits
 
-Result<NurbsCurve> bezier(std::vector<Vec2> points, double length) {
-  while (points.size() < 6) {
-    const double n = static_cast<double>(points.size());
-    std::vector<Vec2> raised{points.front()};
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const double a = static_cast<double>(i) / n;
-      raised.push_back(a * points[i - 1] + (1.0 - a) * points[i]);
-    }
-    raised.push_back(points.back());
-    points = std::move(raised);
-  }
+/// A piece of 2, 3 or 4 Bezier points.
+Result<NurbsCurve> bezier(const std::vector<Vec2>& p, double length) {
+  const Quintic quintic = p.size() == 2   ? elevatedLine(p[0], p[1])
+                          : p.size() == 3 ? elevatedQuadratic(p[0], p[1], p[2])
+                                          : elevatedCubic(p[0], p[1], p[2], p[3]);
   std::vector<double> knots(6, 0.0);
   knots.insert(knots.end(), 6, length);
-  return NurbsCurve::make(5, std::move(knots), std::move(points));
+  return NurbsCurve::make(5, std::move(knots), {quintic.begin(), quintic.end()});
 }
 
 Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const std::vector<double>& t) {
@@ -44,9 +41,8 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const s
   const int n = degree + 1;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n), right = Eigen::MatrixXd::Zero(n, 2);
   const auto add = [&](double u, const Vec2& p, double w) {
-    Eigen::VectorXd b(n);
-    constexpr double kChoose[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
-    for (int i = 0; i < n; ++i) b[i] = kChoose[degree][i] * std::pow(u, i) * std::pow(1.0 - u, degree - i);
+    const auto values = bernsteinPolynomials(degree, u);
+    const Eigen::Map<const Eigen::VectorXd> b(values.data(), n);
     normal += w * b * b.transpose();
     right += w * b * p.transpose();
   };
@@ -64,7 +60,7 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const s
   if (!sound) points = {first, last};
   if (pins.start) points.front() = first;
   if (pins.end) points.back() = last;
-  return bezier(std::move(points), length);
+  return bezier(points, length);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 namespace batten {
 namespace {
 
+// Half-width of the window of an extremum: of the way to the next one, of its stretch, and at least.
 constexpr double kWindowShare = 0.25, kStretchShare = 0.8, kWindowMinPx = 8.0;
 constexpr double kWindowsApart = 0.45;  // of the distance of neighbouring extrema: half a window is no wider
 constexpr double kRecentre = 0.7;       // of the half width

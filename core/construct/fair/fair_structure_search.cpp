@@ -53,7 +53,7 @@ class ExtremumRemoval {
   }
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static constexpr double kNever = std::numeric_limits<double>::infinity();  // of a cost or distance: none yet
 
   /// Drops what is cheap enough and not held. False when cancelled or when the first program cannot be solved.
   bool search() {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/construct/fair/fair_frame.h"
+#include "core/curve/extremum_indices.h"
 #include "core/curve/knot_operations.h"
-#include "core/curve/turning_points.h"
 #include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
 #include "core/solve/banded_program.h"
@@ -18,11 +18,12 @@
 namespace batten {
 namespace {
 
-constexpr int kFewestClosed = 8;      // spans of a closed curve
-constexpr double kLeastGain = 0.85;   // of the spans: more are not worth another curve
-constexpr double kFirstGuess = 0.25;  // of the spans
-constexpr int kTrials = 6;
+constexpr int kFewestClosed = 8;       // spans of a closed curve
+constexpr double kLeastGain = 0.85;    // of the spans: more are not worth another curve
+constexpr double kFirstGuess = 0.25;   // of the spans
+constexpr int kTrials = 6;             // numbers of spans: each is a fit, of which the last ones gain little
 constexpr double kCloseEnough = 0.06;  // of the spans: that many more or less are not worth a trial
+// limits: what counts for other extrema than the full curve has, and for no fit
 constexpr double kExtremaExcess = 1.6, kNoFit = 20.0;
 constexpr double kLeastExcess = 0.05;     // taken of a fit: a trial then has half the spans at least (fourth root)
 constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth another solution
@@ -102,7 +103,7 @@ class KnotRemoval {
       high = high.cwiseMax(station.target);
     }
     least_ = kWrongWayKept / std::max((high - low).norm(), 1e-12);
-    const std::vector<int> extrema = extremaOfSamples(kappas, least_);
+    const std::vector<ExtremumIndex> extrema = extremumIndices(kappas, least_, SequenceStart::AtEnd);
     extrema_ = static_cast<int>(extrema.size());
     if (!limits.stations.empty())
       nearest_ = std::ranges::min(limits.stations, {}, &FewestKnotsLimit::distancePx).distancePx;
@@ -274,7 +275,7 @@ class KnotRemoval {
   }
 
   /// Sets the directions of the stations.
-  void findDirections(const std::vector<int>& extrema) {
+  void findDirections(const std::vector<ExtremumIndex>& extrema) {
     const int count = static_cast<int>(stations_.size());
     const auto stretch = [&](int from, int to, bool isFirst, bool isLast) {
       const double a = stations_[from].kappa, b = stations_[to].kappa;
@@ -285,7 +286,7 @@ class KnotRemoval {
     int from = 0;
     const int last = static_cast<int>(extrema.size());
     for (int k = 0; k <= last; ++k) {
-      const int to = k < last ? extrema[k] : count - 1;
+      const int to = k < last ? extrema[k].index : count - 1;
       // Where a closed curve begins there may be an extremum as well: its first and last stretch are left alone.
       if (!closed_ || (k > 0 && k < last)) stretch(from, to, k == 0, k == last);
       from = to;
@@ -313,7 +314,7 @@ class KnotRemoval {
       excess = std::max(excess, std::abs(kappa.back() - full.kappa) / std::max(kappaLimit(i), 1e-300));
     }
     fit.excess = excess;
-    fit.keepsExtrema = countExtrema(kappa, least_) == extrema_;
+    fit.keepsExtrema = countExtrema(kappa, least_, false) == extrema_;
   }
 
   std::optional<FewestKnotsResult> made(const Fit& fit, int spans) const {
@@ -348,16 +349,6 @@ std::optional<FewestKnotsResult> withFewestKnots(const UniformQuintic& full, con
   const auto isPositive = [](const FewestKnotsLimit& limit) { return limit.distancePx > 0.0; };
   if (!std::ranges::all_of(limits.stations, isPositive)) return std::nullopt;
   return KnotRemoval(full, limits, check).run();
-}
-
-std::vector<int> extremaOfSamples(std::span<const double> kappa, double least) {
-  std::vector<int> extrema;
-  for (const TurningPoint& turning : turningPoints(kappa, least, TurningStart::AtEnd)) extrema.push_back(turning.index);
-  return extrema;
-}
-
-int countExtrema(std::span<const double> kappa, double least) {
-  return static_cast<int>(extremaOfSamples(kappa, least).size());
 }
 
 }  // namespace batten

@@ -36,9 +36,4 @@ struct FewestKnotsResult {
 std::optional<FewestKnotsResult> withFewestKnots(const UniformQuintic& full, const FewestKnotsLimits&,
                                                  CancelCheck check = {});
 
-/// The extrema of sampled curvature that rise or fall by more than `least`: indices, ascending.
-std::vector<int> extremaOfSamples(std::span<const double> kappa, double least);
-/// Their number.
-int countExtrema(std::span<const double> kappa, double least);
-
 }  // namespace batten

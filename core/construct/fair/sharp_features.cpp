@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iterator>
 
+#include "core/base/segment_foot.h"
 #include "core/base/statistics.h"
 #include "core/construct/fair/fair_piece.h"
 #include "core/construct/fair/fair_prepare.h"
@@ -14,18 +15,26 @@
 namespace batten {
 namespace {
 
-constexpr double kArmPx = 6.0;      // chords whose directions are compared
-constexpr double kArmPoints = 3.0;  // and where points are sparse: chords of fewer have no direction
-constexpr int kFewestTurningPoints = 5;
+constexpr double kArmPx = 6.0;       // chords whose directions are compared
+constexpr double kArmPoints = 3.0;   // and where points are sparse: chords of fewer have no direction
+constexpr int kFewestPoints = 5;     // fewer have no turn that two chords could tell
 constexpr double kFewestArms = 3.0;  // of line: shorter ones have no turn that two chords could tell
 constexpr double kSharpRad = 0.6;    // between the two chords: an arc of less than 10 px radius, or a corner
 constexpr double kMarginPx = 3.0;    // of line on either side that blur has rounded
 constexpr double kEndGuardPx = 5.0;  // an end has hooks of its own
-constexpr double kFarPx = 1.5, kVeryFarPx = 4.0, kOutlierPx = 1.2, kBackPx = 0.5;
-constexpr double kFarShare = 0.02;
-constexpr double kLongestRatio = 1.15;
-constexpr double kLoosePx = 4.0;  // that a curve may be longer than its points: of short lines noise makes length
-constexpr double kLongRunPx = 30.0;
+constexpr double kFarPx = 1.5, kVeryFarPx = 4.0;   // of a point from a curve: few may lie so far, and none
+constexpr double kFarShare = 0.02;                 // of the points: so few
+constexpr double kOutlierPx = 1.2, kBackPx = 0.5;  // what a fit has left, and where it is back on its points
+constexpr double kLongestRatio = 1.15;  // of the lengths of curve and points: a longer one wanders between them
+constexpr double kLoosePx = 4.0;        // that a curve may be longer than its points: of short lines noise makes length
+constexpr double kLongRunPx = 30.0;     // of points that are left: longer runs are first cut at their sharpest turn
+// A curve is measured along a polygon: chords of about so many px, and so many in a span.
+constexpr double kChordPx = 2.0;
+constexpr int kFewestChords = 2, kMostChords = 16;
+// Chords to look ahead for the next point; more where the curve seems to have left the points, as behind a hook.
+constexpr std::size_t kReach = 8, kFarReach = 24;
+// A point counts as far where most of the five about it are: single outliers do not.
+constexpr int kBeside = 2, kMajority = 3;
 
 /// The points of a piece with lengths along them; outliers stand aside.
 struct Course {
@@ -75,7 +84,7 @@ Course courseOf(const ConstructPiece& piece, double gatePx) {
 std::vector<double> turning(const Course& course, double arm) {
   const int n = course.count();
   std::vector<double> angle(course.p.size(), 0.0);
-  if (n < kFewestTurningPoints || course.total < kFewestArms * arm) return angle;
+  if (n < kFewestPoints || course.total < kFewestArms * arm) return angle;
   int back = course.closed ? -n : 0, front = 0;
   for (int i = 0; i < n; ++i) {
     const double here = course.s[i];
@@ -130,12 +139,9 @@ Passing follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at,
   double place = static_cast<double>(at);
   for (const std::size_t i : {at, at + 1}) {
     if (i == 0 || i > last) continue;
-    const Vec2 along = polygon[i] - polygon[i - 1];
-    const double square = along.squaredNorm();
-    if (!(square > 0.0)) continue;
-    const double x = std::clamp((p - polygon[i - 1]).dot(along) / square, 0.0, 1.0);
-    const double d = (p - polygon[i - 1] - x * along).squaredNorm();
-    if (d < best) best = d, place = static_cast<double>(i - 1) + x;
+    const SegmentFoot foot = footOnSegment(p, polygon[i - 1], polygon[i]);
+    const double d = foot.away.squaredNorm();
+    if (d < best) best = d, place = static_cast<double>(i - 1) + foot.share;
   }
   return {std::sqrt(best), place};
 }
@@ -146,7 +152,7 @@ std::vector<PointRange> sharpFeatures(const ConstructPiece& piece, bool isStroke
   const Course course = courseOf(piece, isStroke ? options.gateStrokePx : options.gateOutlinePx);
   const int n = course.count();
   std::vector<PointRange> features;
-  if (n < 5) return features;
+  if (n < kFewestPoints) return features;
   const double arm = std::max(kArmPx, kArmPoints * course.total / n);
   const std::vector<double> angle = turning(course, arm);
   const auto sharp = [&](int i) { return angle[i % n] > kSharpRad; };
@@ -227,7 +233,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   const auto breaks = curve.breaks();
   for (std::size_t j = 0; j + 1 < breaks.size(); ++j) {
     const double width = breaks[j + 1] - breaks[j];
-    const int steps = std::clamp(static_cast<int>(width / 2.0), 2, 16);
+    const int steps = std::clamp(static_cast<int>(width / kChordPx), kFewestChords, kMostChords);
     for (int i = 0; i < steps; ++i) parameter.push_back(breaks[j] + width * i / steps);
   }
   parameter.push_back(breaks.back());
@@ -249,13 +255,13 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   for (const PiecePoint& point : piece.points) {
     if (check.isCancelled()) return {};
     const Vec2& p = point.at;
-    Passing d = follow(polygon, p, at, 8);
+    Passing d = follow(polygon, p, at, kReach);
     if (d.distance > kBackPx) {
-      if (const Passing further = follow(polygon, p, at, 24); further.distance < d.distance) d = further;
+      if (const Passing further = follow(polygon, p, at, kFarReach); further.distance < d.distance) d = further;
     }
     if (piece.closed && (at < 2 || at + 2 >= polygon.size())) {
       std::size_t other = at < 2 ? polygon.size() - 1 : 0;
-      const Passing round = follow(polygon, p, other, 8);
+      const Passing round = follow(polygon, p, other, kReach);
       if (round.distance < d.distance) d = round, at = other;
     }
     PointOffset& offset = result.points.emplace_back();
@@ -267,11 +273,12 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
     along += offset.distancePx;
   }
   if (!std::isfinite(along)) result.veryFar = n + 1;
-  for (int i = 0; i < n; ++i) {  // ignore single outliers
+  for (int i = 0; i < n; ++i) {
     const auto near = [&](double limit) {
       int count = 0;
-      for (int k = std::max(0, i - 2); k <= std::min(n - 1, i + 2); ++k) count += result.points[k].distancePx > limit;
-      return count >= 3;
+      for (int k = std::max(0, i - kBeside); k <= std::min(n - 1, i + kBeside); ++k)
+        count += result.points[k].distancePx > limit;
+      return count >= kMajority;
     };
     if (result.points[i].distancePx > kFarPx && near(kFarPx)) ++result.far;
     if (result.points[i].distancePx > kVeryFarPx && near(kVeryFarPx)) ++result.veryFar;
@@ -282,7 +289,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
 std::vector<PointRange> outlierRanges(const PointDeviation& close, const ConstructPiece& piece, bool whole) {
   std::vector<PointRange> out;
   const int n = static_cast<int>(piece.points.size());
-  if (n < 5) return out;
+  if (n < kFewestPoints) return out;
   const bool outliers =
       std::ranges::any_of(close.points, [](const PointOffset& p) { return !(p.distancePx <= kOutlierPx); });
   if (!outliers && close.lengthRatio < kLongestRatio) return out;
@@ -291,9 +298,9 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
   if (course.count() != n) return {{0, n - 1}};
   const auto distance = [&](int i) { return close.points[((i % n) + n) % n].distancePx; };
   const auto middle = [&](int i) {
-    std::array<double, 5> d{};
-    for (int k = -2; k <= 2; ++k) {
-      d[k + 2] = distance(piece.closed ? i + k : std::clamp(i + k, 0, n - 1));
+    std::array<double, 2 * kBeside + 1> d{};
+    for (int k = -kBeside; k <= kBeside; ++k) {
+      d[k + kBeside] = distance(piece.closed ? i + k : std::clamp(i + k, 0, n - 1));
     }
     return upperMedian(d);
   };

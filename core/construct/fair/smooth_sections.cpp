@@ -125,19 +125,19 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
   fits_ = std::move(fits);
   const auto pieces = stretches();
   std::vector<PointRange> sharp = sharp_;
-  std::vector<StrayedFit> strayed;
+  std::vector<OutlierFit> leaving;
   bool more = false;
   for (std::size_t i = 0; i < fits_.size(); ++i) {
     // Where the user took a bump out that was drawn, the curve leaves its points because he wants it.
     const auto& constraints = pieces[i].constraints;
     if (std::any_of(constraints.begin(), constraints.end(), [](const ExtremumConstraint& w) { return !w.keep; }))
       continue;
-    const PointDeviation close = pointDeviation(fits_[i].curve, pieces[i], run);
+    const PointDeviation deviation = pointDeviation(fits_[i].curve, pieces[i], run);
     if (run.isCancelled()) return false;
     const int offset = smooth_[i].first;
-    const auto outliers = outlierRanges(close, pieces[i], lastRound);
+    const auto outliers = outlierRanges(deviation, pieces[i], lastRound);
     for (PointRange r : outliers) sharp.push_back({r.first + offset, r.last + offset});
-    if (lastRound && !outliers.empty()) strayed.push_back({i, close, outliers});
+    if (lastRound && !outliers.empty()) leaving.push_back({i, deviation, outliers});
     more = more || !outliers.empty();
   }
   if (!more) return false;
@@ -147,26 +147,26 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
   }
   sharp_ = united(std::move(sharp), piece_, kLeastSmoothPx);
   if (lastRound) {
-    keepNear(strayed, pieces);
+    keepNear(leaving, pieces);
   } else {
     smooth_ = between(sharp_, piece_);
   }
   return true;
 }
 
-void SmoothSections::keepNear(const std::vector<StrayedFit>& strayed, const std::vector<ConstructPiece>& pieces) {
+void SmoothSections::keepNear(const std::vector<OutlierFit>& leaving, const std::vector<ConstructPiece>& pieces) {
   std::vector<ConstructedPiece> kept;
   std::vector<PointRange> ranges;
-  auto next = strayed.begin();
+  auto next = leaving.begin();
   for (std::size_t i = 0; i < fits_.size(); ++i) {
-    if (next == strayed.end() || next->fit != i) {
+    if (next == leaving.end() || next->fit != i) {
       kept.push_back(std::move(fits_[i]));
       ranges.push_back(smooth_[i]);
       continue;
     }
     const ConstructPiece& piece = pieces[i];
     const auto outliers = united(next->outliers, piece, kLeastSmoothPx);
-    const std::vector<PointOffset>& at = next->close.points;
+    const std::vector<PointOffset>& at = next->deviation.points;
     const int n = static_cast<int>(at.size());
     for (const PointRange& r : between(outliers, piece)) {
       const bool atStart = !piece.closed && r.first == 0, atEnd = !piece.closed && r.last == n - 1;
@@ -235,10 +235,10 @@ Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) 
   };
   std::optional<int> far;
   if (whole) {
-    const PointDeviation close = pointDeviation(whole->curve, piece_, context);
+    const PointDeviation deviation = pointDeviation(whole->curve, piece_, context);
     if (context.isCancelled()) return cancelled();
-    if (close.good()) return whole;
-    far = farness(close);
+    if (deviation.good()) return whole;
+    far = farness(deviation);
   }
   auto other = throughStations(context);
   if (!other) return whole;

@@ -30,14 +30,14 @@ class SmoothSections {
   Result<ConstructedPiece> joined(const RunContext&) const;
 
  private:
-  /// A fit that has left its points in the last round.
-  struct StrayedFit {
+  /// A fit that has left some of its points in the last round.
+  struct OutlierFit {
     std::size_t fit = 0;
-    PointDeviation close;
+    PointDeviation deviation;
     std::vector<PointRange> outliers;
   };
   /// Of those fits only what is near the points; tight curves come between.
-  void keepNear(const std::vector<StrayedFit>&, const std::vector<ConstructPiece>& pieces);
+  void keepNear(const std::vector<OutlierFit>&, const std::vector<ConstructPiece>& pieces);
   Result<ConstructedPiece> joinedParts(const RunContext&) const;
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;

@@ -9,7 +9,7 @@
 
 namespace batten {
 
-inline constexpr int kMostLightDegree = kMostBernsteinDegree;
+inline constexpr int kMostLightDegree = kMostBernsteinDegree;  // what bernsteinPolynomials() goes to
 /// Control points that a span of a curve depends on.
 inline constexpr std::size_t kSpanPoints = kMostLightDegree + 1;
 
@@ -33,9 +33,11 @@ using SpanKnots = std::array<double, 2 * kMostLightDegree>;
 
 /// Bezier points of a span of a B-spline from the degree + 1 control points that it depends on, by blossoming: point k
 /// is the blossom with the span's start degree - k times and its end k times. `Value`: Vec2, or rows of a matrix.
+/// Written into the memory that a fit keeps for every span: what lies behind the degree stays as it is.
 template <class Value>
 void bezierOfSpan(int degree, const SpanKnots& knots, const std::array<Value, kSpanPoints>& points,
                   std::array<Value, kSpanPoints>& bezier) {
+  // one for each mix of two points
   constexpr std::size_t kMostShares = kMostLightDegree * (kMostLightDegree + 1) / 2;
   const std::size_t p = degree;
   std::array<double, kMostShares> atStart, atEnd;  // level by level

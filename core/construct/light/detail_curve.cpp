@@ -22,16 +22,17 @@
 namespace batten {
 namespace {
 
-constexpr double kStepsPerScale = 12.0;
+constexpr double kStepsPerScale = 12.0;            // samples of the line
 constexpr double kLeftOut = 1.2;                   // scales beside a corner, where ink is rounded
 constexpr double kSmoothedBy = 0.4;                // scales
 constexpr double kFitShare = 0.9;                  // of the tolerance; the rest is for the smoothing
 constexpr double kClearNotch = 60.0 * kRadPerDeg;  // a corner that does not turn at large must turn by this
-constexpr int kFewestStretchSamples = 16;
+constexpr int kFewestStretchSamples = 16;          // steps of a stretch, however short it is
+// control points of a stretch that are tried: at least up to, and no more than
 constexpr int kFewestTried = 9, kMostDetailPoints = 60;
-constexpr double kChordReach = 3.0;  // tolerances
-constexpr int kMostCuts = 4;         // of a stretch, one within the other
-constexpr double kSamplesPerPoint = 4.0;
+constexpr double kChordReach = 3.0;       // tolerances
+constexpr int kMostCuts = 4;              // of a stretch, one within the other
+constexpr double kSamplesPerPoint = 4.0;  // more control points than this allows would follow single samples
 constexpr int kAnyNumber = std::numeric_limits<int>::max();  // of control points
 constexpr int kFewestOfHalves = 3;                           // control points
 constexpr int kMeasuredEvery = 3;                            // samples of the line

@@ -14,17 +14,18 @@
 namespace batten {
 namespace {
 
-constexpr double kSmoothing = 0.5;  // scales, standard deviation
-constexpr double kHalfTurn = 2.0;   // scales to either side, over which a corner turns
-constexpr double kFlank = 3.0;      // scales beyond, that bend less
-constexpr double kLeastCornerTurn = 25.0 * kRadPerDeg;
+constexpr double kSmoothing = 0.5;                       // scales, standard deviation
+constexpr double kHalfTurn = 2.0;                        // scales to either side, over which a corner turns
+constexpr double kFlank = 3.0;                           // scales beyond, that bend less
+constexpr double kLeastCornerTurn = 25.0 * kRadPerDeg;   // of a corner at the scale
 constexpr double kFlankShare = 0.45;                     // of the corner's turn per length
 constexpr double kVertexNear = 1.0, kVertexReach = 1.6;  // scales from the line
 constexpr double kTip = 110.0 * kRadPerDeg;              // turns beyond have no vertex near the line
 constexpr double kApart = 3.4;                           // scales between two corners of one sense
+// of a corner without rounding: at the scale, and of chords
 constexpr double kHardTurn = 40.0 * kRadPerDeg, kHardChords = 48.0 * kRadPerDeg;
 constexpr double kChordFrom = 1.2, kChordTo = 7.2;  // scales
-constexpr int kFewestLinePlaces = 24;
+constexpr int kFewestLinePlaces = 24;               // steps of a line; shorter ones have no corners at a scale
 constexpr double kMouth = 0.8, kShortestNeck = 2.0, kLongestNeck = 16.0;  // scales
 constexpr double kNeckDepth = 3.0;  // mouths: the line leaves and comes back, and does not only bend
 
@@ -162,7 +163,7 @@ EvenLine evenPolyline(const std::vector<Vec2>& fine, bool closed, double step) {
 }  // namespace
 
 EvenLine evenLine(const NurbsCurve& curve, bool closed, double step) {
-  constexpr int kFewestPerSpan = 6;
+  constexpr int kFewestPerSpan = 6;  // chords that a span is measured by, and steps of the line at the least
   std::vector<Vec2> fine;
   const std::vector<double> breaks = curve.breaks();
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {

@@ -16,14 +16,13 @@
 namespace batten {
 namespace {
 
-constexpr int kQuinticChain = 5;
-constexpr double kSectionProminence = 2e-3;   // times 1 / diagonal: extrema that have a removal deviation
+constexpr int kQuinticChain = 5;              // degree of the sections
 constexpr int kJoinedOn = 3;                  // multiplicity of knots where a tight turn was joined on
 constexpr double kFewestSamplesOfCut = 12.0;  // of the reference, between two cuts
-constexpr int kChainRounds = 4;
-constexpr int kWorthCutting = 12;      // control points of a section
-constexpr double kSameTangent = 1e-6;  // sine of the angle at a joint
-constexpr double kMostStretch = 4.0;   // of one domain at a joint
+constexpr int kChainRounds = 4;               // of making sections dense again where they brought extrema
+constexpr int kWorthCutting = 12;             // control points of a section
+constexpr double kSameTangent = 1e-6;         // sine of the angle at a joint
+constexpr double kMostStretch = 4.0;          // of one domain at a joint
 
 /// Inner knots of high multiplicity.
 std::vector<double> joinedKnots(const NurbsCurve& curve) {
@@ -127,8 +126,8 @@ int pointsOf(const std::vector<MadeSection>& made) {
 std::vector<MadeSection> lightenSection(const Section&, double diagonal, const LightOptions&, int extremaPerSection,
                                         const RunContext&);
 
-std::optional<std::vector<Section>> cut(const Section& whole, const std::vector<double>& cuts,
-                                        const RunContext& context) {
+std::optional<std::vector<Section>> cutAt(const Section& whole, const std::vector<double>& cuts,
+                                          const RunContext& context) {
   std::vector<Section> parts;
   NurbsCurve rest = whole.dense;
   for (const double u : cuts) {
@@ -159,7 +158,7 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   const int fewer = extremaPerSection / 2;
   if (one.report.kind != LightKind::Dense || fewer == 0 || same.report.points < kWorthCutting)
     return {{std::move(same), std::move(one)}};
-  const auto parts = cut(section, lightSections(section.dense, *reference, held, fewer).cuts, context);
+  const auto parts = cutAt(section, lightSections(section.dense, *reference, held, fewer).cuts, context);
   if (!parts || parts->size() < 2) return {{std::move(same), std::move(one)}};
   std::vector<MadeSection> made;
   for (const Section& part : *parts) {
@@ -257,7 +256,7 @@ std::optional<LightCurve> assembled(const std::vector<MadeSection>& made, const 
 LightSections lightSections(const NurbsCurve& dense, const LightReference& reference, const LightOptions& options,
                             int extremaPerSection) {
   LightSections sections;
-  const auto kept = significantExtrema(rankedExtrema(reference, kSectionProminence / reference.diagonal()),
+  const auto kept = significantExtrema(rankedExtrema(reference, kRankedProminence / reference.diagonal()),
                                        options.significance * options.tolerance);
   sections.extrema = static_cast<int>(kept.size());
   const std::vector<double> joined = joinedKnots(dense);
@@ -330,7 +329,7 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
     whole.start = options.start;
     whole.end = options.end;
   }
-  const auto parts = cut(whole, sections.cuts, context);
+  const auto parts = cutAt(whole, sections.cuts, context);
   if (!parts) return std::nullopt;
   std::vector<std::vector<MadeSection>> madeOf(parts->size());
   parallelFor(context, static_cast<int>(madeOf.size()), 1, [&](int begin, int end) {
@@ -352,7 +351,7 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
       if (!keepDenseAtKinks(made, closed)) return std::nullopt;
       continue;
     }
-    chain->report.ranked = rankedExtrema(reference, kSectionProminence / reference.diagonal());
+    chain->report.ranked = rankedExtrema(reference, kRankedProminence / reference.diagonal());
     chain->report.extremaAsked = sections.extrema;
     chain->report.extrema = counts.extrema;
     chain->report.inflections = counts.inflections;

@@ -83,7 +83,7 @@ std::optional<double> worstOffset(const std::vector<CheckedPlace>& places, const
 }  // namespace
 
 int checkedPlacesPerSpan(int spans) {
-  constexpr int kFewestPlaces = 400, kPerSpan = 40;
+  constexpr int kFewestPlaces = 400, kPerSpan = 40;  // of the curve, and of a span
   return std::max(kPerSpan, (kFewestPlaces + spans - 1) / spans);
 }
 

@@ -19,16 +19,17 @@ constexpr double kHopelessStart = 2.5;  // tolerances off at the end of the firs
 constexpr LevenbergOptions kLightSteps{
     .success = 1.0 / 0.3, .failure = 6.0, .leastDamping = 1e-9, .mostDamping = 1e8, .smallDecrease = 0.002};
 constexpr double kLongestLogStep = 0.5;  // of a span length's logarithm
-constexpr double kMostLogLength = 2.2;
-constexpr double kRowsReached = 0.02;  // of signs and ends
+constexpr double kMostLogLength = 2.2;   // of a span length over their mean: a factor of 9 either way
+constexpr double kRowsReached = 0.02;    // of signs and ends
 // A fit of the second phase is given up that would not come to the cost of those that hold what they are asked for
 // with the steps that are left, if each gained several times what the last ones did.
 constexpr double kCostOfReached = 0.03;
-constexpr int kStepsJudged = 4;
+constexpr int kStepsJudged = 4;     // the last ones, whose mean gain is taken
 constexpr double kHopedGain = 5.0;  // times the logarithm of the gain of a step
+// of the weight of the signs, from one phase of wrong signs to the next
 constexpr double kSignGrowth = 3.0, kMostSignWeight = 30.0;
-constexpr LightWeights kFirst{1.0, 0.0, 0.0, 0.3};
-constexpr LightWeights kSecond{0.15, 12.0, 1.0, 3.0};
+constexpr LightWeights kFirst{1.0, 0.0, 0.0, 0.3};     // the offsets alone, with a little of the held ends
+constexpr LightWeights kSecond{0.15, 12.0, 1.0, 3.0};  // walls, signs and ends before the offsets
 
 class LightProblem final : public LevenbergProblem {
  public:

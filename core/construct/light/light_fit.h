@@ -20,15 +20,17 @@ struct CurvatureRange {
   double beyond(double kappa) const { return kappa > high ? kappa - high : kappa < low ? kappa - low : 0.0; }
 };
 
+/// Sign of the curvature or of its slope.
+enum class LightSign : signed char { Negative = -1, Positive = 1 };
+
 /// What one fit is asked for.
 struct LightAsk {
   double tolerance = 0.0;  ///< > 0, unit of the reference.
-  /// The curvature first rises (+1) or falls (-1) and turns `changes` times; 0: it may do as it likes.
-  int firstSign = 0;
+  /// Whether the curvature first rises or falls; it turns `changes` times. Absent: it may do as it likes.
+  std::optional<LightSign> firstSlope = {};
   int changes = 0;
-  /// The curvature first is positive (+1) or negative (-1) and changes its sign `inflections` times at the most;
-  /// 0: as it likes.
-  int firstKappaSign = 0;
+  /// What the curvature first is; it changes its sign `inflections` times at the most. Absent: as it likes.
+  std::optional<LightSign> firstKappa = {};
   int inflections = 0;
   LightHold start = LightHold::Position, end = LightHold::Position;
   std::optional<CurvatureRange> startRange = {},

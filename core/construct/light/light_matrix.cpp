@@ -15,7 +15,7 @@ constexpr Eigen::Index kMostDenseUnknowns = 450;
 /// A group of unknowns is a control point and the length of one span, the one that has this point as its
 /// kLengthAfter-th. The points of a quintic span then lie in the groups of the lengths that it depends on.
 constexpr int kGroup = 3, kLengthAfter = 2, kLastPoint = 5;
-constexpr int kGroupsOfSpan = kLengthsOfSpan;
+constexpr int kGroupsOfSpan = kLengthsOfSpan;  // one for each length that a span depends on
 static_assert(kLengthAfter <= kLengthReach && kLengthAfter + kLengthReach >= kLastPoint);
 
 }  // namespace

@@ -22,8 +22,9 @@ constexpr double kStepPx = 0.5;        // of the samples of the dense curve
 constexpr double kMostOfWidth = 0.25;  // of the ink's width: the tolerance of the least detail
 constexpr double kMostOfSize = 0.01;   // of the curve's size, where the width is not known
 constexpr double kSmoothShare = 0.01;  // of the samples' distance: what a curve without joints may lie off
+// tolerances: the removal deviation that keeps an extremum, by detail
 constexpr double kLeastSignificance = 0.1, kMostSignificance = 0.25;
-constexpr double kDetailStep = 0.1;
+constexpr double kDetailStep = 0.1;          // of `detail`: the steps of which the smaller ones are compared
 constexpr int kFewestPoints = 2;             // of any curve
 constexpr int kMostCompared = 40;            // control points
 constexpr int kFarMore = 2 * kMostCompared;  // what no smaller detail has so many fewer than

@@ -16,8 +16,8 @@ constexpr double kTurnCosine = 0.985;   // cosine of 10 degrees: more between tw
 constexpr int kMostHalvings = 6;        // of one step
 constexpr int kFewestSteps = 4;         // in a span of the curve
 constexpr int kMostSamples = 40000;     // of a curve: longer ones get larger steps
-constexpr int kFewestSamples = 48;
-constexpr double kSlopeWindow = 0.01;  // of the length, over which the slope of the curvature is looked at
+constexpr int kFewestSamples = 48;      // of a curve, however short
+constexpr double kSlopeWindow = 0.01;   // of the length, over which the slope of the curvature is looked at
 
 std::optional<LightSample> lightSampleAt(const NurbsCurve& curve, double u) {
   const std::array<Vec2, 5> d = curve.derivatives(u, 3);
@@ -90,10 +90,10 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
     samples.pop_back();
     made.beginWhereSteepest();
   }
-  return made.finish(diagonal) ? std::optional(std::move(made)) : std::nullopt;
+  return made.measureWhole(diagonal) ? std::optional(std::move(made)) : std::nullopt;
 }
 
-bool LightReference::finish(std::optional<double> diagonal) {
+bool LightReference::measureWhole(std::optional<double> diagonal) {
   Eigen::AlignedBox2d box;
   points_.reserve(samples_.size());
   for (const LightSample& sample : samples_) {
@@ -133,7 +133,7 @@ std::optional<LightReference> LightReference::through(const std::vector<Vec2>& p
   made.length_ = made.samples_.back().s + (closed ? (points.front() - points.back()).norm() : 0.0);
   if (!(made.length_ > 0.0)) return std::nullopt;
   if (closed) made.beginWhereSteepest();
-  return made.finish({}) ? std::optional(std::move(made)) : std::nullopt;
+  return made.measureWhole({}) ? std::optional(std::move(made)) : std::nullopt;
 }
 
 void LightReference::beginWhereSteepest() {

@@ -61,13 +61,16 @@ class LightReference {
 
  private:
   LightReference() = default;
-  bool finish(std::optional<double> diagonal);
+  /// Sets what is known of all samples together. False where they have no extent.
+  bool measureWhole(std::optional<double> diagonal);
   bool addSpan(const NurbsCurve&, double from, double to, int steps);
   bool add(const NurbsCurve&, const LightSample& next, int depth);
   void beginWhereSteepest();
 
   std::vector<LightSample> samples_;
-  std::vector<Vec2> points_;  ///< Of the samples, side by side.
+  /// Of the samples, side by side: the search for a foot reads nothing else of them, and every evaluation of a fit
+  /// makes one for each of its places.
+  std::vector<Vec2> points_;
   bool closed_ = false;
   double length_ = 0.0, diagonal_ = 0.0, kappaMax_ = 0.0;
 };

@@ -15,9 +15,9 @@
 namespace batten {
 namespace {
 
-constexpr double kRankedProminence = 2e-3;  // times 1 / diagonal: extrema that have a removal deviation
+// control points of a curve that bends: lines come before, in exact()
 constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
-constexpr int kMostSpanDegree = 7;
+constexpr int kMostSpanDegree = 7;  // of a curve of one span
 // Times the prominence of an extremum: where the curvature of a piece rises by less in all, no direction is asked of
 // it. The piece may be a side of a shape ten times its size, and extrema are counted by the size of the shape.
 constexpr double kLeastRise = 0.1;
@@ -30,10 +30,12 @@ constexpr double kHopeless = 5.0;        // tolerances after the first phase: no
 constexpr double kAskedLess = 0.98;      // of the tolerance over what was missed: the next round's
 constexpr double kMoreSignMargin = 5.0;  // times the margin of the signs, in the next round
 constexpr double kMoreSigns = 3.0;       // their weight then
-constexpr int kLightQuintic = 5, kLightCubic = 3;
+constexpr int kLightQuintic = 5, kLightCubic = 3;  // degrees of splines
 constexpr double kCalmShare = 0.75;  // of the curvature that an end may have more: beside it the curves differ, too
 constexpr int kWorthCalmEnds = 5;    // control points more for ends without hooks: a quintic span of their own
 constexpr double kMoreWorkForCalmEnds = 3.0;  // times kWorkPerPoint: ends that are held make a fit harder
+
+LightSign signOf(bool isPositive) { return isPositive ? LightSign::Positive : LightSign::Negative; }
 
 class LightSearch {
  public:
@@ -49,14 +51,14 @@ class LightSearch {
     changes_ = static_cast<int>(kept.size());
     const double rise = reference.samples().back().kappa - reference.samples().front().kappa;
     if (!kept.empty()) {
-      firstSign_ = kept.front().maximum ? 1 : -1;
+      firstSlope_ = signOf(kept.front().maximum);
     } else if (!reference.isClosed() && std::abs(rise) > kLeastRise * lightProminence(reference)) {
-      firstSign_ = rise > 0.0 ? 1 : -1;
+      firstSlope_ = signOf(rise > 0.0);
     }
     const double least = lightProminence(reference);
     for (const LightSample& sample : reference.samples()) {
       if (std::abs(sample.kappa) <= least) continue;
-      firstKappaSign_ = sample.kappa > 0.0 ? 1 : -1;
+      firstKappa_ = signOf(sample.kappa > 0.0);
       break;
     }
     bounds_ = {options.tolerance, changes_, countInflections(reference, least)};
@@ -194,10 +196,10 @@ class LightSearch {
     if (!start) return false;
     LightAsk ask;
     ask.tolerance = options_.tolerance;
-    ask.firstSign = firstSign_;
+    ask.firstSlope = firstSlope_;
     ask.changes = changes_;
-    ask.firstKappaSign = firstKappaSign_;
-    ask.inflections = firstKappaSign_ == 0 ? 0 : bounds_.inflections;
+    ask.firstKappa = firstKappa_;
+    ask.inflections = firstKappa_ ? bounds_.inflections : 0;
     ask.start = options_.start;
     ask.end = options_.end;
     ask.firstPhase = firstPhase;
@@ -268,7 +270,8 @@ class LightSearch {
   const LightOptions& options_;
   const LightTask& task_;
   const RunContext& context_;
-  int changes_ = 0, firstSign_ = 0, firstKappaSign_ = 0;
+  int changes_ = 0;
+  std::optional<LightSign> firstSlope_, firstKappa_;
   std::optional<int> counted_;  ///< Extrema of the dense curve, once they are asked for.
   LightBounds bounds_;
   LightCurve result_, spare_;

@@ -17,7 +17,7 @@ constexpr double kMostStartLog = 2.0;     // of a start: the fit itself allows a
 constexpr double kEvenShare = 0.15;       // of the mean density of breaks, put in everywhere
 constexpr double kBreakWindow = 0.01;     // of the length, for the second derivative of the curvature
 constexpr int kStartSamplesPerSpan = 24;  // of the reference, at the most
-constexpr double kFifthRoot = 0.2;
+constexpr double kFifthRoot = 0.2;        // see breakDensity()
 
 /// Density of breaks at the samples of the reference: fifth root of the second derivative of the curvature, smoothed.
 std::vector<double> breakDensity(const LightReference& reference) {
@@ -173,13 +173,9 @@ Eigen::MatrixXd heldPart(const Normal& normal, bool isLast, const Vec2& at) {
 
 std::vector<double> LightShape::lengths() const {
   std::vector<double> result;
-  lengthsInto(result);
-  return result;
-}
-
-void LightShape::lengthsInto(std::vector<double>& result) const {
-  result.clear();
+  result.reserve(logLengths.size());
   for (const double q : logLengths) result.push_back(std::exp(q));
+  return result;
 }
 
 SpanKnots LightShape::knotsOf(int span, const std::vector<double>& lengths) const {

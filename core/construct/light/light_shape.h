@@ -28,7 +28,6 @@ struct LightShape {
   SpanKnots knotsOf(int span, const std::vector<double>& lengths) const;
   std::array<Vec2, kSpanPoints> pointsOf(int span) const;
   std::vector<double> lengths() const;
-  void lengthsInto(std::vector<double>&) const;
 
   /// As a clamped curve over the domain [0, length].
   std::optional<NurbsCurve> toNurbs(double length) const;

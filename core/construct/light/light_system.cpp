@@ -79,7 +79,7 @@ void LightSystem::findFeet() {
 }
 
 void LightSystem::chooseSigns() {
-  if (ask_.firstSign == 0) return;
+  if (!ask_.firstSlope) return;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Place& place = places_[i];
     const double weight = place.state.speed * place.scale * place.scale;
@@ -87,12 +87,12 @@ void LightSystem::chooseSigns() {
     rising_[i] = weight * up * up;
     falling_[i] = weight * down * down;
   }
-  const auto& signs = switches_.choose(rising_, falling_, ask_.firstSign, ask_.changes);
+  const auto& signs = switches_.choose(rising_, falling_, static_cast<int>(*ask_.firstSlope), ask_.changes);
   for (std::size_t i = 0; i < places_.size(); ++i) places_[i].slopeSign = signs[i];
 }
 
 void LightSystem::chooseKappaSigns() {
-  if (ask_.firstKappaSign == 0) return;
+  if (!ask_.firstKappa) return;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Place& place = places_[i];
     const double weight = place.state.speed * place.scale;
@@ -100,7 +100,7 @@ void LightSystem::chooseKappaSigns() {
     rising_[i] = weight * left * left;
     falling_[i] = weight * right * right;
   }
-  const auto& signs = kappaSwitches_.choose(rising_, falling_, ask_.firstKappaSign, ask_.inflections,
+  const auto& signs = kappaSwitches_.choose(rising_, falling_, static_cast<int>(*ask_.firstKappa), ask_.inflections,
                                             SwitchPlaces::Changes::AtMost, reference_.isClosed());
   for (std::size_t i = 0; i < places_.size(); ++i) places_[i].kappaSign = signs[i];
 }
@@ -180,7 +180,7 @@ double LightSystem::endRows(const LightShape& shape, const LightWeights& weights
 }
 
 LightSystem::Cost LightSystem::evaluate(const LightShape& shape, const LightWeights& weights) {
-  shape.lengthsInto(lengths_);
+  lengths_ = shape.lengths();
   for (int span = 0; span < shape.spans(); ++span) placesOf(shape, span);
   meanSpeed_ = 0.0;
   for (const Place& place : places_) meanSpeed_ += place.state.speed / static_cast<double>(places_.size());
@@ -335,7 +335,7 @@ void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, 
   differentiate(shape, span);
   for (int k = 0; k < perSpan_; ++k) addPlace(places_[span * perSpan_ + k], weights);
   addEnds(shape, weights, span);
-  local_.finish();
+  local_.sumAndCarry();
   scatter(shape, span, matrix, gradient);
 }
 

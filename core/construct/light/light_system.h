@@ -22,7 +22,8 @@ struct LightWeights {
   double ends = 0.3;    ///< Of held tangents and curvatures.
 };
 
-/// The rows of one fit at one shape: residuals, and their Gauss-Newton system. All memory is kept from call to call.
+/// The rows of one fit at one shape: residuals, and their Gauss-Newton system. A fit evaluates them hundreds of times:
+/// matrix and gradient are written into memory that its caller keeps.
 class LightSystem {
  public:
   LightSystem(const LightReference&, const LightAsk&, const LightShape& start);

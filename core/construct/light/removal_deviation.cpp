@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "core/curve/turning_points.h"
+#include "core/curve/extremum_indices.h"
 
 namespace batten {
 namespace {
@@ -26,10 +26,10 @@ std::vector<RankedExtremum> extremaOf(const LightReference& reference, double pr
   std::vector<double> kappas;
   for (const LightSample& sample : samples) kappas.push_back(sample.kappa);
   std::vector<RankedExtremum> found;
-  const TurningStart start = reference.isClosed() ? TurningStart::OnMaximum : TurningStart::AtEnd;
-  for (const TurningPoint& turning : turningPoints(kappas, prominence, start)) {
-    const LightSample& sample = samples[turning.index];
-    found.push_back({sample.s, sample.kappa, turning.maximum, sample.point, std::nullopt});
+  const SequenceStart start = reference.isClosed() ? SequenceStart::OnMaximum : SequenceStart::AtEnd;
+  for (const ExtremumIndex& extremum : extremumIndices(kappas, prominence, start)) {
+    const LightSample& sample = samples[extremum.index];
+    found.push_back({sample.s, sample.kappa, extremum.maximum, sample.point, std::nullopt});
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.s < b.s; });
   return found;

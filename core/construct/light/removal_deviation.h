@@ -8,6 +8,10 @@
 
 namespace batten {
 
+/// [1/diagonal] Extrema of less have no removal deviation. Less than kExtremumProminence, so that an extremum that just
+/// counts is ranked on the dense curve and on its sections alike.
+inline constexpr double kRankedProminence = 2e-3;
+
 /// A curvature extremum and how far the curve moves when it is flattened.
 struct RankedExtremum {
   double s = 0.0;      ///< Arc length of the reference.

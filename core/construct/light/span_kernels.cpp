@@ -65,7 +65,7 @@ BATTEN_HOT_LOOP void carryRows(const double* __restrict local, const SpanDepende
 /// The rows of one control point, by the columns of points.
 BATTEN_HOT_LOOP void carryPoints(const double* __restrict half, const SpanDependence& by, int points,
                                  double* __restrict squares) {
-  constexpr int kPointLanes = 2 * kXLanes;
+  constexpr int kPointLanes = 2 * kXLanes;  // x and y
   for (int j = 0; j < points; ++j) {
     double x[kPointLanes] = {}, y[kPointLanes] = {};
     for (int k = 0; k < points; ++k) {
@@ -96,7 +96,7 @@ BATTEN_HOT_LOOP void carryLengths(const double* __restrict half, const SpanDepen
   }
 }
 
-constexpr int kMostShares = kMostLightDegree * (kMostLightDegree + 1) / 2;
+constexpr int kMostShares = kMostLightDegree * (kMostLightDegree + 1) / 2;  // one for each mix of two points
 
 /// Shares of bezierOfSpan, level by level, for one place of the span.
 BATTEN_HOT_LOOP void sharesOfLanes(int degree, const double* __restrict knots, const double* __restrict place,

@@ -17,7 +17,7 @@ inline constexpr int kRowWidth = 2 * static_cast<int>(kSpanPoints);
 inline constexpr int kLengthLanes = 12;
 /// Unknowns of a span: x of the control points, then y, then lengths.
 inline constexpr int kXLanes = static_cast<int>(kSpanPoints);
-inline constexpr int kUnknownLanes = 2 * kXLanes + kLengthLanes;
+inline constexpr int kUnknownLanes = 2 * kXLanes + kLengthLanes;  // all of them
 
 /// Position and three derivatives of `points` Bezier points at a place of which these are the columns, x and y in turn:
 /// summed point by point.

@@ -48,7 +48,7 @@ void SpanSystem::carryGradient() {
   }
 }
 
-void SpanSystem::finish() {
+void SpanSystem::sumAndCarry() {
   const int count = 2 * (degree + 1) + (lengthCount > 0 ? 1 : 0);
   sumRows(rows_.data(), static_cast<int>(rows_.size()), count, local_);
   if (lengthCount == 0) {

@@ -13,14 +13,16 @@ namespace batten {
 
 /// A span of a quintic with simple knots depends on its own length and on so many to either side.
 inline constexpr int kLengthReach = 4;
-inline constexpr int kLengthsOfSpan = 2 * kLengthReach + 1;
+inline constexpr int kLengthsOfSpan = 2 * kLengthReach + 1;  // its own among them
 
 /// The normal equations of one span: rows are gathered by the span's Bezier points and its own length, and only their
 /// sum is carried over to what these depend on, the control points and the lengths of the spans around. Keeps its
 /// memory from span to span.
 class SpanSystem {
  public:
+  /// Unknowns of a span.
   static constexpr int kMost = 2 * static_cast<int>(kSpanPoints) + kLengthsOfSpan;
+
   SpanDependence dependence;                      ///< Not read without lengths.
   std::array<int, kLengthsOfSpan> lengthIndex{};  ///< Which spans' lengths those are,
   int lengthCount = 0;                            ///< 0: a single span, whose Bezier points are its control points,
@@ -35,7 +37,7 @@ class SpanSystem {
   /// its weight (squared) and weighted residual.
   void add(const PlaceTable::Place&, const PlaceState&, const DerivativeGradients&, double weight, double residual);
   /// After the last row.
-  void finish();
+  void sumAndCarry();
 
   /// Unknowns: x and y of every control point in turn, then lengths.
   int used() const { return 2 * (degree + 1) + lengthCount; }

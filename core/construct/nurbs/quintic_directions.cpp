@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/curve/nurbs_curve.h"
+#include "core/curve/spline_space.h"
 #include "core/solve/banded_least_squares.h"
 #include "core/solve/gauss_legendre.h"
 
@@ -12,19 +12,19 @@ namespace batten {
 
 namespace {
 
-constexpr int kDegree = 5;
-constexpr double kPinned = 1e7;
+constexpr int kDegree = 5;       // of the curve
+constexpr double kPinned = 1e7;  // weight of a pinned end: what is left of its misfit is smaller by the square, 1e-14
 
 /// x and y of a control point are neighbouring unknowns: the normal rows tie them together.
 class System {
  public:
-  explicit System(int stations) : count_(stations + 4), system_(2 * count_, 2 * (kDegree + 1), false) {
-    for (int k = -kDegree; k <= stations - 1 + kDegree; ++k) knots_.push_back(k);
-  }
+  explicit System(std::size_t stations)
+      : space_(splineSpace(kDegree, uniformPlaces(stations, false), false)),
+        system_(2 * space_.unknowns, 2 * (kDegree + 1), false) {}
 
   /// weight * (toward . R^(order)(u) - right) as one row.
   void add(double u, int order, const Vec2& toward, double right, double weight) {
-    const BasisRow basisRow = basis(kDegree, knots_, count_, u, order);
+    const BasisRow basisRow = space_.row(u, order);
     std::array<double, 2 * (kDegree + 1)> row{};
     for (std::size_t j = 0; j <= kDegree; ++j) {
       const double value = weight * basisRow.values[order][j];
@@ -43,9 +43,8 @@ class System {
   }
 
  private:
-  int count_;
+  SplineSpace space_;
   BandedLeastSquares system_;
-  std::vector<double> knots_;
 };
 
 }  // namespace
@@ -56,7 +55,7 @@ Result<std::vector<Vec2>> solveQuinticDirections(std::span<const Vec2> points, s
   if (m < 4 || directions.size() != m || magnitudes.size() != m) {
     return fail(ErrorCode::Numerical, "There are too few stations for a quintic curve: choose more segments.");
   }
-  System system(static_cast<int>(m));
+  System system(m);
   for (std::size_t i = 0; i < m; ++i) {
     const double u = static_cast<double>(i);
     const bool pinned = weights.pinEnds && (i == 0 || i + 1 == m);

@@ -10,6 +10,7 @@
 #include "core/construct/stations/adaptive_stations.h"
 #include "core/construct/stations/piece_stations.h"
 #include "core/curve/knot_operations.h"
+#include "core/curve/spline_space.h"
 #include "core/solve/banded_least_squares.h"
 #include "core/solve/gauss_legendre.h"
 
@@ -17,41 +18,11 @@ namespace batten {
 
 namespace {
 
-constexpr int kQuintic = 5;
+constexpr int kQuintic = 5;  // degree
 /// Weight of a pinned end against the other equations: what is left of the misfit is its square smaller, 1e-14.
 constexpr double kPinnedWeight = 1e7;
 /// Stations whose distances differ by more than this get knots at their distances instead of uniform ones.
 constexpr double kUneven = 1.05;
-
-/// The spline space of a system: `places` are the parameters of the points, one knot at each.
-struct SplineSpace {
-  std::vector<double> places;  ///< Increasing; closed: one more, where the first point comes again.
-  std::vector<double> knots;   ///< Unclamped.
-  bool closed = false;
-  int unknowns = 0;  ///< Control points that differ.
-  int count = 0;     ///< Control points of the unclamped curve.
-
-  BasisRow row(double u, int order) const { return basis(kQuintic, knots, count, u, order); }
-};
-
-SplineSpace makeSpace(std::vector<double> places, bool closed) {
-  SplineSpace space;
-  space.closed = closed;
-  const auto last = places.size() - 1;
-  const double period = places[last] - places[0];
-  for (int k = kQuintic; k >= 1; --k) {
-    const std::size_t back = k;
-    space.knots.push_back(closed ? places[last - back] - period : places[0] - k * (places[1] - places[0]));
-  }
-  space.knots.insert(space.knots.end(), places.begin(), places.end());
-  for (int k = 1; k <= kQuintic; ++k) {
-    space.knots.push_back(closed ? places[k] + period : places[last] + k * (places[last] - places[last - 1]));
-  }
-  space.count = static_cast<int>(space.knots.size()) - kQuintic - 1;
-  space.unknowns = closed ? static_cast<int>(last) : space.count;
-  space.places = std::move(places);
-  return space;
-}
 
 struct SystemInput {
   std::span<const Vec2> points, derivatives;  ///< Derivatives with respect to the parameter of the space.
@@ -132,19 +103,6 @@ std::optional<std::vector<Vec2>> solveSystem(const SplineSpace& space, const Sys
   return few ? solveSmallestEnergy(space, in) : solveLeastSquares(space, in);
 }
 
-/// Control points of the unclamped curve; periodic ones begin again.
-std::vector<Vec2> unrolled(const SplineSpace& space, const std::vector<Vec2>& controlPoints) {
-  std::vector<Vec2> all;
-  for (int i = 0; i < space.count; ++i) all.push_back(controlPoints[i % space.unknowns]);
-  return all;
-}
-
-std::vector<double> uniformPlaces(std::size_t m, bool closed) {
-  std::vector<double> places;
-  for (std::size_t i = 0; i < m + (closed ? 1 : 0); ++i) places.push_back(static_cast<double>(i));
-  return places;
-}
-
 /// Parameters of the stations, mean spacing 1, and what one unit of them is in px.
 struct Places {
   std::vector<double> at;
@@ -199,7 +157,7 @@ Result<ConstructedPiece> constructFromDirections(std::span<const Station> statio
   weights.pinEnds = params.ends == ConstructEnds::Line;
   auto solution = solveQuinticDirections(points, directions, magnitudes, weights);
   if (!solution) return fail(solution.error());
-  const SplineSpace space = makeSpace(uniformPlaces(stations.size(), false), false);
+  const SplineSpace space = splineSpace(kQuintic, uniformPlaces(stations.size(), false), false);
   std::vector<double> knots = space.knots;
   for (double& k : knots) k *= total / static_cast<double>(stations.size() - 1);
   auto open = NurbsCurve::make(kQuintic, std::move(knots), std::move(*solution));
@@ -225,7 +183,7 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
   const auto derivatives = derivativesFor(stations, params, closed, places);
   std::vector<Vec2> points;
   for (const Station& s : stations) points.push_back(s.point);
-  const SplineSpace space = makeSpace(places.at, closed);
+  const SplineSpace space = splineSpace(kQuintic, places.at, closed);
   const bool isPinned = !closed && params.ends == ConstructEnds::Line;
   const auto solution = solveSystem(space, {points, derivatives, params.gradients, isPinned, isPinned});
   if (!solution) return std::nullopt;
@@ -233,7 +191,7 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
   for (std::vector<double>* values : {&knots, &at}) {
     for (double& k : *values) k *= places.unit;
   }
-  auto open = NurbsCurve::make(kQuintic, std::move(knots), unrolled(space, *solution));
+  auto open = NurbsCurve::make(kQuintic, std::move(knots), space.unrolled(*solution));
   if (!open) return std::nullopt;
   const Vec2 start = isPinned ? points.front() : open->point(open->start());
   auto curve = clampedWithEnds(*open, start, closed ? start : isPinned ? points.back() : open->point(open->end()));
@@ -243,7 +201,7 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
 
 /// From station to station.
 std::vector<std::vector<Vec2>> polylinesOf(const CurveOnStations& made) {
-  constexpr int kSteps = 16;
+  constexpr int kSteps = 16;  // from station to station: a chord leaves the curve by 1/256 of what it bends out there
   std::vector<std::vector<Vec2>> lines;
   for (std::size_t i = 0; i + 1 < made.places.size(); ++i) {
     auto& line = lines.emplace_back();
@@ -284,7 +242,7 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
   if (derivatives.size() != m || m < (closed ? 6u : 2u)) {
     return fail(ErrorCode::Numerical, "There are too few stations for a quintic curve: choose more segments.");
   }
-  const SplineSpace space = makeSpace(uniformPlaces(m, closed), closed);
+  const SplineSpace space = splineSpace(kQuintic, uniformPlaces(m, closed), closed);
   const SystemInput input{points, derivatives, use, false, false};
   const auto solution = solveSystem(space, input);
   if (!solution) return fail(ErrorCode::Numerical, "The equations of the curve have no single solution.");
@@ -310,7 +268,7 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
 Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, const ConstructParams& params,
                                                const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  StationSet set = givenStations(usableStations(piece, 6, params.ends));
+  StationSet set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 6u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
@@ -328,7 +286,7 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, cons
   }
   auto made = curveThrough(set.plain(), closed, params);
   if (!made && set.added > 0) {
-    set = givenStations(usableStations(piece, 6, params.ends));
+    set = givenStations(usableStations(piece, kFewestClosedStations, params.ends));
     made = curveThrough(set.plain(), closed, params);
   }
   if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was used.");

@@ -25,17 +25,18 @@ constexpr double kNoises = 1.5;
 constexpr double kTold = 1.1;
 /// A gap between the points as long as this part of an interval leaves too few of them for its halves.
 constexpr double kGapShare = 0.34;
-constexpr int kMostRounds = 10;
-constexpr std::size_t kMostStations = 2000;
+constexpr int kMostRounds = 10;              // each may halve every interval: the tenth makes a thousandth of it
+constexpr std::size_t kMostStations = 2000;  // of a piece: bounds its equations, and the time they take
 
 /// Noise [px] of points that stand evenly: what the third differences, across the line, tell of it.
 double noiseOf(const MeasuredPiece& piece) {
+  constexpr double kThirdDifferences = 20.0;  // 1 + 9 + 9 + 1: their variance, in those of a point
   std::vector<double> sizes;
   for (int i = 0; i + 3 < piece.count(); ++i) {
     const Vec2 chord = piece.point(i + 3) - piece.point(i), inner = piece.point(i + 2) - piece.point(i + 1);
     if (chord.norm() > 0.0) sizes.push_back(std::abs(cross(chord.normalized(), chord - 3.0 * inner)));
   }
-  return robustSigma(sizes) / std::sqrt(20.0);
+  return robustSigma(sizes) / std::sqrt(kThirdDifferences);
 }
 
 /// The least box around points.
@@ -84,7 +85,7 @@ class BoxedLine {
   }
 
  private:
-  static constexpr std::size_t kPartSegments = 4;
+  static constexpr std::size_t kPartSegments = 4;                   // in one box
   static constexpr double kMarginShare = 1e-6, kRoundingPx = 1e-6;  // more than rounding makes of distances
   struct Part {
     PointBox box;

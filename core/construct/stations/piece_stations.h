@@ -10,6 +10,9 @@
 
 namespace batten {
 
+/// What a closed curve of quintics asks for: a periodic one has a control point a station, and needs six.
+inline constexpr int kFewestClosedStations = 6;
+
 /// The stations of a piece made fit for a construction: distinct points, unit directions, and for open pieces one at
 /// either end of the piece, exactly on corners. A missing end station takes the direction of the circle through the end
 /// that touches the first station. Closed pieces with fewer than `fewestClosed` stations are measured anew from their

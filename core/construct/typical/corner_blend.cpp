@@ -15,6 +15,7 @@ namespace {
 
 // What counts as a corner to be rounded: less is a line, more a hairpin whose vertex runs off.
 constexpr double kLeastBlendTurn = 0.01, kMostBlendTurn = 3.0;
+// places of a blend: in every trial, and once for its least radius
 constexpr int kBlendSamples = 64, kRadiusSamples = 200;
 /// Price of curvature that turns back, beside the height of its peak.
 constexpr double kTurnsBackPrice = 20.0;
@@ -24,7 +25,7 @@ constexpr std::array kFirstSpeeds = {1.2, 1.8, 2.6};
 constexpr double kLeastBlendSpeed = 0.05;
 /// Steps of the search, in the same unit.
 constexpr double kFirstStep = 0.4, kLastStep = 1e-3;
-constexpr int kMostBlendRounds = 400;
+constexpr int kMostBlendRounds = 400;  // bounds a search that gains ever less
 
 /// Derivatives of arc length with respect to the parameter, at both ends: the free lengths of a blend.
 struct FreeLengths {

@@ -25,7 +25,7 @@ constexpr double kCornerMet = 1e-11;      ///< Of the chord: how near the arcs c
 constexpr std::array<double, 3> kFirstLogRatios = {-0.2, -0.7, -1.2};
 // A ratio of edges: from `form` on downwards until both arcs are monotone.
 constexpr double kLeastForm = 0.2, kNextRatio = 0.95;
-constexpr int kRatiosTried = 30;
+constexpr int kRatiosTried = 30;  // down to 0.23 of the first
 
 /// The corner in the frame of its first direction, turning left.
 struct Frame {

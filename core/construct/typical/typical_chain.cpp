@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/segment_foot.h"
 #include "core/construct/bezier/bezier_chain.h"
 #include "core/construct/stations/piece_stations.h"
 #include "core/construct/typical/typical_growing.h"
@@ -46,9 +47,9 @@ std::vector<std::size_t> jointsAtPlaces(TypicalLine& line, std::span<const Vec2>
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity(), share = 0.0;
     for (std::size_t i = 0; i + 1 < line.joints.size(); ++i) {
-      const Vec2 chord = line.joints[i + 1].point - line.joints[i].point;
-      const double t = std::clamp((place - line.joints[i].point).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
-      const double away = (line.joints[i].point + t * chord - place).norm();
+      const Vec2 from = line.joints[i].point, to = line.joints[i + 1].point;
+      const double t = footOnSegment(place, from, to).share;
+      const double away = (from + t * (to - from) - place).norm();
       if (away < least) {
         least = away;
         nearest = i;
@@ -79,8 +80,8 @@ PathData dataOf(const TypicalLine& line) {
 }
 
 /// True when a fitted path is still on its line.
-bool isOnLine(const std::optional<PathFit>& fit, const PathData& data) {
-  return fit && fit->rms < kLostRmsPx + kLostSigmas * data.noise;
+bool isOnLine(const std::optional<FittedPath>& fitted) {
+  return fitted && fitted->fit.rms < kLostRmsPx + kLostSigmas * fitted->fit.noise;
 }
 
 /// Two places of the user mean one segment between them: a typical curve where the line bends one way, else a Hermite
@@ -127,14 +128,14 @@ std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> pla
       break;
     }
   }
-  const auto fit = fitTypicalStructure(path, data, PathSearch::Keep, context);
-  if (!isOnLine(fit, data)) return std::nullopt;
-  return FoundPath{std::move(path), fit->converged};
+  auto fitted = fitTypicalStructure(std::move(path), std::move(data), PathSearch::Keep, context);
+  if (!isOnLine(fitted)) return std::nullopt;
+  return FoundPath{std::move(fitted->path), fitted->fit.converged};
 }
 
 /// True for a curve that leaves its line: a loop between points, or an end that runs away, moves no point's foot.
 bool leavesLine(const NurbsCurve& curve, const TypicalLine& line) {
-  constexpr double kFarthestPx = 3.0, kLonger = 1.2;
+  constexpr double kFarthestPx = 3.0, kLonger = 1.2;  // from the fair fit; times the length of the joints
   if (line.fair && !(deviation(curve, *line.fair).max < kFarthestPx)) return true;
   double length = 0.0;
   for (std::size_t i = 1; i < line.joints.size(); ++i)
@@ -144,7 +145,7 @@ bool leavesLine(const NurbsCurve& curve, const TypicalLine& line) {
 
 /// True when the ends of a closed path share place, direction and curvature.
 bool isClosed(const TypicalPath& path) {
-  constexpr double kShare = 1e-10;
+  constexpr double kShare = 1e-10;  // of the curvature, and radians: fitPath() closes a path to the last digits
   const PathState &a = path.states.front(), &b = path.states.back();
   const double turned = std::remainder(b.angleRad - a.angleRad, 2.0 * std::numbers::pi);
   return (b.point - a.point).norm() < 1e-9 && std::abs(turned) < kShare &&
@@ -164,16 +165,18 @@ struct Candidate {
   }
 };
 
-Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, const TypicalLine& line,
+Candidate fittedCandidate(TypicalPath start, PathData data, PathSearch search, const TypicalLine& line,
                           const RunContext& context) {
-  const auto fit = fitTypicalStructure(path, data, search, context);
-  if (!isOnLine(fit, data) || firstSliver(path) || (path.closed && !isClosed(path))) return {};
+  auto fitted = fitTypicalStructure(std::move(start), std::move(data), search, context);
+  if (!isOnLine(fitted)) return {};
+  const auto& [path, fit] = *fitted;
+  if (firstSliver(path) || (path.closed && !isClosed(path))) return {};
   const auto curve = pathCurve(path, line);
   if (!curve || leavesLine(*curve, line)) return {};
   const int known = line.fair ? countedExtrema(*line.fair, line.closed) : 0;
   const int more = std::max(0, countedExtrema(*curve, line.closed) - known);
   const double share = typicalShare(segmentNotes(path, line));
-  return {FoundPath{std::move(path), fit->converged}, more, fit->rms, share};
+  return {FoundPath{std::move(fitted->path), fit.converged}, more, fit.rms, share};
 }
 
 /// The better of a chain and the grown path: with no more extrema and no farther off than a light curve may be, the one
@@ -182,7 +185,7 @@ std::optional<FoundPath> orGrown(Candidate chain, const TypicalLine& line, const
                                  const RunContext& context) {
   if (!chain.path || chain.share >= kMostOfIt || chain.path->path.elements.size() > kManyElements)
     return std::move(chain.path);
-  auto grown = grownPath(line, {}, params, nullptr, context);
+  auto grown = grownPath(line, {}, params, StepRecord::None, context).found;
   // Growing sees only what lies before it: on a line that wavers it makes many short segments, which take long to fit.
   if (!grown || grown->path.elements.size() > kMostGrown * chain.path->path.elements.size())
     return std::move(chain.path);
@@ -226,7 +229,7 @@ std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const
                                         const ConstructParams& params, const RunContext& context) {
   TypicalLine divided = line;
   jointsAtPlaces(divided, places);
-  auto grown = grownPath(divided, places, params, nullptr, context);
+  auto grown = grownPath(divided, places, params, StepRecord::None, context).found;
   if (!grown) return std::nullopt;
   if (!places.empty() || params.growingAsInPaper) return grown;
   Candidate tidy = fittedCandidate(grown->path, dataOf(line), PathSearch::Tidy, line, context);

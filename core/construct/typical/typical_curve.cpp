@@ -9,7 +9,7 @@ namespace batten {
 
 namespace {
 
-constexpr double kLargestTurn = std::numbers::pi / 2.0;
+constexpr double kLargestTurn = std::numbers::pi / 2.0;  // from edge to edge; the curve turns by twice as much
 
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 

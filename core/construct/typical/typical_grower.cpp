@@ -20,24 +20,24 @@ namespace {
 constexpr std::array<double, 2> kExtrapolations = {1.35, 1.12};
 /// Segments shorter than this [px] mean that the growing has come to an end of its own.
 constexpr double kShortestPx = 6.0;
-constexpr double kLargestGrownTurn = 0.7;
-constexpr double kMostSeedTurnRad = 1.2;  // of a curve that goes on from one before: the fit may let it turn more
+constexpr double kLargestGrownTurn = 0.7;  // [rad] from edge to edge: beyond, a fit is not good enough
+constexpr double kMostSeedTurnRad = 1.2;   // of a curve that goes on from one before: the fit may let it turn more
 /// A fit whose points lie this far [px] to one side in the mean has lost the line, whatever its normals say.
 constexpr double kLostPx = 0.25;
 /// Half of the stretch [px] from whose points a normal is taken.
 constexpr double kNormalReachPx = 16.0;
-constexpr int kMostSteps = 400;
+constexpr int kMostSteps = 400;  // curves of a stretch: ends what does not come to its end
 /// Points behind a curve's start that are looked at, and the line [of the curve's size, and px] in which its own lie.
 constexpr std::size_t kBehind = 2;
-constexpr double kReachOfSize = 1.5, kReachPx = 10.0;
+constexpr double kReachOfSize = 1.5, kReachPx = 10.0;  // the line
 // Feet of points on a curve 0..1: those of the points beside its ends lie a little beyond.
 constexpr int kFootSteps = 15;
-constexpr double kLongestFootStep = 0.5, kFirstFoot = -0.3, kLastFoot = 1.5;
-constexpr double kFootSettled = 1e-8;
+constexpr double kLongestFootStep = 0.5, kFirstFoot = -0.3, kLastFoot = 1.5;  // [parameter]
+constexpr double kFootSettled = 1e-8;                                         // [parameter]
 // Unknowns of the first curve of a chain, by which they are held where the points say nothing.
 constexpr double kFirstPointPx = 0.3;                         ///< [px] standard deviation of a point
 constexpr double kFirstAngleRad = 0.1, kFirstLogKappa = 0.4;  ///< as the seed is known, from a few directions
-constexpr double kFirstLogTurn = 0.4;
+constexpr double kFirstLogTurn = 0.4;                         // of its change of direction
 // A fit of the change of direction.
 constexpr int kTurnFits = 12;
 constexpr double kTurnDifference = 1e-5;                    ///< Relative, of its derivative.
@@ -48,21 +48,23 @@ constexpr double kAtEnd = 1e-6;                             ///< [parameter] so 
 // the points beyond their end have not bent them (002 keeps all, and starts the next with this part of their size).
 constexpr double kShortestLast = 0.05, kLongestLast = 1.3, kKeptPart = 0.5, kNextSeed = 0.4;
 constexpr double kPassedShareOfSize = 0.5, kPassedPx = 10.0;  ///< Of a curve, from which the end lies away at most.
-constexpr int kMostGrowths = 60;                              ///< Of one curve.
-constexpr double kSmallestRatio = 0.3, kLargestRatio = 3.0;   ///< Of a grown curve's edges: beyond, it is a spiral.
+/// Points whose mean distance is looked at: at least so many, and a quarter of those of the curve.
+constexpr std::size_t kFewestGrouped = 10, kQuarters = 4;
+constexpr int kMostGrowths = 60;                             ///< Of one curve.
+constexpr double kSmallestRatio = 0.3, kLargestRatio = 3.0;  ///< Of a grown curve's edges: beyond, it is a spiral.
 
 double sizeOf(const TypicalCurve& c) { return c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio); }
 
 std::complex<double> asComplex(const Vec2& v) { return {v.x(), v.y()}; }
 Vec2 asVector(const std::complex<double>& z) { return {z.real(), z.imag()}; }
 
-/// Signed distances of points from a curve and where their feet are.
-struct Feet {
-  std::vector<double> distance, t;
+/// How far a point lies from a curve, to its left, and the parameter of its foot.
+struct CurveFoot {
+  double distance = 0.0, t = 0.0;
 };
-Feet feetOn(const TypicalCurve& c, std::span<const Vec2> points) {
+std::vector<CurveFoot> feetOn(const TypicalCurve& c, std::span<const Vec2> points) {
   const std::complex<double> z = std::polar(c.ratio, c.turnRad), edge = std::polar(c.edge, c.angleRad);
-  Feet feet;
+  std::vector<CurveFoot> feet;
   double t = 0.0;
   for (const Vec2& p : points) {
     std::complex<double> d1, away;
@@ -74,83 +76,90 @@ Feet feetOn(const TypicalCurve& c, std::span<const Vec2> points) {
       t = std::clamp(t + std::clamp(step, -kLongestFootStep, kLongestFootStep), kFirstFoot, kLastFoot);
       if (std::abs(step) < kFootSettled) break;
     }
-    feet.distance.push_back(-(std::conj(d1) * away).imag() / std::max(std::abs(d1), 1e-300));
-    feet.t.push_back(t);
+    feet.push_back({-(std::conj(d1) * away).imag() / std::max(std::abs(d1), 1e-300), t});
   }
   return feet;
 }
 
 class Grower {
  public:
-  Grower(const TypicalLine& line, const ConstructParams& params, GrowingRecord& record)
-      : line_(line), params_(params), record_(record) {}
+  Grower(const TypicalLine& line, const ConstructParams& params, StepRecord steps)
+      : line_(line), params_(params), keepsSteps_(steps == StepRecord::Kept) {}
 
   GrownCurves grow(const GrowingStart& start, const GrowingStretch& stretch, const RunContext& context) {
     points_ = stretch.points;
     passed_ = 0;
     isFree_ = start.isFree;
-    GrownCurves kept{{}, start.state};
+    kept_ = {};
+    kept_.end = start.state;
+    kept_.segment = start.segment;
     // Nothing to grow along: what the joints know of this stretch is better than a curve that follows nothing.
-    if (points_.empty()) return kept;
+    if (points_.empty()) return std::move(kept_);
     const Vec2 end = line_.joints[stretch.lastJoint].point;
-    if (stretch.isOne) return growAtOnce(start, stretch, end);
+    if (stretch.isOne) {
+      growAtOnce(start, stretch, end);
+    } else {
+      growOn(start, stretch, end, context);
+    }
+    return std::move(kept_);
+  }
+
+ private:
+  /// Curve after curve, until the last one reaches the end of the stretch.
+  void growOn(const GrowingStart& start, const GrowingStretch& stretch, const Vec2& end, const RunContext& context) {
     auto curve = seed(start.state, stretch, start.isFree);
     for (int i = 0; i < kMostSteps && curve && !context.isCancelled(); ++i) {
       const auto [grown, reachesEnd] = growOne(*curve, end, context);
       TypicalCurve stays = grown;
       if (reachesEnd) {
         const auto foot = feetOn(grown, std::array{end});
-        stays = grown.toParameter(std::clamp(foot.t[0], kShortestLast, kLongestLast));
+        stays = grown.toParameter(std::clamp(foot[0].t, kShortestLast, kLongestLast));
       } else if (!params_.growingAsInPaper) {
         stays = grown.toParameter(kKeptPart);
       }
       if (sizeOf(stays) < kShortestPx) break;
-      record_.rested = record_.rested && rested_;
-      record(GrowingStep::Kind::Kept, stays, false);
-      kept.curves.push_back(stays);
+      keep(stays);
       passed_ = nearestTo(stays.endJoint().point);
       passed_ = passed_ > kBehind ? passed_ - kBehind : 0;
       isFree_ = false;
       if (reachesEnd) break;
-      ++record_.segment;
+      ++kept_.segment;
       curve = continued(stays, params_.growingAsInPaper ? kNextSeed * sizeOf(stays) : sizeOf(grown) - sizeOf(stays));
       if (curve) {
         rested_ = refit(*curve);
         record(GrowingStep::Kind::Seed, *curve, false);
       }
     }
-    if (!kept.curves.empty()) kept.end = endOf(kept.curves.back());
-    return kept;
   }
 
- private:
+  void keep(const TypicalCurve& curve) {
+    kept_.rested = kept_.rested && rested_;
+    record(GrowingStep::Kind::Kept, curve, false);
+    kept_.curves.push_back(curve);
+    kept_.end = endOf(curve);
+  }
+
   static PathState endOf(const TypicalCurve& last) {
     const Joint joint = last.endJoint();
     return {joint.point, last.angleRad + 2.0 * last.turnRad, joint.kappa};
   }
 
   /// One curve from end to end, bent until it meets the points.
-  GrownCurves growAtOnce(const GrowingStart& start, const GrowingStretch& stretch, const Vec2& end) {
-    GrownCurves kept{{}, start.state};
+  void growAtOnce(const GrowingStart& start, const GrowingStretch& stretch, const Vec2& end) {
     auto curve = spanning(start.state, stretch.firstJoint, stretch.lastJoint);
-    if (!curve) return kept;
+    if (!curve) return;
     rested_ = start.isFree ? refitWhole(*curve) : refit(*curve);
     record(GrowingStep::Kind::Seed, *curve, false);
     const auto foot = feetOn(*curve, std::array{end});
-    *curve = curve->toParameter(std::clamp(foot.t[0], kShortestLast, kLongestLast));
-    record_.rested = record_.rested && rested_;
-    record(GrowingStep::Kind::Kept, *curve, false);
-    kept.curves.push_back(*curve);
-    kept.end = endOf(*curve);
-    return kept;
+    keep(curve->toParameter(std::clamp(foot[0].t, kShortestLast, kLongestLast)));
   }
 
   /// The end of the stretch lies on the curve, and not behind its start, where the end of a closed line is, nor across
   /// a turn of it.
   static bool isPassed(const TypicalCurve& c, const Vec2& end) {
-    const Feet feet = feetOn(c, std::array{end});
-    const double away = std::abs(feet.distance[0]);
-    return feet.t[0] > 0.0 && feet.t[0] <= 1.0 + kAtEnd && away <= kPassedShareOfSize * sizeOf(c) + kPassedPx;
+    const CurveFoot foot = feetOn(c, std::array{end}).front();
+    const double away = std::abs(foot.distance);
+    return foot.t > 0.0 && foot.t <= 1.0 + kAtEnd && away <= kPassedShareOfSize * sizeOf(c) + kPassedPx;
   }
 
   /// A curve over joints: their length and change of direction.
@@ -172,12 +181,12 @@ class Grower {
     for (double length = 0.0; end < points_.size() && length < kReachOfSize * sizeOf(c) + kReachPx; ++end)
       length += (points_[end] - points_[end - 1]).norm();
     const std::span<const Vec2> beside = std::span(points_).subspan(begin, end - begin);
-    const Feet feet = feetOn(c, beside);
+    const std::vector<CurveFoot> feet = feetOn(c, beside);
     std::size_t first = 0;
-    while (first < beside.size() && feet.t[first] < 0.0) ++first;
-    const auto past = std::find_if(feet.t.begin() + static_cast<std::ptrdiff_t>(first), feet.t.end(),
-                                   [](double t) { return t > 1.0; });
-    return beside.subspan(first, past - feet.t.begin() - first);
+    while (first < beside.size() && feet[first].t < 0.0) ++first;
+    const auto past = std::find_if(feet.begin() + static_cast<std::ptrdiff_t>(first), feet.end(),
+                                   [](const CurveFoot& foot) { return foot.t > 1.0; });
+    return beside.subspan(first, past - feet.begin() - first);
   }
 
   /// The point nearest to a place that lies ahead of what has grown; a closed line's last points are not its first.
@@ -209,9 +218,9 @@ class Grower {
     ResidualBlock block{
         {0, 1, 2}, static_cast<int>(near.size()) + 3, [&](std::span<const double> x, std::span<double> r) {
           const auto moved = curveOf(x);
-          const Feet feet = moved ? feetOn(*moved, near) : Feet{};
+          const auto feet = moved ? feetOn(*moved, near) : std::vector<CurveFoot>{};
           for (std::size_t i = 0; i < near.size(); ++i) {
-            r[i] = moved ? feet.distance[i] / kFirstPointPx : std::numeric_limits<double>::quiet_NaN();
+            r[i] = moved ? feet[i].distance / kFirstPointPx : std::numeric_limits<double>::quiet_NaN();
           }
           r[near.size()] = x[0] / kFirstAngleRad;
           r[near.size() + 1] = x[1] / kFirstLogKappa;
@@ -255,11 +264,11 @@ class Grower {
         const auto moved =
             typicalFromForm(c.start, c.angleRad, kappa, size, 2.0 * (c.turnRad * (1.0 + kTurnDifference)));
         if (!moved) return false;
-        const Feet here = feetOn(c, near), there = feetOn(*moved, near);
+        const auto here = feetOn(c, near), there = feetOn(*moved, near);
         double top = 0.0, bottom = 0.0;
         for (std::size_t k = 0; k < near.size(); ++k) {
-          const double slope = (there.distance[k] - here.distance[k]) / (kTurnDifference * c.turnRad);
-          top += slope * here.distance[k];
+          const double slope = (there[k].distance - here[k].distance) / (kTurnDifference * c.turnRad);
+          top += slope * here[k].distance;
           bottom += slope * slope;
         }
         if (!(bottom > 0.0)) return true;
@@ -337,27 +346,28 @@ class Grower {
     return std::abs(std::atan2(cross(direction, end.tangent), direction.dot(end.tangent)));
   }
   double distance(const TypicalCurve& c) const {
-    const Feet feet = feetOn(c, pointsOn(c));
-    const std::size_t group = std::max<std::size_t>(10, feet.distance.size() / 4);
+    const std::vector<CurveFoot> feet = feetOn(c, pointsOn(c));
+    const std::size_t group = std::max(kFewestGrouped, feet.size() / kQuarters);
     double most = 0.0;
-    for (std::size_t i = 0; i + group <= feet.distance.size(); i += group) {
+    for (std::size_t i = 0; i + group <= feet.size(); i += group) {
       double mean = 0.0;
-      for (std::size_t k = i; k < i + group; ++k) mean += feet.distance[k] / static_cast<double>(group);
+      for (std::size_t k = i; k < i + group; ++k) mean += feet[k].distance / static_cast<double>(group);
       most = std::max(most, std::abs(mean));
     }
     return most;
   }
 
   void record(GrowingStep::Kind kind, const TypicalCurve& c, bool stops) {
-    if (!record_.steps) return;
-    GrowingStep step{kind, record_.segment, c, deviation(c), distance(c), stops};
+    if (!keepsSteps_) return;
+    GrowingStep step{kind, kept_.segment, c, deviation(c), distance(c), stops};
     step.curve.start = line_.toPiece(c.start);
-    record_.steps->push_back(step);
+    kept_.steps.push_back(step);
   }
 
   const TypicalLine& line_;
   const ConstructParams& params_;
-  GrowingRecord& record_;
+  bool keepsSteps_;
+  GrownCurves kept_;
   std::vector<Vec2> points_;
   std::size_t passed_ = 0;  ///< About the point to which the kept curves reach.
   bool isFree_ = true;
@@ -382,8 +392,8 @@ FormGradient formGradient(const TypicalCurve& c) {
 }
 
 GrownCurves growStretch(const TypicalLine& line, const ConstructParams& params, const GrowingStretch& stretch,
-                        const GrowingStart& start, GrowingRecord& record, const RunContext& context) {
-  return Grower(line, params, record).grow(start, stretch, context);
+                        const GrowingStart& start, StepRecord steps, const RunContext& context) {
+  return Grower(line, params, steps).grow(start, stretch, context);
 }
 
 }  // namespace batten

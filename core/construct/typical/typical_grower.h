@@ -15,24 +15,21 @@ struct GrowingStretch {
   bool isOne = false;  ///< Between two places of the user: one segment, however well it fits.
 };
 
-/// What is written down while chains grow.
-struct GrowingRecord {
-  std::vector<GrowingStep>* steps = nullptr;  ///< Null: nothing.
-  int segment = 0;                            ///< Number of the next segment.
-  bool rested = true;                         ///< Every fit whose curve was kept came to rest.
-};
-
 /// Where a stretch of growing curves starts.
 struct GrowingStart {
   PathState state;
   bool isFree = false;  ///< Nothing comes before: direction and curvature are found too.
+  int segment = 0;      ///< Number of the first segment.
 };
 /// Typical curves that have grown, and the state in which the last one ends.
 struct GrownCurves {
   std::vector<TypicalCurve> curves;
   PathState end;
+  int segment = 0;                 ///< Number of the last segment that was begun.
+  bool rested = true;              ///< Every fit whose curve was kept came to rest.
+  std::vector<GrowingStep> steps;  ///< Where they are asked for.
 };
 GrownCurves growStretch(const TypicalLine& line, const ConstructParams& params, const GrowingStretch& stretch,
-                        const GrowingStart& start, GrowingRecord& record, const RunContext& context);
+                        const GrowingStart& start, StepRecord, const RunContext& context);
 
 }  // namespace batten

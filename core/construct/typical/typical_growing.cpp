@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <limits>
 
 #include "core/construct/pixel_frame.h"
@@ -72,6 +73,7 @@ std::vector<GrowingStretch> stretchesOf(const TypicalLine& line, std::span<const
 
 /// A curve that a path can hold.
 bool isDrawable(const TypicalCurve& curve) {
+  // inside what TypicalPath::update() takes (0.85, 1.7)
   constexpr double kMostDrawnTurn = 0.84, kMostDrawnLogRatio = 1.6;
   return std::abs(curve.turnRad) < kMostDrawnTurn && std::abs(std::log(curve.ratio)) < kMostDrawnLogRatio &&
          std::isfinite(curve.edge);
@@ -80,7 +82,7 @@ bool isDrawable(const TypicalCurve& curve) {
 /// The last joint of a stretch that grown curves have passed: near their end, and about as far along the line as they
 /// are long, for a closed line comes near its start again.
 std::size_t passedJoint(const TypicalLine& line, const GrowingStretch& stretch, std::span<const TypicalCurve> grown) {
-  constexpr double kLengthShare = 0.25;
+  constexpr double kLengthShare = 0.25;  // by which the line to a joint and the curves may differ
   const auto chord = [&](std::size_t i) { return (line.joints[i + 1].point - line.joints[i].point).norm(); };
   double length = 0.0;
   for (const TypicalCurve& c : grown) length += c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio);
@@ -166,11 +168,13 @@ std::string_view name(GrowingStep::Kind kind) {
   return "unknown";
 }
 
-std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2> places, const ConstructParams& params,
-                                   std::vector<GrowingStep>* steps, const RunContext& context) {
+GrownPath grownPath(const TypicalLine& line, std::span<const Vec2> places, const ConstructParams& params,
+                    StepRecord steps, const RunContext& context) {
   std::vector<Vec2> breakpoints;
   for (const Vec2& p : places) breakpoints.push_back(line.toLine(p));
-  GrowingRecord record{steps};
+  GrownPath result;
+  int segment = 0;
+  bool rested = true;
   TypicalPath path;
   path.closed = line.closed;
   path.states.push_back(stateOf(line.joints.front(), 0.0));
@@ -181,16 +185,19 @@ std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2
     at = std::max(at, joint);
   };
   for (const GrowingStretch& stretch : stretchesOf(line, breakpoints)) {
-    if (context.isCancelled()) return std::nullopt;
+    if (context.isCancelled()) return result;
     goTo(stretch.firstJoint);
-    const GrowingStart start{path.states.back(), path.elements.empty() || !path.elements.back().typical};
-    const GrownCurves grown = growStretch(line, params, stretch, start, record, context);
+    const GrowingStart start{path.states.back(), path.elements.empty() || !path.elements.back().typical, segment};
+    GrownCurves grown = growStretch(line, params, stretch, start, steps, context);
+    std::ranges::move(grown.steps, std::back_inserter(result.steps));
+    rested = rested && grown.rested;
+    segment = grown.segment;
     if (grown.curves.empty() && stretch.isOne) {
       appendHermite(path, stateOf(line.joints[stretch.lastJoint], path.states.back().angleRad));
       at = stretch.lastJoint;
     }
     if (grown.curves.empty()) continue;
-    ++record.segment;
+    ++segment;
     if (start.isFree) {
       path.states.back().angleRad = grown.curves.front().angleRad;
       path.states.back().kappa = grown.curves.front().startCurvature();
@@ -204,13 +211,13 @@ std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2
     at = stretch.isOne ? stretch.lastJoint : passedJoint(line, stretch, kept);
   }
   goTo(line.joints.size() - 1);
-  if (path.elements.empty()) return std::nullopt;
-  if (!path.update()) return std::nullopt;
+  if (path.elements.empty() || !path.update()) return result;
   divideAtMaxima(path);
-  if (!path.update()) return std::nullopt;
+  if (!path.update()) return result;
   // The paper's own way shows where it ends.
   if (!path.closed && path.endsTypical() && !params.growingAsInPaper) settleEnd(path, line.joints.back().point);
-  return FoundPath{std::move(path), record.rested};
+  result.found = FoundPath{std::move(path), rested};
+  return result;
 }
 
 Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece& piece, double pixelMm,
@@ -221,7 +228,7 @@ Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece& piece, doubl
   const ConstructPiece px = inPixels({{piece}, false, pixelMm}).pieces.front();
   const TypicalLine line = typicalLine(px, params, context);
   std::vector<GrowingStep> steps;
-  if (!line.joints.empty()) grownPath(line, px.breakpoints, params, &steps, context);
+  if (!line.joints.empty()) steps = grownPath(line, px.breakpoints, params, StepRecord::Kept, context).steps;
   if (context.isCancelled()) return cancelled();
   for (GrowingStep& step : steps) {
     step.curve.start *= pixelMm;

@@ -38,15 +38,22 @@ struct GrowingStep {
 };
 std::string_view name(GrowingStep::Kind);
 
+/// Whether the steps are written down, which takes a look at the points for each.
+enum class StepRecord { None, Kept };
+
 /// The growing process of 002 section 6 for one piece in mm, with every step. Empty for lines that nowhere bend
 /// clearly.
 /// @param pixelMm [mm] > 0, size of a pixel.
 Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                               const RunContext&);
 
+struct GrownPath {
+  std::optional<FoundPath> found;  ///< Absent where nothing grows or it was cancelled.
+  std::vector<GrowingStep> steps;  ///< Where they are asked for, also without a path.
+};
 /// The grown path. Stable: only the first half of each fit stays, as the start of the next segment is only known as
-/// well as the fit before; `growingAsInPaper` keeps all. @param steps filled unless null.
-std::optional<FoundPath> grownPath(const TypicalLine&, std::span<const Vec2> breakpoints, const ConstructParams&,
-                                   std::vector<GrowingStep>* steps, const RunContext&);
+/// well as the fit before; `growingAsInPaper` keeps all.
+GrownPath grownPath(const TypicalLine&, std::span<const Vec2> breakpoints, const ConstructParams&, StepRecord,
+                    const RunContext&);
 
 }  // namespace batten

@@ -24,6 +24,7 @@ constexpr std::size_t kMostPoints = 400;
 constexpr double kAgreePx = 0.05;
 /// Distance of the joints along a fair fit, and the shortest one that is taken as a guide.
 constexpr double kJointPx = 40.0, kLeastFairPx = 40.0;
+constexpr int kFewestIntervals = 8;  // between them, however short the line is: a chain tells its bends by them
 
 /// A closed line is opened after the station whose segment bends least: curvature is least at a joint, never inside a
 /// typical curve.
@@ -64,12 +65,13 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, bool grows
   TypicalLine line;
   line.closed = piece.closed;
   line.fair = curve;
-  const int joints = std::max(8, static_cast<int>(std::ceil(length / kJointPx))) + 1;
+  const int joints = std::max(kFewestIntervals, static_cast<int>(std::ceil(length / kJointPx))) + 1;
   const auto samples = sampleByArcLength(curve, joints);
   line.origin = samples.front().point;
   line.end = samples.back().point;
   // Where the stations and the fit agree on an end, it is that of the stations, as in the other constructions.
-  const std::vector<Station> stations = line.closed ? std::vector<Station>{} : usableStations(piece, 6);
+  const std::vector<Station> stations =
+      line.closed ? std::vector<Station>{} : usableStations(piece, kFewestClosedStations);
   if (!stations.empty()) {
     const auto agrees = [&](const Vec2& a, const Vec2& b) { return (a - b).norm() < kAgreePx; };
     if (agrees(stations.front().point, line.origin)) line.origin = stations.front().point;
@@ -89,7 +91,7 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, bool grows
 TypicalLine lineOnStations(const ConstructPiece& piece, const ConstructParams& params, const RunContext& context) {
   TypicalLine line;
   // A chain needs no closer stations: it goes by the points, and by more joints it only takes longer.
-  std::vector<Station> stations = usableStations(piece, 6);
+  std::vector<Station> stations = usableStations(piece, kFewestClosedStations);
   if (stations.size() < (piece.closed ? 3u : 2u)) return line;
   if (piece.closed) rotateToStraightest(stations);
   const FairedJoints faired = fairedJoints(givenStations(stations), piece.closed, params.lowPass, context);

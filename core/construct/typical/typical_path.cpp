@@ -16,9 +16,9 @@ namespace {
 constexpr double kSoftness = 0.01;
 /// A segment on the border of monotone curvature begins this far inside it [logarithm of the ratio].
 constexpr double kLeastRoom = 1e-3;
-constexpr double kLargestElementTurn = 0.85;
-constexpr double kLargestLogRatio = 1.7;
-constexpr double kLargestHermiteTurn = 0.4;
+constexpr double kLargestElementTurn = 0.85;  // [rad] from edge to edge of a typical curve
+constexpr double kLargestLogRatio = 1.7;      // of its edges: 5.5 to 1
+constexpr double kLargestHermiteTurn = 0.4;   // [rad] of one Hermite piece in place of two
 
 double slack(double v) { return 0.5 * (v + std::sqrt(v * v + 4.0 * kSoftness * kSoftness)); }
 double slackSlope(double v) { return 0.5 * (1.0 + v / std::sqrt(v * v + 4.0 * kSoftness * kSoftness)); }

@@ -17,7 +17,7 @@ constexpr int kPathFeetSteps = 25;
 constexpr int kLastChange = 20;       ///< Later steps stay in their element: a foot at a joint may go to and fro.
 constexpr double kLongestStep = 0.7;  ///< Less than an element, so that none is passed over.
 constexpr double kBeyondEnds = 0.4;   ///< A path may end this far before the last points, and grows towards them.
-constexpr double kSettled = 1e-9;
+constexpr double kSettled = 1e-9;     // [parameter]
 
 /// Newton on the distance, from where the foot is; passes from element to element.
 PathFoot refined(const std::vector<PathGeometry>& geometry, const Vec2& p, PathFoot foot) {

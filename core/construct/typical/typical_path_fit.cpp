@@ -26,19 +26,20 @@ constexpr double kLargestClosing = 30.0;
 constexpr double kPlaceWeight = 10.0;
 /// How firmly a segment keeps its share of the turn, and a free state its place along the line.
 constexpr double kTurnWeight = 0.5;
-constexpr double kAlongWeight = 0.02;
+constexpr double kAlongWeight = 0.02;  // of a free state, per unit
 /// Share of the hold of a free state by which those behind typical curves are held.
 constexpr double kBehindTypical = 0.3;
-constexpr double kHermiteFairness = 0.5;
-constexpr double kHermiteChange = 0.2;
+constexpr double kHermiteFairness = 0.5;  // of a change of the slope of curvature from Hermite piece to Hermite piece
+constexpr double kHermiteChange = 0.2;    // of the change of curvature along one, as sagitta
 /// Of the largest diagonal of the normal equations: no unknown goes without damping.
 constexpr double kDampingFloor = 1e-9;
+// Where ten dampings, each larger than the last, bring no lower cost, none will.
 constexpr LevenbergOptions kPathSteps{.attempts = 10, .leastDamping = 1e-9};
-/// The gap is closed by so many Newton steps at most, to so much [units, radians, log of curvature].
 /// A radian of gap weighs like this many units of length: 0.01 rad like a px.
 constexpr double kUnitsPerRadian = 100.0;
+/// The gap is closed by so many Newton steps at most, to so much [units, radians, log of curvature].
 constexpr int kClosingSteps = 12;
-constexpr double kClosed = 1e-13;
+constexpr double kClosed = 1e-13;         // of the gap
 constexpr double kClosingDamping = 1e-6;  ///< Relative: only to keep the metric regular.
 
 /// Places of the user may have to move the path.
@@ -353,6 +354,7 @@ class PathProblem final : public LevenbergProblem {
 /// How far the points lie from a path as it is.
 PathFit measured(const TypicalPath& path, const PathData& data) {
   PathFit fit;
+  fit.noise = data.noise;
   followFeet(geometryOf(path), data.points, fit.feet);
   double squares = 0.0;
   const double c2 = data.outlier * data.outlier;
@@ -367,7 +369,8 @@ PathFit measured(const TypicalPath& path, const PathData& data) {
 
 }  // namespace
 
-std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations, const RunContext& context) {
+std::optional<FittedPath> fitPath(TypicalPath path, const PathData& data, int maxIterations,
+                                  const RunContext& context) {
   if (path.elements.empty() || path.states.size() != path.elements.size() + 1) return std::nullopt;
   if (!path.closed) {
     path.states.front().point = data.start;
@@ -379,7 +382,7 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
     if (!isHeld(data) || !path.update()) return std::nullopt;
     PathFit fit = measured(path, data);
     fit.converged = true;
-    return fit;
+    return FittedPath{std::move(path), std::move(fit)};
   }
   LevenbergOptions options = kPathSteps;
   options.iterations = maxIterations;
@@ -391,7 +394,7 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
   fit.iterations = run.iterations;
   fit.converged = run.why != Termination::IterationLimit;
   fit.unknowns = problem.unknowns().count();
-  return fit;
+  return FittedPath{std::move(path), std::move(fit)};
 }
 
 }  // namespace batten

@@ -25,8 +25,9 @@ struct PathData {
 };
 
 struct PathFit {
-  double cost = 0.0;  ///< Sum of squared distances, outliers damped.
-  double rms = 0.0;   ///< Of the distances.
+  double cost = 0.0;   ///< Sum of squared distances, outliers damped.
+  double rms = 0.0;    ///< Of the distances.
+  double noise = 0.0;  ///< Standard deviation of a point that was reckoned with in the end.
   int unknowns = 0;
   int iterations = 0;
   bool converged = false;
@@ -39,10 +40,16 @@ struct FoundPath {
   bool converged = true;
 };
 
-/// Levenberg-Marquardt with analytic derivatives; closes or pins the path exactly at the end. The path becomes the best
-/// found, also when cancelled. A path of Hermite pieces alone that is held to its line stays as it is. Absent where the
-/// path or its start is impossible.
-std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations,
-                               const RunContext& context = {});
+/// A path and how it fits.
+struct FittedPath {
+  TypicalPath path;
+  PathFit fit;
+};
+
+/// Levenberg-Marquardt with analytic derivatives from a path on; closes or pins it exactly at the end. The best found,
+/// also when cancelled. A path of Hermite pieces alone that is held to its line stays as it is. Absent where the path
+/// or its start is impossible.
+std::optional<FittedPath> fitPath(TypicalPath path, const PathData& data, int maxIterations,
+                                  const RunContext& context = {});
 
 }  // namespace batten

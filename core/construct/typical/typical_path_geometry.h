@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "core/construct/typical/typical_path.h"
+#include "core/curve/bezier_powers.h"
 
 namespace batten {
 
@@ -23,13 +24,7 @@ class PathGeometry {
       ratio_ = std::polar(curve.ratio, curve.turnRad);
       return;
     }
-    // Powers of t: finite differences of the Bezier points times binomials.
-    Quintic q = path.quintic(e);
-    constexpr std::array<double, 6> binomial = {1, 5, 10, 10, 5, 1};
-    for (std::size_t k = 0; k < 6; ++k) {
-      powers_[k] = binomial[k] * q[0];
-      for (std::size_t i = 0; i + 1 < 6 - k; ++i) q[i] = q[i + 1] - q[i];
-    }
+    powers_ = powersOfBezier(path.quintic(e));
   }
 
   /// Point and derivatives up to `order` <= 2 by t; t may leave 0..1.

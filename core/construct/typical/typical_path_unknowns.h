@@ -163,7 +163,7 @@ class PathUnknowns {
 
   /// Within so many elements that what a typical curve takes up has gone.
   static bool isNearTypical(const TypicalPath& path, std::size_t s) {
-    constexpr std::size_t kGivesWay = 3;
+    constexpr std::size_t kGivesWay = 3;  // elements
     const std::size_t count = path.elements.size();
     for (std::size_t k = 0; k < kGivesWay; ++k) {
       const bool isBefore = s > k || path.closed, isAfter = s + k < count || path.closed;

@@ -15,7 +15,7 @@ namespace {
 
 /// A joint bends clearly if its curvature is above this share of the largest and above this sagitta over its segment.
 constexpr double kClearShare = 0.06;
-constexpr double kClearSagitta = 0.05;
+constexpr double kClearSagitta = 0.05;  // [px]
 /// Turn of a segment at the start.
 constexpr double kFirstTurn = 0.7;
 /// [rad] Counts as a turn, however straight the span is.
@@ -112,7 +112,7 @@ class RoughPath {
   /// turn over length is the mean curvature. The joints' own curvatures are too noisy for that: their errors would add
   /// up to a path that leaves the line.
   std::vector<double> evenCurvatures(std::span<const std::size_t> nodes) const {
-    constexpr double kLength = 10.0, kOwn = 0.3, kEven = 1.0;
+    constexpr double kLength = 10.0, kOwn = 0.3, kEven = 1.0;  // weights: the lengths before all else
     const auto n = static_cast<Eigen::Index>(nodes.size());
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(3 * n, n);
     Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * n);

@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "core/base/statistics.h"
 #include "core/construct/typical/typical_path_feet.h"
@@ -15,14 +16,20 @@ namespace batten {
 
 namespace {
 
-constexpr std::size_t kMostElements = 60;
+constexpr std::size_t kMostElements = 60;  // of a path that is still divided: a fit solves dense equations
 /// Points nearer than this to the path are near enough: what scans can tell at best.
 constexpr double kFloor = 0.04;
 /// [chi2] An extremum that costs less to remove goes.
 constexpr double kExtremumCost = 20.0;
-constexpr double kTurnCost = 8.0;
-/// Steps of a fit: of a change that is only tried, of one that divides, and of one that is to be kept or refused.
-constexpr int kTriedSteps = 12, kDividingSteps = 15, kKeptSteps = 25;
+constexpr double kTurnCost = 8.0;  // [chi2] of each turn of the curvature at a joint
+/// Steps of a fit: of a change that is only tried, of one that divides, of one that is to be kept or refused, and of
+/// the last one, which is to come to rest.
+constexpr int kTriedSteps = 12, kDividingSteps = 15, kKeptSteps = 25, kRestingSteps = 60;
+/// Divisions that are tried of a rough path, and once more after its extrema are settled: they bound the time, as every
+/// one is a fit.
+constexpr int kMostDivisions = 24, kMostLateDivisions = 6;
+/// Segments that go because their neighbours have consumed them: no more, however a path degenerates.
+constexpr int kMostSlivers = 8;
 /// Divisions in a row that bring nothing end the search, and extrema that are questioned at most.
 constexpr int kMostFailures = 3, kMostQuestioned = 40;
 /// Passes in which segments may change their kind or join.
@@ -63,42 +70,39 @@ std::vector<double> systematicMisfit(const TypicalPath& path, const PathFit& fit
 
 class StructureSearch {
  public:
-  StructureSearch(TypicalPath& path, PathData& data, const RunContext& context)
-      : path_(path), data_(data), context_(context) {}
+  StructureSearch(PathData data, const RunContext& context) : data_(std::move(data)), context_(context) {}
 
-  std::optional<PathFit> run(PathSearch search) {
+  std::optional<FittedPath> run(TypicalPath path, PathSearch search) {
     const bool divide = search == PathSearch::Full, doubts = divide || search == PathSearch::Tidy;
-    auto first = fitPath(path_, data_, 25, context_);
+    auto first = refit(std::move(path), kKeptSteps);
     if (!first) return std::nullopt;
-    fit_ = std::move(*first);
+    now_ = std::move(*first);
     watchOutliers();
-    if (divide) divideWhereNeeded(24);
+    if (divide) divideWhereNeeded(kMostDivisions);
     if (search != PathSearch::Simplify && !holdMonotone(doubts)) return std::nullopt;
     if (doubts) dropExtrema();
-    if (divide) divideWhereNeeded(6);
+    if (divide) divideWhereNeeded(kMostLateDivisions);
     if (search != PathSearch::Keep) {
       simplify(doubts);
       dissolveSlivers();
     }
     comeToRest();
     if (search != PathSearch::Keep) dissolveSlivers();
-    return context_.isCancelled() ? std::nullopt : std::optional(fit_);
+    if (context_.isCancelled()) return std::nullopt;
+    now_.fit.noise = data_.noise;
+    return std::move(now_);
   }
 
  private:
   /// The fits in between are cut short: they only have to tell which path is the better one.
   void comeToRest() {
-    constexpr int kIterations = 60;
-    if (fit_.converged || context_.isCancelled()) return;
-    TypicalPath path = path_;
-    PathFit fit;
-    if (!refit(path, fit, kIterations)) return;
-    path_ = std::move(path);
-    fit_ = std::move(fit);
+    if (now_.fit.converged || context_.isCancelled()) return;
+    if (auto rested = refit(now_.path, kRestingSteps)) now_ = std::move(*rested);
   }
 
   /// Bayesian information; a turn of the curvature at a joint has to be worth more than its unknowns.
-  static double score(const TypicalPath& path, const PathFit& fit) {
+  static double score(const FittedPath& fitted) {
+    const auto& [path, fit] = fitted;
     const double n = static_cast<double>(std::max<std::size_t>(4, fit.feet.size()));
     const double mean = fit.cost / n;
     int turns = 0;
@@ -112,38 +116,34 @@ class StructureSearch {
   /// Points that lie far off count less from now on.
   void watchOutliers() {
     std::vector<double> sizes;
-    for (const PathFoot& foot : fit_.feet) sizes.push_back(std::abs(foot.distance));
+    for (const PathFoot& foot : now_.fit.feet) sizes.push_back(std::abs(foot.distance));
     if (sizes.empty()) return;
     const double typical = robustSigma(sizes);
     data_.noise = std::max(typical, kLeastNoise);
     data_.outlier = kOutlierSigmas * std::max(typical, kLeastOutlierSigma);
   }
 
-  bool refit(TypicalPath& path, PathFit& fit, int iterations) {
-    auto fitted = fitPath(path, data_, iterations, context_);
-    if (!fitted) return false;
-    fit = std::move(*fitted);
-    return true;
+  std::optional<FittedPath> refit(TypicalPath path, int iterations) const {
+    return fitPath(std::move(path), data_, iterations, context_);
   }
 
   void divideWhereNeeded(int most) {
     std::set<std::size_t> tried;
     int failures = 0;
-    for (int i = 0; i < most && failures < kMostFailures && path_.elements.size() < kMostElements; ++i) {
-      if (context_.isCancelled() || fit_.rms < kFloor) return;
-      const auto misfit = systematicMisfit(path_, fit_);
+    for (int i = 0; i < most && failures < kMostFailures && now_.path.elements.size() < kMostElements; ++i) {
+      if (context_.isCancelled() || now_.fit.rms < kFloor) return;
+      const auto misfit = systematicMisfit(now_.path, now_.fit);
       std::optional<std::size_t> worst;
       for (std::size_t e = 0; e < misfit.size(); ++e) {
-        if (tried.contains(e) || misfit[e] < kSystematicMisfit * fit_.rms * fit_.rms) continue;
+        if (tried.contains(e) || misfit[e] < kSystematicMisfit * now_.fit.rms * now_.fit.rms) continue;
         if (!worst || misfit[e] > misfit[*worst]) worst = e;
       }
       if (!worst) return;
-      TypicalPath divided = path_;
+      TypicalPath divided = now_.path;
       divided.split(*worst, placeToDivide(*worst));
-      PathFit fit;
-      if (refit(divided, fit, kDividingSteps) && score(divided, fit) < score(path_, fit_)) {
-        path_ = std::move(divided);
-        fit_ = std::move(fit);
+      auto fitted = refit(std::move(divided), kDividingSteps);
+      if (fitted && score(*fitted) < score(now_)) {
+        now_ = std::move(*fitted);
         watchOutliers();
         tried.clear();
         failures = 0;
@@ -157,26 +157,28 @@ class StructureSearch {
   /// In the middle of its points.
   double placeToDivide(std::size_t e) const {
     std::vector<double> t;
-    for (const PathFoot& foot : fit_.feet) {
+    for (const PathFoot& foot : now_.fit.feet) {
       if (foot.element == e) t.push_back(foot.t);
     }
     return t.empty() ? 0.5 : std::clamp(t[t.size() / 2], kDivideFrom, 1.0 - kDivideFrom);
   }
 
   bool holdMonotone(bool divide) {
-    for (std::size_t e = 0; e < path_.elements.size(); ++e) {
-      if (!path_.elements[e].typical) continue;
-      const double top = placeOfMaximum(path_.elements[e]);
-      if (divide && !path_.elements[e].isMonotone() && top > kInsideFrom && top < 1.0 - kInsideFrom) {
-        path_.split(e, top);
-        path_.elements[e].setTrend(Trend::Rising);
-        path_.elements[++e].setTrend(Trend::Falling);
+    for (std::size_t e = 0; e < now_.path.elements.size(); ++e) {
+      if (!now_.path.elements[e].typical) continue;
+      const double top = placeOfMaximum(now_.path.elements[e]);
+      if (divide && !now_.path.elements[e].isMonotone() && top > kInsideFrom && top < 1.0 - kInsideFrom) {
+        now_.path.split(e, top);
+        now_.path.elements[e].setTrend(Trend::Rising);
+        now_.path.elements[++e].setTrend(Trend::Falling);
         continue;
       }
-      path_.elements[e].setTrend(path_.elements[e].logRatio() < 0.0 ? Trend::Rising : Trend::Falling);
+      now_.path.elements[e].setTrend(now_.path.elements[e].logRatio() < 0.0 ? Trend::Rising : Trend::Falling);
     }
-    if (refit(path_, fit_, kKeptSteps)) return true;
-    return false;
+    auto fitted = refit(std::move(now_.path), kKeptSteps);
+    if (!fitted) return false;
+    now_ = std::move(*fitted);
+    return true;
   }
 
   /// Neighbouring segments with one trend.
@@ -187,11 +189,11 @@ class StructureSearch {
   };
   std::vector<Stretch> stretches() const {
     std::vector<Stretch> all;
-    for (std::size_t e = 0; e < path_.elements.size(); ++e) {
-      const PathElement& one = path_.elements[e];
+    for (std::size_t e = 0; e < now_.path.elements.size(); ++e) {
+      const PathElement& one = now_.path.elements[e];
       if (!one.typical) continue;
-      const bool follows = e > 0 && path_.elements[e - 1].typical;
-      if (!follows || path_.elements[e - 1].trend != one.trend) {
+      const bool follows = e > 0 && now_.path.elements[e - 1].typical;
+      if (!follows || now_.path.elements[e - 1].trend != one.trend) {
         all.emplace_back();
         all.back().hasNeighbour = follows;
         if (follows) all[all.size() - 2].hasNeighbour = true;
@@ -200,8 +202,8 @@ class StructureSearch {
       all.back().rise += 4.0 * std::abs(one.logRatio());
     }
     const bool around =
-        path_.closed && all.size() > 1 && path_.elements.front().typical && path_.elements.back().typical;
-    if (around && path_.elements.front().trend == path_.elements.back().trend) {
+        now_.path.closed && all.size() > 1 && now_.path.elements.front().typical && now_.path.elements.back().typical;
+    if (around && now_.path.elements.front().trend == now_.path.elements.back().trend) {
       for (const std::size_t e : all.back().elements) all.front().elements.push_back(e);
       all.front().rise += all.back().rise;
       all.pop_back();
@@ -218,17 +220,16 @@ class StructureSearch {
       });
       if (all.empty()) return;
       const auto least = std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.rise < b.rise; });
-      TypicalPath plain = path_;
+      TypicalPath plain = now_.path;
       for (const std::size_t e : least->elements) {
         const bool rising = plain.elements[e].trend == Trend::Rising;
         plain.elements[e].setTrend(rising ? Trend::Falling : Trend::Rising);
       }
-      PathFit fit;
-      const double noise =
-          std::max(fit_.cost / static_cast<double>(std::max<std::size_t>(1, fit_.feet.size())), kFloor * kFloor);
-      if (refit(plain, fit, kKeptSteps) && fit.cost - fit_.cost < kExtremumCost * noise) {
-        path_ = std::move(plain);
-        fit_ = std::move(fit);
+      const double points = static_cast<double>(std::max<std::size_t>(1, now_.fit.feet.size()));
+      const double noise = std::max(now_.fit.cost / points, kFloor * kFloor);
+      auto fitted = refit(std::move(plain), kKeptSteps);
+      if (fitted && fitted->fit.cost - now_.fit.cost < kExtremumCost * noise) {
+        now_ = std::move(*fitted);
       } else {
         kept.insert(least->elements.front());
       }
@@ -241,11 +242,11 @@ class StructureSearch {
   void simplify(bool kinds) {
     for (int pass = 0; pass < kPasses && !context_.isCancelled(); ++pass) {
       bool changed = false;
-      for (std::size_t e = 0; kinds && e < path_.elements.size(); ++e) {
+      for (std::size_t e = 0; kinds && e < now_.path.elements.size(); ++e) {
         if (tryChange([&](TypicalPath& path) { return path.makeTypical(e); })) changed = true;
       }
-      for (std::size_t e = 0; e + 1 < path_.elements.size();) {
-        const PathElement &one = path_.elements[e], &next = path_.elements[e + 1];
+      for (std::size_t e = 0; e + 1 < now_.path.elements.size();) {
+        const PathElement &one = now_.path.elements[e], &next = now_.path.elements[e + 1];
         const bool both = one.typical && next.typical;
         const bool done = both ? one.trend == next.trend && one.turn() + next.turn() < kMostJoinedTurn &&
                                      tryChange([&](TypicalPath& path) { return path.join(e); })
@@ -259,15 +260,14 @@ class StructureSearch {
 
   /// A segment that its neighbours have all but consumed goes.
   void dissolveSlivers() {
-    constexpr int kMostSlivers = 8;
     for (int i = 0; i < kMostSlivers && !context_.isCancelled(); ++i) {
-      const auto sliver = firstSliver(path_);
+      const auto sliver = firstSliver(now_.path);
       if (!sliver) return;
-      auto without = withoutElement(path_, *sliver);
-      PathFit fit;
-      if (!without || !refit(*without, fit, kKeptSteps)) return;
-      path_ = std::move(*without);
-      fit_ = std::move(fit);
+      auto without = withoutElement(now_.path, *sliver);
+      if (!without) return;
+      auto fitted = refit(std::move(*without), kKeptSteps);
+      if (!fitted) return;
+      now_ = std::move(*fitted);
     }
   }
 
@@ -288,19 +288,17 @@ class StructureSearch {
 
   template <class Change>
   bool tryChange(const Change& change) {
-    TypicalPath plain = path_;
+    TypicalPath plain = now_.path;
     if (context_.isCancelled() || !change(plain)) return false;
-    PathFit fit;
-    if (!refit(plain, fit, kTriedSteps) || !(score(plain, fit) < score(path_, fit_))) return false;
-    path_ = std::move(plain);
-    fit_ = std::move(fit);
+    auto fitted = refit(std::move(plain), kTriedSteps);
+    if (!fitted || !(score(*fitted) < score(now_))) return false;
+    now_ = std::move(*fitted);
     return true;
   }
 
-  TypicalPath& path_;
-  PathData& data_;
+  PathData data_;
   const RunContext& context_;
-  PathFit fit_;
+  FittedPath now_;
 };
 
 }  // namespace
@@ -311,9 +309,9 @@ double placeOfMaximum(const PathElement& e) {
   return (1.0 - z).real() / std::norm(z - 1.0);
 }
 
-std::optional<PathFit> fitTypicalStructure(TypicalPath& path, PathData& data, PathSearch search,
-                                           const RunContext& context) {
-  return StructureSearch(path, data, context).run(search);
+std::optional<FittedPath> fitTypicalStructure(TypicalPath path, PathData data, PathSearch search,
+                                              const RunContext& context) {
+  return StructureSearch(std::move(data), context).run(std::move(path), search);
 }
 
 }  // namespace batten

@@ -21,8 +21,9 @@ enum class PathSearch {
 };
 
 /// The path with as few elements as the points ask for (Bayesian information), every typical curve monotone, and no
-/// extremum of curvature that the points do not prove. Absent where the path cannot be fitted.
-std::optional<PathFit> fitTypicalStructure(TypicalPath& path, PathData& data, PathSearch search,
-                                           const RunContext& context);
+/// extremum of curvature that the points do not prove. The noise of the points and where outliers begin are found from
+/// the first fit. Absent where the path cannot be fitted.
+std::optional<FittedPath> fitTypicalStructure(TypicalPath path, PathData data, PathSearch search,
+                                              const RunContext& context);
 
 }  // namespace batten

@@ -14,10 +14,10 @@ namespace {
 
 /// Places of the fair curve at which pieces may meet [units apart], and how many at most.
 constexpr double kStep = 3.0;
-constexpr int kFewest = 60, kMost = 2500;
+constexpr int kFewest = 60, kMost = 2500;  // places
 /// In sharp turns they lie closer: up to this many in one step, one whenever the line has turned by so much [rad].
 constexpr std::size_t kFiner = 12;
-constexpr double kTurnOfStep = 0.08;
+constexpr double kTurnOfStep = 0.08;  // [rad]
 /// How far a piece may lie from the fair curve [units]: the fit that follows moves it less than that.
 constexpr double kTypicalMiss = 0.12, kHermiteMiss = 0.005;
 /// Turn of one piece, and of the shortest typical curve that is worth it [rad]; its length [units].
@@ -27,7 +27,7 @@ constexpr double kMostTurn = 0.8, kLeastTurn = 0.04, kLeastLength = 20.0;
 constexpr double kLeastHermite = 45.0;
 /// No piece is shorter [units], however sharply the line turns: room for the fit above kShortestSegment.
 constexpr double kShortestTile = 2.0 * kShortestSegment;
-constexpr double kMostLogRatio = 1.2;
+constexpr double kMostLogRatio = 1.2;  // of a tile: room below the largest of an element
 /// [rad] Half the change of direction of a tile: a straight one has a logarithm, too.
 constexpr double kLeastTileTurn = 1e-6;
 /// Room on the border of monotone curvature, so that the fit begins inside.

@@ -46,11 +46,11 @@ class TurnSearch {
 
   /// Points of the line at which it is cut, ascending.
   std::vector<int> cuts() const {
-    struct Turn {
+    struct ScoredSample {
       int sample;
       double score;
     };
-    std::vector<Turn> turns;
+    std::vector<ScoredSample> turns;
     const int n = static_cast<int>(samples_.size());
     for (int i = 0; i < n; ++i) {
       if (const auto score = scoreAt(i)) turns.push_back({i, *score});
@@ -60,9 +60,9 @@ class TurnSearch {
       return (closed_ ? std::min(apart, n - apart) : apart) <= kCutChord;
     };
     std::vector<int> points;
-    for (const Turn& turn : turns) {
+    for (const ScoredSample& turn : turns) {
       // What lies beside a sharper turn sees a part of it.
-      const bool isPart = std::ranges::any_of(turns, [&](const Turn& other) {
+      const bool isPart = std::ranges::any_of(turns, [&](const ScoredSample& other) {
         return isBeside(other.sample, turn.sample) &&
                (other.score > turn.score || (other.score == turn.score && other.sample < turn.sample));
       });

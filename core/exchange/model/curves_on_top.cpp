@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/segment_foot.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
@@ -39,19 +40,12 @@ TopCandidate candidateOf(const NurbsCurve& curve, std::size_t line, std::size_t 
   return candidate;
 }
 
-double distanceFromStretch(const Vec2& p, const Vec2& from, const Vec2& to) {
-  const Vec2 along = to - from;
-  const double square = along.squaredNorm();
-  const double f = square > 0.0 ? std::clamp((p - from).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (p - from - f * along).norm();
-}
-
 /// No part of a stretch of a curve lies farther from its chord than `reach`.
 struct CurveStretch {
   Vec2 from, to;
   double reach = 0.0;
 
-  bool mayHold(const Vec2& place) const { return distanceFromStretch(place, from, to) <= reach; }
+  bool mayHold(const Vec2& place) const { return footOnSegment(place, from, to).away.norm() <= reach; }
 };
 
 /// Every span in equal parts of its parameter: a part of the share h lies within h^2 / 8 of the largest second
@@ -82,7 +76,7 @@ std::vector<CurveStretch> stretchesOf(const NurbsCurve& curve, const std::vector
     const std::size_t end = std::min(first + step, last);
     CurveStretch stretch{places[first].point, places[end].point};
     for (std::size_t i = first; i <= end; ++i) {
-      const double away = distanceFromStretch(places[i].point, stretch.from, stretch.to);
+      const double away = footOnSegment(places[i].point, stretch.from, stretch.to).away.norm();
       stretch.reach = std::max(stretch.reach, away + places[i].bulge);
     }
     stretch.reach += near;

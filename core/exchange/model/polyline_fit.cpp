@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/segment_foot.h"
 #include "core/curve/arc_length.h"
 
 namespace batten {
@@ -88,13 +89,6 @@ class Fit {
     return std::abs((p - centre).norm() - (arc.from - centre).norm());
   }
 
-  static double distanceFromChord(const Vec2& p, const Vec2& from, const Vec2& to) {
-    const Vec2 chord = to - from;
-    const double square = chord.squaredNorm();
-    const double t = square > 0.0 ? std::clamp((p - from).dot(chord) / square, 0.0, 1.0) : 0.0;
-    return (p - from - t * chord).norm();
-  }
-
   template <class Distance>
   double worst(double from, double to, const Distance& distance) const {
     double most = 0.0;
@@ -121,7 +115,7 @@ class Fit {
   void recurse(const End& a, const End& b, int depth) {
     const double middle = 0.5 * (a.s + b.s);
     const bool mayHalve = depth < kMaxChordDepth && middle > a.s && middle < b.s;
-    const double flat = worst(a.s, b.s, [&](const Vec2& p) { return distanceFromChord(p, a.point, b.point); });
+    const double flat = worst(a.s, b.s, [&](const Vec2& p) { return footOnSegment(p, a.point, b.point).away.norm(); });
     if (flat <= (arcs_ ? 1e-3 : kMargin) * tolerance_ || !mayHalve) {
       fit_.line.vertices.push_back({a.point});
       fit_.largestError = std::max(fit_.largestError, flat);

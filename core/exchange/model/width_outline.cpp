@@ -9,7 +9,9 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/segment_foot.h"
 #include "core/curve/cubic.h"
+#include "core/curve/foot_step.h"
 #include "core/exchange/model/border_fit.h"
 #include "core/exchange/model/stroke_middle.h"
 
@@ -324,9 +326,8 @@ class MiddleWalk {
 
   /// The arc between two places, by its directions: the chord alone is off by a hundredth of the width.
   static Foot footOn(const MiddlePlace& a, const MiddlePlace& b, const Vec2& p) {
-    const Vec2 chord = b.at - a.at;
-    const double length = std::max(chord.norm(), std::numeric_limits<double>::min());
-    Foot foot{std::clamp((p - a.at).dot(chord) / (length * length), 0.0, 1.0)};
+    const double length = std::max((b.at - a.at).norm(), std::numeric_limits<double>::min());
+    Foot foot{footOnSegment(p, a.at, b.at).share};
     Vec2 at = a.at;
     constexpr int kLoopRounds = 4;  // of Newton, from a near start
     for (int round = 0; round <= kLoopRounds; ++round) {
@@ -335,7 +336,7 @@ class MiddleWalk {
            length * t * r * (r * a.along - t * b.along);
       if (round == kLoopRounds) break;
       const Vec2 along = (r * a.along + t * b.along).normalized();
-      const double bend = std::max(0.2, 1.0 - std::lerp(a.kappa, b.kappa, t) * (p - at).dot(leftNormal(along)));
+      const double bend = std::max(kFootTrust, 1.0 - std::lerp(a.kappa, b.kappa, t) * (p - at).dot(leftNormal(along)));
       foot.t = std::clamp(t + (p - at).dot(along) / (length * bend), 0.0, 1.0);
     }
     foot.distance = (p - at).norm();

@@ -9,6 +9,7 @@
 
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/bezier_powers.h"
 #include "core/curve/bezier_quintics.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
@@ -62,20 +63,6 @@ Result<NurbsCurve> overArcLength(const NurbsCurve& curve, const ExportSettings& 
   return scaled.isRational() ? inPolynomials(scaled) : reparametrized(scaled, 0.0, ArcLength(scaled).total());
 }
 
-/// Coefficients of the powers of t = u - start: the k-th forward differences of the control points times the binomial
-/// coefficients, over the k-th power of the width (Piegl & Tiller, The NURBS Book, 1.3).
-std::vector<Vec2> coefficientsOf(const BezierPiece& piece) {
-  std::vector<Vec2> difference = piece.controlPoints, coefficients;
-  const std::size_t degree = difference.size() - 1;
-  double factor = 1.0;
-  for (std::size_t k = 0; k <= degree; ++k) {
-    coefficients.push_back(factor * difference[0]);
-    for (std::size_t i = 0; i + k < degree; ++i) difference[i] = difference[i + 1] - difference[i];
-    factor *= static_cast<double>(degree - k) / static_cast<double>(k + 1) / (piece.end - piece.start);
-  }
-  return coefficients;
-}
-
 int highestDegree(const ExportDocument& document) {
   constexpr int kOfRational = 5;  // degree of the polynomials for a rational curve
   int degree = 1;
@@ -94,7 +81,7 @@ std::string polynomialHeader(const PageFrame& frame, const std::string& unit, in
 }
 
 std::string row(const std::string& begin, const BezierPiece& piece, int degree) {
-  const std::vector<Vec2> coefficients = coefficientsOf(piece);
+  const std::vector<Vec2> coefficients = powersOfBezier(piece.controlPoints, piece.end - piece.start);
   std::string text = begin + "," + exactNumber(piece.start) + "," + exactNumber(piece.end);
   for (const int axis : {0, 1}) {
     for (int k = 0; k <= degree; ++k) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/curve/curvature.h"
-#include "core/curve/curvature_structure.h"
+#include "core/curve/extremum_indices.h"
 #include "core/solve/levenberg_marquardt.h"
 
 namespace batten {

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/curve/extremum_indices.h"
 #include "core/fairing/model/fairing_state.h"
 #include "core/fairing/structure/monotone_program.h"
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/segment_foot.h"
 #include "core/fairing/profile/drawn_profile.h"
 
 namespace batten {
@@ -38,13 +39,11 @@ class Course {
   double shareAt(const Vec2& place) const {
     double nearest = std::numeric_limits<double>::infinity(), at = 0.0;
     for (std::size_t i = 1; i < anchors_.size(); ++i) {
-      const Vec2 chord = anchors_[i] - anchors_[i - 1];
-      const double square = chord.squaredNorm();
-      const double t = square > 0.0 ? std::clamp((place - anchors_[i - 1]).dot(chord) / square, 0.0, 1.0) : 0.0;
-      const double distance = (place - anchors_[i - 1] - t * chord).squaredNorm();
+      const SegmentFoot foot = footOnSegment(place, anchors_[i - 1], anchors_[i]);
+      const double distance = foot.away.squaredNorm();
       if (distance >= nearest) continue;
       nearest = distance;
-      at = lengths_[i - 1] + t * (lengths_[i] - lengths_[i - 1]);
+      at = lengths_[i - 1] + foot.share * (lengths_[i] - lengths_[i - 1]);
     }
     return at / lengths_.back();
   }

@@ -40,20 +40,20 @@ ConstructPiece measured(const test::PlaneCurve& curve, double from, double to, i
   return piece;
 }
 
-double farthestPx(const ConstructPiece& piece, ConstructMethod method, double closeness, double mm) {
+double farthestPx(const ConstructPiece& piece, ConstructMethod method, double maxDeviationPx, double mm) {
   ConstructParams params;
   params.method = method;
-  params.maxDeviationPx = closeness;
+  params.maxDeviationPx = maxDeviationPx;
   ConstructContour contour;
   contour.pieces = {piece};
   contour.pixelMm = mm;
   const auto made = construct(contour, params, {}).value();
-  EXPECT_EQ(made[0].report.stationsAdded > 0, closeness > 0.0);
+  EXPECT_EQ(made[0].report.stationsAdded > 0, maxDeviationPx > 0.0);
   EXPECT_LT(largestCurvatureJump(made[0].curve, piece.closed), 1e-9);
   return deviation(made[0].curve, positionsOf(piece.points), true).max / mm;
 }
 
-TEST(CloserStations, KeepACurveOnAHairpin) {
+TEST(AdaptiveStations, KeepACurveOnAHairpin) {
   for (const double mm : {1.0, 0.25}) {
     const auto piece = measured(hairpin, 0.0, kHairpinLength, 500, false, mm);
     for (const auto method : {ConstructMethod::Bezier, ConstructMethod::Nurbs}) {
@@ -64,7 +64,7 @@ TEST(CloserStations, KeepACurveOnAHairpin) {
   }
 }
 
-TEST(CloserStations, KeepAClosedCurveOnSharpLobes) {
+TEST(AdaptiveStations, KeepAClosedCurveOnSharpLobes) {
   const auto lobes = [](double t) {
     const double r = 150.0 + 90.0 * std::cos(5.0 * t);
     return Vec2(r * std::cos(t), r * std::sin(t));
@@ -75,7 +75,7 @@ TEST(CloserStations, KeepAClosedCurveOnSharpLobes) {
   }
 }
 
-TEST(CloserStations, AddNoneWhereTheCurveIsNear) {
+TEST(AdaptiveStations, AddNoneWhereTheCurveIsNear) {
   const auto piece = measured(test::ellipsePoint, 0.0, 2.0 * pi, 1500, true, 1.0);
   for (const auto method : {ConstructMethod::Bezier, ConstructMethod::Nurbs}) {
     ConstructParams near, given;
@@ -92,7 +92,7 @@ TEST(CloserStations, AddNoneWhereTheCurveIsNear) {
   }
 }
 
-TEST(CloserStations, StandEvenlyAndInOrder) {
+TEST(AdaptiveStations, StandEvenlyAndInOrder) {
   const auto piece = measured(hairpin, 0.0, kHairpinLength, 500, false, 1.0);
   const auto chords = [](const StationSet& set) {
     std::vector<std::vector<Vec2>> lines;
@@ -124,7 +124,7 @@ TEST(CloserStations, StandEvenlyAndInOrder) {
   }
 }
 
-TEST(CloserStations, LeaveWhatHasNoPointsToMeasure) {
+TEST(AdaptiveStations, LeaveWhatHasNoPointsToMeasure) {
   ConstructPiece bare;
   bare.stations = test::stationsOf(test::ellipsePoint, 0.0, 2.0 * pi, 12, true);
   bare.closed = true;

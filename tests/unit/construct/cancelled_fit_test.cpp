@@ -38,7 +38,7 @@ class CancelledFit : public testing::Test {
  protected:
   CancelledFit() { cancelled_.cancel.cancel(); }
   void SetUp() override {
-    piece_ = prepareFairPiece(input_, true, 0.0, options_, running_);
+    piece_ = prepareFairPiece(input_, true, std::nullopt, options_, running_);
     ASSERT_TRUE(piece_.frame);
     frame_ = assembleFrame(piece_.frame->base, piece_.data, options_, 4, running_);
     posterior_ = localPosterior(frame_, kDensity, prior(), 1, options_.emWidthPx, running_);
@@ -62,7 +62,7 @@ TEST_F(CancelledFit, HasNoPilotAndNoFrame) {
   EXPECT_FALSE(fitPilot(piece_.data, options_, cancelled_));
   EXPECT_TRUE(assembleFrame(frame_.base, piece_.data, options_, 4, cancelled_).blocks.empty());
   EXPECT_TRUE(checkStations(frame_.base, 4, cancelled_).empty());
-  EXPECT_FALSE(prepareFairPiece(input_, true, 0.0, options_, cancelled_).frame);
+  EXPECT_FALSE(prepareFairPiece(input_, true, std::nullopt, options_, cancelled_).frame);
   const auto table = cutoffTable(frame_, cancelled_).valid;
   EXPECT_EQ(std::count(table.begin(), table.end(), true), 0);
   const double length = frame_.base.knots().length;

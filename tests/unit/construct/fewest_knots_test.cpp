@@ -111,13 +111,5 @@ TEST(FewestKnots, EndsStayExactAndClosedCurvesMeet) {
   }
 }
 
-TEST(FewestKnots, CountsTurnsBeyondTheThreshold) {
-  const std::vector<double> kappa = {0.0, 1.0, 0.95, 2.0, 1.0, 1.5, 1.45, 3.0};
-  EXPECT_EQ(countExtrema(kappa, 0.1), 2);
-  EXPECT_EQ(countExtrema(kappa, 0.01), 6);
-  EXPECT_EQ(countExtrema(kappa, 5.0), 0);
-  EXPECT_EQ(countExtrema({}, 0.1), 0);
-}
-
 }  // namespace
 }  // namespace batten

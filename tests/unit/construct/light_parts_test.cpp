@@ -288,9 +288,9 @@ TEST(LightSystem, GradientAgreesWithDifferences) {
   const auto roof = referenceOf(test::truthShape("car", 640, 480).pieces[0], false);
   LightAsk ask;
   ask.tolerance = 0.5;
-  ask.firstSign = 1;
+  ask.firstSlope = LightSign::Positive;
   ask.changes = 3;
-  ask.firstKappaSign = 1;
+  ask.firstKappa = LightSign::Positive;
   ask.start = ask.end = LightHold::Curvature;
   for (const int spans : {1, 3, 6}) {
     SCOPED_TRACE(spans);
@@ -300,7 +300,7 @@ TEST(LightSystem, GradientAgreesWithDifferences) {
   }
   const auto around = referenceOf(test::truthShape("ellipse", 640, 480).pieces[0], true);
   ask.changes = 4;
-  ask.firstSign = -1;
+  ask.firstSlope = LightSign::Negative;
   for (const int spans : {5, 10}) {
     SCOPED_TRACE(spans);
     const auto start = startShape(around, 5, spans, BreakStart::Even);

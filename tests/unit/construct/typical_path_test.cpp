@@ -73,8 +73,8 @@ TEST(FitPath, APathOfWhichNothingCanMoveIsNoFit) {
   path.states = {{{0, 0}, 0.0, 0.01}, {{0, 0}, 0.0, 0.01}};
   PathData data;
   for (int i = 0; i < 40; ++i) data.points.emplace_back(20.0 * std::sin(0.16 * i), 20.0 - 20.0 * std::cos(0.16 * i));
-  const auto fit = fitPath(path, data, 10, {});
-  EXPECT_TRUE(!fit || std::isfinite(fit->rms));
+  const auto fitted = fitPath(path, data, 10, {});
+  EXPECT_TRUE(!fitted || std::isfinite(fitted->fit.rms));
 }
 
 // Where no typical curve has to give way, the pieces are the line that they are laid along: a fit to the noise of the
@@ -95,15 +95,14 @@ TEST(FitPath, HermitePiecesHeldToTheirLineStayAsTheyAre) {
   }
   data.start = path.states.front().point;
   data.end = path.states.back().point;
-  const TypicalPath before = path;
-  const auto fit = fitPath(path, data, 25);
-  ASSERT_TRUE(fit);
-  EXPECT_TRUE(fit->converged);
-  EXPECT_NEAR(fit->rms, 0.3, 0.05);
+  const auto fitted = fitPath(path, data, 25);
+  ASSERT_TRUE(fitted);
+  EXPECT_TRUE(fitted->fit.converged);
+  EXPECT_NEAR(fitted->fit.rms, 0.3, 0.05);
   for (std::size_t s = 0; s < path.states.size(); ++s) {
-    EXPECT_EQ(path.states[s].point, before.states[s].point);
-    EXPECT_EQ(path.states[s].angleRad, before.states[s].angleRad);
-    EXPECT_EQ(path.states[s].kappa, before.states[s].kappa);
+    EXPECT_EQ(fitted->path.states[s].point, path.states[s].point);
+    EXPECT_EQ(fitted->path.states[s].angleRad, path.states[s].angleRad);
+    EXPECT_EQ(fitted->path.states[s].kappa, path.states[s].kappa);
   }
 }
 
@@ -170,10 +169,10 @@ TEST(FitPath, FindsTheCurveItsPointsCameFrom) {
   path.states[0].kappa *= 1.2;
   path.elements[0].logTurn += 0.2;
   path.elements[1].shape += 0.1;
-  const auto fit = fitPath(path, data, 60);
-  ASSERT_TRUE(fit);
-  EXPECT_LT(fit->rms, 0.02);
-  EXPECT_NEAR(path.states[0].angleRad, 0.1, 2e-3);
+  const auto fitted = fitPath(path, data, 60);
+  ASSERT_TRUE(fitted);
+  EXPECT_LT(fitted->fit.rms, 0.02);
+  EXPECT_NEAR(fitted->path.states[0].angleRad, 0.1, 2e-3);
 }
 
 TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
@@ -194,12 +193,13 @@ TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
   for (int k = 0; k < 8; ++k) {
     path.elements[k].shape = 0.25 * std::log(kappa(k * std::numbers::pi / 4) / kappa((k + 1) * std::numbers::pi / 4));
   }
-  const auto fit = fitPath(path, data, 60);
-  ASSERT_TRUE(fit);
-  EXPECT_LT(fit->rms, 0.5);
-  EXPECT_LT((path.states.back().point - path.states.front().point).norm(), 1e-9);
-  EXPECT_NEAR(path.states.back().angleRad - path.states.front().angleRad, 2 * std::numbers::pi, 1e-12);
-  EXPECT_NEAR(path.states.back().kappa, path.states.front().kappa, 1e-12);
+  const auto fitted = fitPath(path, data, 60);
+  ASSERT_TRUE(fitted);
+  EXPECT_LT(fitted->fit.rms, 0.5);
+  const PathState &first = fitted->path.states.front(), &last = fitted->path.states.back();
+  EXPECT_LT((last.point - first.point).norm(), 1e-9);
+  EXPECT_NEAR(last.angleRad - first.angleRad, 2 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(last.kappa, first.kappa, 1e-12);
 
   TypicalPath open = somePath();
   open.elements.pop_back();
@@ -209,9 +209,10 @@ TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
     ends.points.push_back(open.states[0].point + (open.states[2].point - open.states[0].point) * i / 20.0);
   ends.start = open.states[0].point + Vec2(0.5, 0.2);
   ends.end = open.states[2].point + Vec2(-0.3, 0.4);
-  ASSERT_TRUE(fitPath(open, ends, 40));
-  EXPECT_EQ(open.states.front().point, ends.start);
-  EXPECT_LT((open.states.back().point - ends.end).norm(), 1e-9);
+  const auto pinned = fitPath(open, ends, 40);
+  ASSERT_TRUE(pinned);
+  EXPECT_EQ(pinned->path.states.front().point, ends.start);
+  EXPECT_LT((pinned->path.states.back().point - ends.end).norm(), 1e-9);
 }
 
 /// A spiral with a stretch in the middle that has no points, on a page turned by an angle.
@@ -239,7 +240,7 @@ TEST(GrownPath, TurnsWithThePageAlsoWhereThereAreNoPoints) {
   const auto pathOn = [](double turnRad) {
     const TypicalLine line = lineWithGap(turnRad);
     const std::vector<Vec2> breakpoints = {line.joints[9].point, line.joints[16].point};
-    return grownPath(line, breakpoints, {}, nullptr, {})->path;
+    return grownPath(line, breakpoints, {}, StepRecord::None, {}).found->path;
   };
   const TypicalPath upright = pathOn(0.0);
   // Also such that the middle of the gap runs along the axes of the page.

@@ -44,6 +44,14 @@ TEST(QuinticPieces, ElevatedCubicIsTheCubic) {
   for (int i = 0; i <= 20; ++i) EXPECT_LT((cubic.point(i / 20.0) - quintic.point(i / 20.0)).norm(), 1e-13);
 }
 
+TEST(QuinticPieces, AnElevatedLineRunsEvenlyFromEndToEnd) {
+  const Vec2 from(0.1, 0.7), to(20.3, -4.9);
+  const Quintic q = elevatedLine(from, to);
+  EXPECT_EQ(q.front(), from);
+  EXPECT_EQ(q.back(), to);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_LT((q[i] - from - i / 5.0 * (to - from)).norm(), 1e-13);
+}
+
 TEST(QuinticPieces, PlacesAndDerivativesAreThoseOfThePolynomial) {
   std::mt19937 random(8);
   std::normal_distribution<double> where(0.0, 10.0);

@@ -7,6 +7,7 @@
 
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature_structure.h"
+#include "core/curve/extremum_indices.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/target/low_pass.h"
 #include "tests/unit/fairing/fairing_curves.h"
