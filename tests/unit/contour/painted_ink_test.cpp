@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/painted_ink.h"
+#include "core/contour/ink/painted_ink.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/ink_split.h"
 #include "core/contour/trace_contours.h"
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/label_page.h"

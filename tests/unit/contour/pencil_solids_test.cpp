@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contour/blots.h"
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/blots.h"
+#include "core/contour/ink/ink_split.h"
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/dense_page.h"
 #include "tests/unit/contour/traced_page.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/painted_ink.h"
+#include "core/contour/ink/painted_ink.h"
 
 #include <algorithm>
 #include <cmath>

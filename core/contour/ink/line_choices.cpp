@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/line_choices.h"
+#include "core/contour/ink/line_choices.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/ink_split.h"
 
 #include <algorithm>
 #include <map>
@@ -12,8 +12,8 @@
 #include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/chosen_ink.h"
+#include "core/contour/ink/painted_ink.h"
 #include "core/contour/label/ink_labels.h"
-#include "core/contour/painted_ink.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/fine_page.h"
 

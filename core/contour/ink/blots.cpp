@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/blots.h"
+#include "core/contour/ink/blots.h"
 
 #include <algorithm>
 #include <cmath>
