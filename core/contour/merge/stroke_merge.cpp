@@ -7,7 +7,7 @@
 #include "core/base/statistics.h"
 #include "core/contour/merge/merged_contour.h"
 #include "core/contour/merge/overlap_removal.h"
-#include "core/contour/merge/stroke_graph.h"
+#include "core/contour/merge/piece_joining.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/contour/merge/stroke_mean.h"
 #include "core/contour/merge/stroke_turns.h"
