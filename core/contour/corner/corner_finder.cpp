@@ -92,11 +92,12 @@ const CornerFix& CornerFinder::fixAt(const ContourPlace& p) {
 }
 
 // Of the turns of one stretch of a line.
-std::optional<CornerFinder::Snapped> CornerFinder::sharpestTurn(std::vector<Turn> turns, const Vec2& mark) {
-  std::stable_sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.score > b.score; });
+std::optional<CornerFinder::Snapped> CornerFinder::sharpestTurn(std::vector<ScoredPlace> turns, const Vec2& mark) {
+  std::stable_sort(turns.begin(), turns.end(),
+                   [](const ScoredPlace& a, const ScoredPlace& b) { return a.score > b.score; });
   std::optional<Snapped> best;
   std::vector<Vec2> taken;
-  for (const Turn& turn : turns) {
+  for (const ScoredPlace& turn : turns) {
     const Vec2& here = at(turn.place);
     if (std::any_of(taken.begin(), taken.end(), [&](const Vec2& t) { return (t - here).norm() < kOneTurnPx; })) {
       continue;
@@ -119,7 +120,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::sharpest(const std::vector<Co
     // A stretch of one line.
     auto end = first + 1;
     while (end != near.end() && end->contour == first->contour && end->index == (end - 1)->index + 1) ++end;
-    std::vector<Turn> turns;
+    std::vector<ScoredPlace> turns;
     if (!isDrawn(contourOf(*first).kind)) {
       for (auto p = first; p != end; ++p)
         if (const auto score = turnScore(*p)) turns.push_back({*p, *score});

@@ -44,7 +44,7 @@ class CornerFinder {
     double distance = 0.0;  ///< [px] from the mark to the turn or the point.
     double score = 0.0;     ///< Of the turn; 0 for a point that does not turn.
   };
-  struct Turn {
+  struct ScoredPlace {
     ContourPlace place;
     double score = 0.0;
   };
@@ -54,7 +54,7 @@ class CornerFinder {
   std::vector<ContourPlace> placesNear(const Vec2& mark) const;
   std::optional<Snapped> nearest(const std::vector<ContourPlace>& near, const Vec2& mark) const;
   std::optional<Snapped> sharpest(const std::vector<ContourPlace>& near, const Vec2& mark);
-  std::optional<Snapped> sharpestTurn(std::vector<Turn> turns, const Vec2& mark);
+  std::optional<Snapped> sharpestTurn(std::vector<ScoredPlace> turns, const Vec2& mark);
   std::optional<double> turnScore(const ContourPlace&);
   const CornerFix& fixAt(const ContourPlace&);
 

@@ -46,11 +46,11 @@ class TurnSearch {
 
   /// Points of the line at which it is cut, ascending.
   std::vector<int> cuts() const {
-    struct Turn {
+    struct ScoredSample {
       int sample;
       double score;
     };
-    std::vector<Turn> turns;
+    std::vector<ScoredSample> turns;
     const int n = static_cast<int>(samples_.size());
     for (int i = 0; i < n; ++i) {
       if (const auto score = scoreAt(i)) turns.push_back({i, *score});
@@ -60,9 +60,9 @@ class TurnSearch {
       return (closed_ ? std::min(apart, n - apart) : apart) <= kCutChord;
     };
     std::vector<int> points;
-    for (const Turn& turn : turns) {
+    for (const ScoredSample& turn : turns) {
       // What lies beside a sharper turn sees a part of it.
-      const bool isPart = std::ranges::any_of(turns, [&](const Turn& other) {
+      const bool isPart = std::ranges::any_of(turns, [&](const ScoredSample& other) {
         return isBeside(other.sample, turn.sample) &&
                (other.score > turn.score || (other.score == turn.score && other.sample < turn.sample));
       });
@@ -138,9 +138,9 @@ Contour cutPart(const Contour& line, int from, int to) {
   part.bridges.clear();
   for (int i = from; i <= to; ++i) part.points.push_back(line.points[wrapIndex(i, n)]);
   for (const auto& [first, last] : line.bridges) {
-    for (const int turn : {0, n}) {
-      const int a = std::max(first + turn, from), b = std::min(last + turn, to);
-      if (a <= b && (turn == 0 || line.closed)) part.bridges.emplace_back(a - from, b - from);
+    for (const int shift : {0, n}) {
+      const int a = std::max(first + shift, from), b = std::min(last + shift, to);
+      if (a <= b && (shift == 0 || line.closed)) part.bridges.emplace_back(a - from, b - from);
     }
   }
   measureContour(part);
