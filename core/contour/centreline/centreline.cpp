@@ -44,18 +44,18 @@ void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
 }
 
 // The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
-StrokeNet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
-                        const RunContext& context) {
+StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
+                            const RunContext& context) {
   const BitImage* shapes = options.shapes;
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
   const bool isKnown = options.known != nullptr && options.known->ink == all;
   if (isKnown && shapes == nullptr) return {std::move(options.known->paths), std::move(options.known->junctions)};
   BitImage skeleton = isKnown ? std::move(options.known->skeleton) : BitImage(all);
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
-  if (shapes == nullptr) return findStrokeNet(skeleton, all, params, context);
-  StrokeNet net = findStrokeNet(without(std::move(skeleton), *shapes), all, params, context);
-  endAtRims(net.paths, *shapes);
-  return net;
+  if (shapes == nullptr) return findPathsAndJunctions(skeleton, all, params, context);
+  StrokePathSet found = findPathsAndJunctions(without(std::move(skeleton), *shapes), all, params, context);
+  endAtRims(found.paths, *shapes);
+  return found;
 }
 
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
@@ -257,7 +257,7 @@ void groupByIntent(ContourSet& set, const EdgeParams& params, double width, doub
 }
 
 struct PathsFound {
-  StrokeNet net;
+  StrokePathSet strokes;
   std::optional<BitImage> bodies;  ///< What the strokes became where some are of a pencil.
   double widthPx = 0.0;            ///< Median of the strokes as they were thresholded.
 };
@@ -268,8 +268,8 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   const BitImage* shapes = options.shapes;
   const int pixelsPerPx = options.pixelsPerPx();
   PathsFound found;
-  found.net = centrelinesOf(strokes, options, params, context);
-  std::vector<StrokePath>& paths = found.net.paths;
+  found.strokes = centrelinesOf(strokes, options, params, context);
+  std::vector<StrokePath>& paths = found.strokes.paths;
   if (context.isCancelled()) return found;
   found.widthPx = medianWidth(paths, [](int) { return true; });
   const bool isKnown = shapes == nullptr && options.known != nullptr && options.known->ink == strokes;
@@ -285,7 +285,7 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
     bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context, pixelsPerPx));
     if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     if (context.isCancelled()) return found;
-    found.net = centrelinesOf(bodies, options, params, context);
+    found.strokes = centrelinesOf(bodies, options, params, context);
     found.bodies = std::move(bodies);
     const GraininessMap ofBodies = grainOf(paths, grey, options, context);
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));
@@ -308,7 +308,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
                                 const RunContext& context, const CentrelineOptions& options) {
   PathsFound found = findPaths(strokes, grey, params, options, context);
   if (context.isCancelled()) return cancelled();
-  std::vector<StrokePath>& paths = found.net.paths;
+  std::vector<StrokePath>& paths = found.strokes.paths;
   const bool anyPencil = found.bodies.has_value();
   const int pixelsPerPx = options.pixelsPerPx();
   ContourSet set;
@@ -335,7 +335,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);
   if (!params.intent && params.mergeWidths <= 0.0)
-    set.junctions = junctionsOfLines(std::move(found.net.junctions), set.contours);
+    set.junctions = junctionsOfLines(std::move(found.strokes.junctions), set.contours);
   if (context.isCancelled()) return cancelled();
   set.report.droppedMargins =
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey, pixelsPerPx); }));

@@ -224,7 +224,7 @@ void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
       const OpenEnd& a = ends[i];
       if (!a.best || *a.best <= i || ends[*a.best].best != i) continue;
       const OpenEnd& b = ends[*a.best];
-      // A stroke path is turned at most once a round, so that the sides noted above stay true.
+      // A stroke path is reversed at most once a round, so that the sides noted above stay true.
       if (moved[a.path] || moved[b.path]) {
         joined = true;
         continue;

@@ -132,7 +132,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   split.strokes = std::move(labels->strokes);
   split.shapes = std::move(labels->shapes);
   split.penPx = labels->penPx;
-  auto [paths, junctions] = findStrokeNet(labels->skeleton, ink, params, context);
+  auto [paths, junctions] = findPathsAndJunctions(labels->skeleton, ink, params, context);
   if (context.isCancelled()) return cancelled();
   GraininessMap grain = page != nullptr ? grainOnFinePage(paths, *page, context) : GraininessMap(paths, grey, context);
   const PencilPieces pencil(ink, paths, grain, context);

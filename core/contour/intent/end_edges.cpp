@@ -59,17 +59,17 @@ double bendAt(const EndView& v, int end) {
 
 void setGeometry(EndPair& p, const EndView& v) {
   const Vec2 outA = outOf(v, p.a), outB = outOf(v, p.b);
-  const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
-  p.gap = way.norm();
+  const Vec2 chord = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
+  p.gap = chord.norm();
   p.turnDeg = turnDeg(outA, -outB);
-  p.offset = std::max(std::abs(cross(outA, way)), std::abs(cross(outB, way)));
+  p.offset = std::max(std::abs(cross(outA, chord)), std::abs(cross(outB, chord)));
 }
 
-// [deg] Between the two ends and the way from one to the other, summed.
+// [deg] Between the two ends and the chord from one to the other, summed.
 double missDeg(const EndPair& p, const EndView& v) {
   if (p.gap < kTouchingEnds) return p.turnDeg;
-  const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
-  return turnDeg(outOf(v, p.a), way) + turnDeg(outOf(v, p.b), -way);
+  const Vec2 chord = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
+  return turnDeg(outOf(v, p.a), chord) + turnDeg(outOf(v, p.b), -chord);
 }
 
 // Counts the links of the trace between members that lie at both ends.
@@ -154,9 +154,9 @@ Vec2 directionOut(const Strip& strip, int side, double fromInside, double toInsi
   const int from = std::min(last, static_cast<int>(std::lround(fromInside)));
   const int to = std::min(std::max(0, from - 1), static_cast<int>(std::lround(toInside)));
   const auto at = [&](int inside) { return strip.samples[side == 0 ? inside : last - inside].at; };
-  const Vec2 way = at(to) - at(from);
-  const double length = way.norm();
-  if (length > 0.0) return way / length;
+  const Vec2 chord = at(to) - at(from);
+  const double length = chord.norm();
+  if (length > 0.0) return chord / length;
   return side == 0 ? Vec2(-strip.samples.front().tangent) : strip.samples.back().tangent;
 }
 

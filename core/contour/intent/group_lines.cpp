@@ -176,9 +176,9 @@ std::vector<Contour> withoutExplained(std::vector<GroupLine> found, const Stroke
       for (const StripSample& sample : set.pieces[piece].strip.samples) {
         bool explained = false;
         ink.around(sample.at, [&](const Explaining& e) {
-          const double d = (e.at - sample.at).norm(), way = std::abs(e.tangent.dot(sample.tangent));
-          explained =
-              explained || (d <= kExplainedNear && way > kExplainedNearCos) || (d <= e.reach && way > kExplainedCos);
+          const double d = (e.at - sample.at).norm(), cosine = std::abs(e.tangent.dot(sample.tangent));
+          explained = explained || (d <= kExplainedNear && cosine > kExplainedNearCos) ||
+                      (d <= e.reach && cosine > kExplainedCos);
         });
         all += 1.0;
         unexplained += explained ? 0.0 : 1.0;

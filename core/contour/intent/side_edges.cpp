@@ -71,9 +71,9 @@ class PairFinder {
     grid_.around(own.at, [&](const StripPlace& p) {
       if (p.strip == s) return;
       const StripSample& beside = strips_[p.strip].samples[p.sample];
-      const Vec2 way = beside.at - own.at;
-      if (std::abs(way.dot(own.tangent)) > kAlongStep) return;
-      const double across = leftNormal(own.tangent).dot(way);
+      const Vec2 offset = beside.at - own.at;
+      if (std::abs(offset.dot(own.tangent)) > kAlongStep) return;
+      const double across = leftNormal(own.tangent).dot(offset);
       if (std::abs(across) > reach_) return;
       const double c = beside.tangent.dot(own.tangent);
       if (std::abs(c) <= kSideCos) return;
@@ -172,7 +172,7 @@ std::vector<StripPair> findStripPairs(const std::vector<Strip>& strips, double r
 SideMeasures measureSide(const StripPair& pair, const PairView& view) {
   const Strip &a = view.strips[pair.a], &b = view.strips[pair.b];
   SideMeasures m;
-  std::vector<double> apart, angles;
+  std::vector<double> apart, angles;  // not pairs: medians reorder each of them
   bool toLeft = false, toRight = false;
   int seen = 0;
   for (const auto* list : {&pair.fromA, &pair.fromB}) {

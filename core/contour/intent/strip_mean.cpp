@@ -61,8 +61,8 @@ std::optional<Relation> besideRelation(const StripPair& pair, int a, int b, bool
 }
 
 std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, int sideB) {
-  const Vec2 way = tipOf(b, sideB) - tipOf(a, sideA);
-  const double gap = way.norm();
+  const Vec2 chord = tipOf(b, sideB) - tipOf(a, sideA);
+  const double gap = chord.norm();
   if (gap > kMostGap) return std::nullopt;
   const Vec2 out = directionOut(a, sideA, kDirectionFrom, kDirectionTo);
   const Vec2 in = -directionOut(b, sideB, kDirectionFrom, kDirectionTo);
@@ -72,7 +72,7 @@ std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, i
   r.endA = sideA;
   r.endB = sideB;
   r.direction = sideA == sideB ? -1.0 : 1.0;
-  const double ahead = std::max(0.0, way.dot(out));
+  const double ahead = std::max(0.0, chord.dot(out));
   const double atA = sideA == 1 ? a.count() - 1 + ahead : -ahead;
   r.offset = atA - r.direction * (sideB == 1 ? b.count() - 1 : 0);
   r.cost = gap + kTurnCost * std::acos(std::clamp(c, -1.0, 1.0)) + 1.0;
@@ -173,8 +173,8 @@ class CommonLength {
         double sum = 0.0, weights = 0.0;
         for (const Relation* r : of[i]) {
           const PlacedPiece& other = placed_[r->a == i ? r->b : r->a];
-          const double way = placed_[r->a].direction * r->offset;
-          sum += r->weight * (r->a == i ? other.offset - way : other.offset + way);
+          const double shift = placed_[r->a].direction * r->offset;
+          sum += r->weight * (r->a == i ? other.offset - shift : other.offset + shift);
           weights += r->weight;
         }
         if (weights > 0.0) placed_[i].offset = sum / weights;

@@ -44,13 +44,13 @@ std::vector<int> rimsOf(std::vector<InkPixel>& p) {
     for (int i = step > 0 ? 0 : n - 1; i >= 0 && i < n; i += step) {
       if (p[i].inJunction) continue;
       const double width = std::max(1.0, p[i].widthPx()), reach = 2.0 * width + 2.0;
-      double way = 0.0;
+      double arc = 0.0;
       int k = i + step;
-      for (; k >= 0 && k < n && way <= reach; k += step) {
-        way += stepLength(p[k], p[k - step]);
+      for (; k >= 0 && k < n && arc <= reach; k += step) {
+        arc += stepLength(p[k], p[k - step]);
         if (p[k].widthPx() > coreWidth(width)) break;
       }
-      if (k < 0 || k >= n || way > reach) continue;
+      if (k < 0 || k >= n || arc > reach) continue;
       for (int m = k - step; m != i; m -= step) p[m].inJunction = true;
       const int cut = step > 0 ? k : k + 1;
       if (cut > 0 && cut < n) rims.push_back(cut);
