@@ -146,7 +146,7 @@ double shortestPx(const ContourParams& params, double penPx) {
 // [px] A pen width for ink that is followed along its borders alone: that of its borders in the middle, where twice
 // the area by the border is the width of a line; never more than a small mark may be wide.
 double penOfBorders(const ContourSet& borders) {
-  constexpr double kMostPenPx = 40.0 / 3.0;
+  constexpr double kMostPenPx = 40.0 / 3.0;  // of whose usual least length, three widths, a small mark has 40 px
   std::vector<std::pair<double, double>> widths;
   double all = 0.0, sum = 0.0;
   for (const Contour& c : borders.contours) {

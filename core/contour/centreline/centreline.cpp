@@ -60,7 +60,7 @@ StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& option
 
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
 bool isMargin(const Contour& c, const GreyImage& grey, double pixelsPerPx) {
-  constexpr double kTouchPx = 2.0, kMostly = 0.7;
+  constexpr double kTouchPx = 2.0, kMostly = 0.7;  // from the stroke to the border of the page; of its points
   int touching = 0;
   for (const ContourPoint& point : c.points) {
     const Vec2& p = point.at;
@@ -97,8 +97,8 @@ BitImage coverOf(const BitImage& like, const std::vector<StrokePath>& paths, con
 BitImage grainHoles(const BitImage& taken, const BitImage& rest, const BitImage& strokes, double widthPx,
                     const RunContext& context) {
   constexpr double kLeastInkShare = 0.25;  // of a hole of grain; that of a loop has none but at its rim
-  constexpr double kLeastGapWidths =
-      4.0;  // the means that tell lines from paper are as long: half of it at either side
+  // The means that tell lines from paper are as long: half of it at either side.
+  constexpr double kLeastGapWidths = 4.0;
   const BitImage body = either(taken, rest);
   const BitImage brief = without(taken, keepPieces(taken, {.minDiagonal = kLeastGapWidths * widthPx}, context));
   const BitImage besidePaper = grown(without(grown(body, 1, context), body), 1, context);
@@ -170,7 +170,7 @@ RefinedStrokes placeOnPage(const std::vector<StrokePath>& paths, const Grainines
 
 // [grey] by which a stroke is darker than the paper on both its sides.
 double depthOf(const StrokePath& s, const GreyImage& grey) {
-  constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;
+  constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;  // from the middle: paper beyond the blur of the border
   const auto level = [&](const Vec2& at) {
     return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
                                           std::clamp(static_cast<int>(at.y()), 0, grey.height - 1)));

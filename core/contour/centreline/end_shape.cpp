@@ -23,15 +23,15 @@ constexpr double kTipStepPx = 0.25;                     // [px] between the plac
 constexpr int kTipSteps = 5;                            // and how many of them to either side
 constexpr double kSamplesPerPx = 4.0;                   // at half a pixel's step each pixel is seen so often
 constexpr double kLessSkewed = 0.5, kMostSkewed = 1.0;  // [-] slopes of a cut: as far as 45 degrees from square
-constexpr double kCutSlopes[] = {-kMostSkewed, -kLessSkewed, 0.0, kLessSkewed, kMostSkewed};
-constexpr double kLeastEndBlurPx = 0.4, kMostEndBlurPx = 2.4, kBlurStepPx = 0.1;  // standard deviations
-constexpr double kThinnerPx = 0.75, kThickerPx = 0.25, kRadiusStepPx = 0.1;       // than half the width at half level
+constexpr double kCutSlopes[] = {-kMostSkewed, -kLessSkewed, 0.0, kLessSkewed, kMostSkewed};  // all that are tried
+constexpr double kLeastEndBlurPx = 0.4, kMostEndBlurPx = 2.4, kBlurStepPx = 0.1;              // standard deviations
+constexpr double kThinnerPx = 0.75, kThickerPx = 0.25, kRadiusStepPx = 0.1;  // than half the width at half level
 
 // [stroke widths] and [px] beyond the end of a skeleton in which the end of the ink is looked for: the skeleton stops
 // up to a width before it, a worn mask up to another, and half the profile of the end lies behind it.
 constexpr double kBeyondEndWidths = 2.0, kBeyondEndPx = 3.0;
 
-constexpr double kLeastRadiusPx = 0.3;
+constexpr double kLeastRadiusPx = 0.3;      // of a strip that can be told from its blur
 constexpr double kRuledOut = 6.0;           // [nats] less likely than the best: not tried
 constexpr double kLeastEndVariance = 0.25;  // [grey^2] of the rounding to whole levels and of the model
 
@@ -133,7 +133,7 @@ class EndPlaces {
  public:
   explicit EndPlaces(const EndPatch& patch)
       : patch_(patch), rows_((patch.rows - 1) * kStepsPerRow + 2 * kTipSteps + 1), columns_(patch.columns) {}
-  static constexpr int kStepsPerRow = static_cast<int>(kEndStepPx / kTipStepPx);
+  static constexpr int kStepsPerRow = static_cast<int>(kEndStepPx / kTipStepPx);  // places of the tip from row to row
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   double along(int i) const { return patch_.firstPx + (i - kTipSteps) * kTipStepPx; }
@@ -234,7 +234,7 @@ struct FittedEnd {
   double misfit = std::numeric_limits<double>::infinity();
 };
 
-constexpr int kTips = 2 * kTipSteps + 1, kTipLanes = kTips + 1;
+constexpr int kTips = 2 * kTipSteps + 1, kTipLanes = kTips + 1;  // an even number fills the vectors
 
 // The misfit of every tip, the last first; behind them one that is none. `model` runs on by one number.
 BATTEN_HOT_LOOP void addMisfits(const EndPatch& patch, const double* model, int modelRows, double* __restrict misfit) {

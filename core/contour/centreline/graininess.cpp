@@ -66,7 +66,7 @@ using Lanes = std::array<float, kLanes>;
 // The median of every lane over 2 kWindow + 1 places: after each round the largest of those left lies behind the
 // others. Unrolled, so that all places of a lane lie in registers and the lanes are worked on side by side.
 BATTEN_HOT_LOOP void medianOfLanes(const Lanes* places, float* __restrict median) {
-  constexpr int kPlaces = 2 * kWindow + 1;
+  constexpr int kPlaces = 2 * kWindow + 1;  // the middle one, and those to both sides
   for (int k = 0; k < kLanes; ++k) {
     float sorted[kPlaces];
     BATTEN_UNROLL

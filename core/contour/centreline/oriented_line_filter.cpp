@@ -110,7 +110,7 @@ void sumStepsPlain(const float* grey, const int* steps, int stepCount, int count
 
 #ifdef BATTEN_HAS_AVX2
 
-constexpr int kPixelLanes = 8;
+constexpr int kPixelLanes = 8;  // floats that a processor works on at once
 
 // Eight times kVectors pixels at once, whose sums stay in registers.
 template <int kVectors>

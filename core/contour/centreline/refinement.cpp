@@ -109,7 +109,7 @@ void forCourses(std::vector<StrokeCourse>& courses, const RunContext& context, c
 
 RefinedStrokes refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
                                  const RefineSettings& settings, const RunContext& context) {
-  constexpr int kRounds = 2;
+  constexpr int kRounds = 2;  // the second samples across the middle that the first found
   std::vector<StrokeCourse> courses(paths.size());
   forCourses(courses, context, [&](int i) { courses[i] = resample(paths[i]); });
   if (settings.rule != CentreRule::None) {

@@ -12,8 +12,8 @@ constexpr double kLeastStrokeContrast = 2.0;  // [grey] less is noise of the sca
 constexpr int kSpreadSamples = 8;             // to which the ink of a stroke spreads beyond its border, 2 px
 constexpr double kCrowdedShare = 0.25;        // of the contrast: if the outer end is so much darker, ink lies there
 constexpr double kCoreShare = 0.2;            // of the width to either side of the middle, where the ink is full
-constexpr int kMeansAtOnce = 64;
-constexpr double kPaperShare = 0.15;  // of the darkest: what is fainter counts as paper
+constexpr int kMeansAtOnce = 64;              // boxes: kept on the stack
+constexpr double kPaperShare = 0.15;          // of the darkest: what is fainter counts as paper
 
 // Paper across the profile: a line through the level at either side.
 struct PaperLine {

@@ -50,7 +50,7 @@ InkAcross acrossAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction,
 
 // The largest mean over five stations.
 double wholeDarkness(const std::vector<TaperStation>& stations) {
-  constexpr int kMean = 5;
+  constexpr int kMean = 5;  // stations: over them the noise of one counts little
   double most = 0.0;
   for (int i = 0; i + kMean <= std::ssize(stations); ++i) {
     double sum = 0.0;
@@ -123,7 +123,7 @@ std::optional<int> lastAbove(const std::vector<TaperStation>& stations, double s
 
 // The last station at which ink is seen on the course itself.
 std::optional<int> lastDark(const std::vector<TaperStation>& stations) {
-  constexpr double kSeen = 0.12;
+  constexpr double kSeen = 0.12;  // of the contrast: less may be paper
   for (int i = static_cast<int>(stations.size()) - 1; i >= 0; --i) {
     if (stations[i].dark >= kSeen) return i;
   }

@@ -23,18 +23,18 @@ constexpr double kPointsPerPx = 4.0;     // [1/px] more than any contour has: ne
 constexpr double kPointStepPx = 1.0;     // located points lie as far apart: a rounding may begin behind one
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
 constexpr double kLeastSide = 2.5, kLeastSideToEnd = 3.0;                    // units: ends have hooks of their own
-constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;
+constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;                      // a gentler one may be a bend of the line
 constexpr double kLeastUnlocatedTurn = 50.0 * kRadPerDeg;  // of the chords, where no vertex tells how sharp it is
 constexpr double kFlankShare = 0.25;                       // of the turn: how much more the longer chords may turn
 constexpr double kUnlocatedShare = 0.15;                   // the same where no vertex tells
 constexpr double kLeastChordShare = 0.5, kMostChordShare = 1.35;  // of the angle: cusps, arcs
 constexpr double kFaintTurn = 45.0 * kRadPerDeg;                  // below, both chords must show the angle itself
-constexpr double kFaintShare = 0.15, kFaintLongShare = 0.2;
-constexpr double kFaintSlackRad = 2.0 * kRadPerDeg;
-constexpr double kNoiseLimit = 3.5;  // standard deviations
-constexpr double kDentReach = 8.0;   // units
-constexpr double kDentShare = 0.5;   // of the turn that turns back
-constexpr double kNoDentTurn = 70.0 * kRadPerDeg;
+constexpr double kFaintShare = 0.15, kFaintLongShare = 0.2;       // of the angle: by which the two chords may miss it,
+constexpr double kFaintSlackRad = 2.0 * kRadPerDeg;               // and by so much more
+constexpr double kNoiseLimit = 3.5;                               // standard deviations
+constexpr double kDentReach = 8.0;                                // units
+constexpr double kDentShare = 0.5;                                // of the turn that turns back
+constexpr double kNoDentTurn = 70.0 * kRadPerDeg;        // beside a turn back a gentler one may be a side of a dent
 constexpr double kSteepness = 4.0, kOddsAtLimit = 19.0;  // 19 to 1 where the worst share is just 1
 
 }  // namespace

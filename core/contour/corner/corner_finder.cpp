@@ -11,10 +11,10 @@
 namespace batten {
 namespace {
 
-constexpr double kLooksLikeCornerRad = 25.0 * kRadPerDeg;
-constexpr double kTurnInnerPx = 3.0;       // the part next to a corner that blur has rounded
-constexpr double kTurnOuterPx = 16.0;      // about as far as a corner of a drawing stands free
-constexpr double kSnapOuterPx = 64.0;      // looked at on either side before the neighbours are known
+constexpr double kLooksLikeCornerRad = 25.0 * kRadPerDeg;  // a gentler turn is a bend: no mark snaps to it
+constexpr double kTurnInnerPx = 3.0;                       // the part next to a corner that blur has rounded
+constexpr double kTurnOuterPx = 16.0;                      // about as far as a corner of a drawing stands free
+constexpr double kSnapOuterPx = 64.0;                      // looked at on either side before the neighbours are known
 constexpr double kOneTurnPx = 5.0;         // the first of equally sharp points within this stands for the turn
 constexpr double kFartherWorsePart = 0.5;  // of its score: what a turn at the snap distance loses
 

@@ -13,29 +13,29 @@
 namespace batten {
 namespace {
 
-constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
-constexpr double kOutlineZonePx = 4.0;
+constexpr double kUnrefinedWeight = 0.1;       // points known to the pixel only
+constexpr double kOutlineZonePx = 4.0;         // what blur and mask round of the corner of an outline
 constexpr double kFarthestMeetPx = 6.0;        // of the meeting point from the contour
 constexpr double kFarthestStrokeMeetPx = 9.0;  // of thin strokes; beyond, sides that nearly touch meet off the ink
 constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
 constexpr double kFilledHalfPx = 3.0;   // half of a gap between two sides of a stroke that blur and the mask may fill
 constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
-constexpr int kCornerNewtonSteps = 12;
-constexpr int kLocateRounds = 4;
-constexpr double kFreeSidesPx = 6.0;  // sides nearer to each other than this share their blur
-constexpr double kFarthestPixelMovePx = 3.0;
-constexpr double kFarthestScales = 2.0;  // of what is looked at: a side extended farther says nothing
-constexpr double kSettled = 1e-9;        // of that
-constexpr double kMeetPx = 1e-3;         // between the two sides where they meet
-constexpr double kExtensions = 2.0;      // of the farthest tip: a side is extended as far
-constexpr double kLeastReach = 0.4;      // of the stretch asked for: a shorter side is none
+constexpr int kCornerNewtonSteps = 12;  // fewer once the meeting point is settled
+constexpr int kLocateRounds = 4;        // of zone and meeting point in turn; fewer once they are settled
+constexpr double kFreeSidesPx = 6.0;    // sides nearer to each other than this share their blur
+constexpr double kFarthestPixelMovePx = 3.0;  // from where the sides meet: farther off lies another edge
+constexpr double kFarthestScales = 2.0;       // of what is looked at: a side extended farther says nothing
+constexpr double kSettled = 1e-9;             // of that
+constexpr double kMeetPx = 1e-3;              // between the two sides where they meet
+constexpr double kExtensions = 2.0;           // of the farthest tip: a side is extended as far
+constexpr double kLeastReach = 0.4;           // of the stretch asked for: a shorter side is none
 // What a side may miss its points by, and the two each other: the part that grows with the stretch is that of arcs.
 constexpr double kMisfitShare = 0.02, kMisfitPx = 0.1, kGapShare = 0.15, kSideGapPx = 0.5;
 constexpr double kLeastZonePx = 3.0, kMostZonePx = 60.0;                 // of a stroke's corner, otherwise its width
 constexpr double kSharpestHalfTipRad = 0.03, kFlattestHalfTipRad = 1.5;  // 2 and 86 degrees: keep sine and tangent sane
-constexpr double kSettledZonePx = 0.5;
-constexpr double kFitOuterPx = 260.0;   // looked at on either side at most
-constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
+constexpr double kSettledZonePx = 0.5;                                   // points lie no nearer to each other
+constexpr double kFitOuterPx = 260.0;                                    // looked at on either side at most
+constexpr double kWidestZonePx = 14.0;                                   // beyond the rounded one
 
 struct Meeting {
   Vec2 position = Vec2::Zero();

@@ -23,13 +23,13 @@ constexpr double kNearSigmas = 3.5;        // of blur: an edge farther away says
 constexpr double kSeenPx = 1.2;            // the points of a side have seen the pixels this far before the first block
 constexpr double kTonesPx = 12.0;          // beyond the wedge, where the tones are taken
 constexpr double kFarthestWedgePx = 40.0;  // of pixels from the corner
-constexpr int kFewestTones = 12, kFewestPixels = 12;
-constexpr double kLeastCornerContrast = 4.0;  // [grey]
-constexpr double kWedgeError = 0.015;         // [contrast] what the model leaves: pixels taken for round spots, bends
-constexpr double kSpotError = 0.05;           // [contrast] and more where there is no blur to hide that
-constexpr double kMostCorrelation = 0.99;     // as far as bothBelow() is good
-constexpr int kCornerRounds = 4;
-constexpr double kMostSurprise = 2.0;  // mean square of what is left, in units of the noise
+constexpr int kFewestTones = 12, kFewestPixels = 12;  // for a median of either tone; for the eight unknowns
+constexpr double kLeastCornerContrast = 4.0;          // [grey]
+constexpr double kWedgeError = 0.015;      // [contrast] what the model leaves: pixels taken for round spots, bends
+constexpr double kSpotError = 0.05;        // [contrast] and more where there is no blur to hide that
+constexpr double kMostCorrelation = 0.99;  // as far as bothBelow() is good
+constexpr int kCornerRounds = 4;           // each linear about the sides of the one before
+constexpr double kMostSurprise = 2.0;      // mean square of what is left, in units of the noise
 
 double below(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 

@@ -20,13 +20,13 @@ namespace {
 
 constexpr double kBlockPx = 2.0;         // points are averaged over this much of the axis
 constexpr double kGuessedWeight = 0.02;  // points known to the pixel only, or guessed
-constexpr double kLeastSideWeight = 1.0 / 64.0, kMostSideWeight = 16.0;
-constexpr double kLeastSigmaPx = 1e-3;
-constexpr double kSteepest = 0.8;       // slope against the axis up to which a side is a function of x
-constexpr double kPriorDensity = 0.01;  // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
-constexpr double kPriorBlocks = 3.0;
+constexpr double kLeastSideWeight = 1.0 / 64.0, kMostSideWeight = 16.0;  // noise 8 times and 1/4 of the median
+constexpr double kLeastSigmaPx = 1e-3;                                   // keeps the ratio of noises finite
+constexpr double kSteepest = 0.8;         // slope against the axis up to which a side is a function of x
+constexpr double kPriorDensity = 0.01;    // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
+constexpr double kPriorBlocks = 3.0;      // how much it counts beside the noise that is measured
 constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
-constexpr int kFewestBlocks = 3;
+constexpr int kFewestBlocks = 3;          // two say nothing of a bend
 constexpr int kMostGuessed = 40, kFewestKnown = 12;  // points
 constexpr int kAxisPoints = 12;                      // nearest to the corner: over more a side may bend
 constexpr int kOutlineGroup = 2, kStrokeGroup = 4;   // blocks: over as many points share their noise
@@ -191,7 +191,8 @@ class CircleBase {
   }
 
  private:
-  static constexpr double kFlattestPx = 1e5, kWidestPart = 0.9;
+  static constexpr double kFlattestPx = 1e5;  // of the radius: a flatter circle is a line
+  static constexpr double kWidestPart = 0.9;  // of it along the axis: farther out it turns round
   double centreX_ = 0.0, centreY_ = 0.0, radius_ = 0.0;
 };
 
@@ -217,7 +218,7 @@ void goTo(Followed& f, double h, double tau2) {
   f.mean = go * f.mean;
   f.spread = go * f.spread * go.transpose();
   if (!(tau2 > 0.0)) return;
-  static constexpr double kRest[4] = {6.0, 2.0, 1.0, 1.0};
+  static constexpr double kRest[4] = {6.0, 2.0, 1.0, 1.0};  // (3 - i)!
   const double h2 = h * h, odd[7] = {h, h2, h2 * h, h2 * h2, h2 * h2 * h, h2 * h2 * h2, h2 * h2 * h2 * h};
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) f.spread(i, j) += tau2 * odd[6 - i - j] / ((7 - i - j) * kRest[i] * kRest[j]);

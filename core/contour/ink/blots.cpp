@@ -78,8 +78,8 @@ BitImage penFillings(const BitImage& ink, std::optional<double> penPx, const Con
 }  // namespace
 
 BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
-  constexpr double kBlotWidths = 3.0;  // [stroke widths] shorter ink has no direction
-  constexpr double kBesideLinePx = 1.5;
+  constexpr double kBlotWidths = 3.0;    // [stroke widths] shorter ink has no direction
+  constexpr double kBesideLinePx = 1.5;  // the pixel of a place and its eight neighbours
   BitImage ink = split.strokes, grainy;
   if (split.pencil.width > 0) {
     const BitImage body = pencilStrokes(split);

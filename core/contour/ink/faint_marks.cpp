@@ -15,11 +15,11 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastOfStrokes =
-    0.4;                              // of their contrast: half of it parts ink from paper, and a small dot is blurred
-constexpr double kMostPens = 3.0;     // of a mark across its box: longer ink has a direction, and is judged as a line
-constexpr double kAroundPens = 40.0;  // [pen widths] strokes that near lie in the same light
-constexpr double kStepPens = 4.0;     // from one place on a line to the next
+// Of their contrast: half of it parts ink from paper, and a small dot is blurred.
+constexpr double kLeastOfStrokes = 0.4;
+constexpr double kMostPens = 3.0;       // of a mark across its box: longer ink has a direction, and is judged as a line
+constexpr double kAroundPens = 40.0;    // [pen widths] strokes that near lie in the same light
+constexpr double kStepPens = 4.0;       // from one place on a line to the next
 constexpr double kLeastBesidePx = 3.0;  // from ink to the paper beside it: its blurred edge
 constexpr double kDarkShare = 0.25;     // of the pixels of a mark: its middle, without its blurred edge
 constexpr int kFewestSamples = 20;      // of strokes, around a mark

@@ -35,7 +35,7 @@ struct LongestLine {
 // there is no other.
 void noteLines(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices,
                const RunContext& context) {
-  constexpr int kFewestInside = 3;
+  constexpr int kFewestInside = 3;  // points: with fewer a line only touches the ink
   std::vector<LongestLine> longest(choices.size());
   std::vector<bool> hasLine(choices.size(), false);
   for (Contour& contour : set.contours) {

@@ -12,8 +12,8 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastRadiusPx = 0.5, kMostRadiusPx = 1000.0;
-constexpr std::size_t kMostPlaces = 100'000;  // of one course, as of a pen stroke
+constexpr double kLeastRadiusPx = 0.5, kMostRadiusPx = 1000.0;  // a brush of one pixel; limits of input
+constexpr std::size_t kMostPlaces = 100'000;                    // of one course, as of a pen stroke
 
 struct Interval {
   double from = 0.0, to = 0.0;

@@ -14,13 +14,13 @@
 namespace batten {
 namespace {
 
-constexpr double kEndReach = 8.0, kEndReachLater = 10.0;
-constexpr double kNoCandidateDeg = 180.0;
-constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;  // of the chord before the one that gives the direction
-constexpr double kLeastBendChord = 3.0;                // samples: a shorter one has no direction, as of a stroke
-constexpr double kLongFrom = 25.0, kLongTo = 2.0;
-constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;
-constexpr double kLinkReach = 4.0;
+constexpr double kEndReach = 8.0, kEndReachLater = 10.0;  // [stroke widths] those of bundles lie scattered
+constexpr double kNoCandidateDeg = 180.0;  // counts as the cost of a rival where there is none: it turns right back
+constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;    // of the chord before the one that gives the direction
+constexpr double kLeastBendChord = 3.0;                  // samples: a shorter one has no direction, as of a stroke
+constexpr double kLongFrom = 25.0, kLongTo = 2.0;        // samples inside of the tip: where a bundle goes on the whole
+constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;  // [stroke widths] ends as near are arms of one junction
+constexpr double kLinkReach = 4.0;     // [stroke widths] and the spread: a link so near to a bundle's tip is of its end
 constexpr double kTouchingEnds = 1.5;  // the way between them has no direction
 
 // Cost of a pair beside its turn. A gap weighs as a turn of so many degrees per stroke width, less between bundles,
@@ -33,9 +33,9 @@ constexpr double kEndAngleUnitDeg = 30.0, kMissUnitDeg = 60.0;
 constexpr double kNoWidth = 0.5;                               // [stroke widths] added, for the logarithm of nothing
 constexpr double kFirstBendDeg = 20.0, kSecondBendDeg = 40.0;  // from where on a turn weighs more, and more again
 constexpr double kUnlikeBendDeg = 25.0, kLongBendDeg = 30.0;   // the same of other angles
-constexpr double kMostLinkedTurnDeg = 150.0, kMostLongTurnDeg = 120.0, kMostAdvantageDeg = 90.0;
-constexpr double kBackDeg = 120.0;  // what turns more runs back
-constexpr int kMostArms = 6, kMostLinks = 4;
+constexpr double kMostLinkedTurnDeg = 150.0, kMostLongTurnDeg = 120.0, kMostAdvantageDeg = 90.0;  // caps
+constexpr double kBackDeg = 120.0;            // what turns more runs back
+constexpr int kMostArms = 6, kMostLinks = 4;  // caps
 
 double signedDeg(const Vec2& a, const Vec2& b) { return kDegPerRad * std::atan2(cross(a, b), a.dot(b)); }
 

@@ -19,12 +19,12 @@ namespace {
 constexpr double kAlongStep = 0.75;               // a crossing lies within this of the normal
 constexpr double kSideCos = 0.86602540378443865;  // 30 degrees
 constexpr double kLeastSeen = 0.34;               // of the crossings
-constexpr int kLeastCrossings = 2;
-constexpr double kBesideEnd = 6.0;     // an end beside another strip is no farther from it
-constexpr int kAtEnd = 2;              // samples: a crossing there is one of the end
-constexpr int kLevelEnds = 4;          // samples: by less, ends are level
-constexpr double kCrossingSide = 0.3;  // farther to both sides: they cross
-constexpr int kStripsPerBlock = 8;
+constexpr int kLeastCrossings = 2;                // of both together: one may be chance
+constexpr double kBesideEnd = 6.0;                // an end beside another strip is no farther from it
+constexpr int kAtEnd = 2;                         // samples: a crossing there is one of the end
+constexpr int kLevelEnds = 4;                     // samples: by less, ends are level
+constexpr double kCrossingSide = 0.3;             // farther to both sides: they cross
+constexpr int kStripsPerBlock = 8;                // worked on together; the result does not depend on it
 
 // Of the features. The weights (intent_weights.h) were learned with these: they change together only.
 constexpr double kSideAngleUnitDeg = 10.0;
@@ -213,8 +213,8 @@ SideMeasures measureSide(const StripPair& pair, const PairView& view) {
 }
 
 std::vector<double> sideFeatures(const SideMeasures& m, const StripPair& pair, const PairView& view, bool sameLine) {
-  constexpr double kTouching = 1.5, kSmallAngleDeg = 12.0;
-  constexpr int kMostEndsBeside = 2;
+  constexpr double kTouching = 1.5, kSmallAngleDeg = 12.0;  // [stroke widths]; learned with, as those above
+  constexpr int kMostEndsBeside = 2;                        // a cap
   const Strip &a = view.strips[pair.a], &b = view.strips[pair.b];
   const Strip &shorter = a.count() <= b.count() ? a : b, &longer = a.count() <= b.count() ? b : a;
   const double shortest = shorter.count(), longest = longer.count(), g = view.scale;

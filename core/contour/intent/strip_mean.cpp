@@ -22,15 +22,15 @@ constexpr double kTurnCost = 30.0 / std::numbers::pi;  // [per rad] a sixth of a
 constexpr double kFewCrossings = 20.0;                 // what a pair with few crossings costs
 constexpr double kSurelyNear = 4.0;                    // what looks overdrawn as near as this is one
 constexpr double kOverdrawnPart = 0.1;  // of its cost: a pair that looks overdrawn comes before the trace
-constexpr double kTraceCost = 0.5;
+constexpr double kTraceCost = 0.5;      // less than any two ends cost: the trace has joined these
 // At one arc length pieces are no farther apart than a multiple of what is usual for the group, but for a few samples.
 constexpr double kLeastFarthest = 6.0, kFarthestFactor = 2.0, kFarthestShare = 0.8;
-constexpr int kMostFar = 4;
-constexpr double kAgreeing = 8.0;  // relations that disagree by more are the closing of a loop
-constexpr double kEndTaper = 6.0, kLeastTaperShare = 0.05;
-constexpr double kTraceWeight = 50.0, kEndWeight = 2.0;  // crossings
-constexpr int kRelaxations = 30;
-constexpr int kHannReach = 3;  // samples to either side
+constexpr int kMostFar = 4;                                 // samples
+constexpr double kAgreeing = 8.0;                           // relations that disagree by more are the closing of a loop
+constexpr double kEndTaper = 6.0, kLeastTaperShare = 0.05;  // at its end a stroke's weight falls to this
+constexpr double kTraceWeight = 50.0, kEndWeight = 2.0;     // crossings
+constexpr int kRelaxations = 30;                            // rounds: an offset passes on by a piece or more in each
+constexpr int kHannReach = 3;                               // samples to either side
 
 // Sample k of the first lies at direction * (sample of the second) + offset.
 struct Relation {
@@ -82,7 +82,7 @@ std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, i
 
 // [sample] Where a piece lies at a common arc length; absent: not there.
 std::optional<double> sampleAt(const Strip& strip, const PlacedPiece& placed, double s) {
-  constexpr double kRounding = 1e-6;
+  constexpr double kRounding = 1e-6;  // samples
   const double k = placed.direction * (s - placed.offset), last = strip.count() - 1;
   if (k < -kRounding || k > last + kRounding) return std::nullopt;
   return std::clamp(k, 0.0, last);

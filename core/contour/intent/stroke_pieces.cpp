@@ -18,7 +18,7 @@ namespace {
 constexpr double kAttached = 1.6, kCrossed = 1.0, kFreeEnd = 2.0;
 constexpr int kOwnAttached = 6, kOwnCrossed = 8;  // a line is another line to itself from here on
 constexpr int kOnePlace = 2;                      // cuts as near as this are one
-constexpr int kShortestPiece = 3;
+constexpr int kShortestPiece = 3;                 // a shorter one has no direction
 
 enum class CutKind { Crossing, Attachment, Corner };  // the weaker first
 struct StrokeCut {

@@ -29,11 +29,11 @@ constexpr double kShared = 6.0;          // distances: two lines share no longer
 // that it leaves, and at this angle: means are bent there.
 constexpr double kOvershoot = 7.0, kOvershootShare = 0.2, kOvershootBendDeg = 60.0;
 constexpr float kSingleWeight = 1.5f;  // strokes: between one and two
-constexpr double kLoopDistances = 4.0,
-                 kLoopPoints = 30.0;  // distances and points along a line before it can meet itself
-constexpr double kLeastOverlapPx = 4.0;
-constexpr double kOverlapCos = 0.7;  // 45 degrees: a loop drawn beyond its start runs in its direction
-constexpr int kSpurRounds = 3;       // a spur may show only once another has gone
+// Distances and points along a line before it can meet itself.
+constexpr double kLoopDistances = 4.0, kLoopPoints = 30.0;
+constexpr double kLeastOverlapPx = 4.0;  // ends as near meet, however small the distance
+constexpr double kOverlapCos = 0.7;      // 45 degrees: a loop drawn beyond its start runs in its direction
+constexpr int kSpurRounds = 3;           // a spur may show only once another has gone
 
 class PieceJoiner {
  public:

@@ -11,8 +11,8 @@
 namespace batten {
 namespace {
 
-constexpr double kLook = 1.5;  // distances over which an end is looked at
-constexpr double kLeastLookPx = 12.0;
+constexpr double kLook = 1.5;                    // distances over which an end is looked at
+constexpr double kLeastLookPx = 12.0;            // over less, the steps of pixels give the direction
 constexpr double kSeamSmoothing = 3.0;           // points
 constexpr int kSeamReach = 12;                   // points on either side
 constexpr double kBentEnd = 0.5;                 // distances: means are bent so far from their ends,

@@ -12,20 +12,20 @@
 namespace batten {
 namespace {
 
-constexpr double kNodePx = 4.0;         // between the nodes at which the line is moved
-constexpr double kBundleShare = 0.9;    // of the bundle: the line stays between the strokes
-constexpr double kBeyond = 0.45;        // of the spread: the room just beyond the end of a stroke
-constexpr double kFade = 0.12;          // [px/px] how fast it goes to nothing from there
-constexpr double kLeastRoomPx = 0.02;   // of single strokes
-constexpr double kLeastBundlePx = 0.5;  // strokes nearer to each other need no fairing
-constexpr double kSmoothRoomPx = 0.5;   // from here on the line is smoothed between the nodes, too
-constexpr double kOver = 0.01;          // of the room: so little beyond it is cut off
-constexpr double kLeastStiffer = 2.0, kMostStiffer = 100.0;
-constexpr double kFirmest = 1e6;            // weight of a node that is held, against third differences
-constexpr double kShortestWaveSteps = 6.0;  // nodes: shorter waves cannot be told
-constexpr int kNormalReach = 3;             // points to either side
-constexpr int kFairingRounds = 24;
-constexpr int kFewestNodes = 8;
+constexpr double kNodePx = 4.0;                              // between the nodes at which the line is moved
+constexpr double kBundleShare = 0.9;                         // of the bundle: the line stays between the strokes
+constexpr double kBeyond = 0.45;                             // of the spread: the room just beyond the end of a stroke
+constexpr double kFade = 0.12;                               // [px/px] how fast it goes to nothing from there
+constexpr double kLeastRoomPx = 0.02;                        // of single strokes
+constexpr double kLeastBundlePx = 0.5;                       // strokes nearer to each other need no fairing
+constexpr double kSmoothRoomPx = 0.5;                        // from here on the line is smoothed between the nodes, too
+constexpr double kOver = 0.01;                               // of the room: so little beyond it is cut off
+constexpr double kLeastStiffer = 2.0, kMostStiffer = 100.0;  // times: by which the weight of a node may grow in a round
+constexpr double kFirmest = 1e6;                             // weight of a node that is held, against third differences
+constexpr double kShortestWaveSteps = 6.0;                   // nodes: shorter waves cannot be told
+constexpr int kNormalReach = 3;                              // points to either side
+constexpr int kFairingRounds = 24;                           // fewer once every node lies in its room
+constexpr int kFewestNodes = 8;                              // a shorter line is hardly longer than the shortest wave
 
 // Every value becomes the largest that is left of its neighbours' when they fall by `fall` a step.
 void spread(std::vector<double>& v, bool closed, double fall) {
@@ -107,7 +107,7 @@ class ThirdDifferences {
  public:
   ThirdDifferences(int count, bool closed) {
     std::vector<Eigen::Triplet<double>> entries;
-    static constexpr double kRow[4] = {-1.0, 3.0, -3.0, 1.0};
+    static constexpr double kRow[4] = {-1.0, 3.0, -3.0, 1.0};  // of a third difference
     for (int k = 0; k < (closed ? count : count - 3); ++k)
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) entries.emplace_back((k + i) % count, (k + j) % count, kRow[i] * kRow[j]);

@@ -13,13 +13,14 @@ namespace batten {
 namespace {
 
 // In samples, one stroke width apart.
-constexpr int kCutChord = 5, kCutBeyond = 15;  // chords end there; what lies beyond says how the line bends
-constexpr int kLeastPart = 3;
-constexpr int kShortCutChord = 3, kPlaceReach = 2;
+constexpr int kCutChord = 5, kCutBeyond = 15;       // chords end there; what lies beyond says how the line bends
+constexpr int kLeastPart = 3;                       // a shorter part has no direction
+constexpr int kShortCutChord = 3, kPlaceReach = 2;  // of the shorter chords; from where a corner is seen to where it is
 constexpr double kShortShare = 0.75;  // of the turn: chords as short see as much of a corner, but two thirds of an arc
 constexpr double kArcSamples = 6.0;   // as much of the bend beyond counts as no corner
-constexpr double kMostArc = 120.0 * kRadPerDeg;
-constexpr double kLeastTurn = 40.0 * kRadPerDeg, kLeastBeyondArc = 24.0 * kRadPerDeg;
+constexpr double kMostArc = 120.0 * kRadPerDeg;        // a line that curls beyond a corner must not hide it
+constexpr double kLeastTurn = 40.0 * kRadPerDeg;       // of a corner,
+constexpr double kLeastBeyondArc = 24.0 * kRadPerDeg;  // by more than an arc's
 
 // A line in steps of about one stroke width.
 class TurnSearch {

@@ -10,13 +10,13 @@ namespace {
 
 // Directions of travel along the cracks, clockwise on the screen.
 enum : int { kRight = 0, kDown = 1, kLeft = 2, kUp = 3 };
-constexpr int kStepX[4] = {1, 0, -1, 0};
-constexpr int kStepY[4] = {0, 1, 0, -1};
+constexpr int kStepX[4] = {1, 0, -1, 0};  // one crack right,
+constexpr int kStepY[4] = {0, 1, 0, -1};  // and down
 // Pixels ahead of a corner (x, y) of the pixel grid, relative to it, on the left and on the right of travel.
 constexpr int kAheadLeftX[4] = {0, 0, -1, -1};
-constexpr int kAheadLeftY[4] = {-1, 0, 0, -1};
-constexpr int kAheadRightX[4] = {0, -1, -1, 0};
-constexpr int kAheadRightY[4] = {0, 0, -1, -1};
+constexpr int kAheadLeftY[4] = {-1, 0, 0, -1};   // down
+constexpr int kAheadRightX[4] = {0, -1, -1, 0};  // right
+constexpr int kAheadRightY[4] = {0, 0, -1, -1};  // down
 
 constexpr std::size_t kCancelEvery = 1u << 18;  // cracks; well below 50 ms
 

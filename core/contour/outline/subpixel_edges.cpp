@@ -29,8 +29,8 @@ constexpr int kPixelBlurPoints = 300;            // that vote for the blur of th
 constexpr std::array kOutlineBlurStrides = {1};  // of its search, which begins near the end
 constexpr double kPixelGatePx = 0.5;             // as far as the pixels may move what the profiles found
 constexpr double kMostSquares = 1e9;             // [grey^2] of one point: no vote counts for more
-constexpr int kReversalRounds = 3;
-constexpr double kLeastVariance = 1e-6;  // [px^2] of the light's blur
+constexpr int kReversalRounds = 3;               // mending one step may reverse the next
+constexpr double kLeastVariance = 1e-6;          // [px^2] of the light's blur
 
 bool onPageBorder(const Vec2& crack, const GreyImage& grey) {
   return crack.x() <= 0.0 || crack.y() <= 0.0 || crack.x() >= grey.width || crack.y() >= grey.height;

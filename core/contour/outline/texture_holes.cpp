@@ -78,7 +78,7 @@ class HoleSearch {
 
   // Uphill from the middle of the hole to the middle of the shape, or as far as it takes to be wide enough.
   static bool isNarrow(const InkHole& hole, MaskDistance& toOutside) {
-    constexpr int kAroundPx = 2;
+    constexpr int kAroundPx = 2;  // a step of the distance map must not end the climb
     cv::Point at(hole.middleX, hole.middleY);
     std::int32_t height = toOutside.squared(at.x, at.y);
     for (;;) {
