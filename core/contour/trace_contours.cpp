@@ -95,7 +95,7 @@ void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& co
   });
 }
 
-// Who asked for outlines on a shaded drawing wants the edges of its tones, not where they fade.
+// The outlines of a shaded drawing are the edges of its tones, not where they fade.
 void dropSoftBorders(ContourSet& set, const GreyImage& grey, const ContourParams& params, const RunContext& context) {
   std::vector<Contour> kept;
   for (Contour& contour : set.contours) {
@@ -311,7 +311,7 @@ double explainedInk(const ContourSet& set, const BitImage& ink) {
   return area / std::max(1.0, static_cast<double>(ink.count()));
 }
 
-// Whether lines may have gone lost in a net: none came, or they stand for too little of the ink. Of merged and meant
+// Whether lines may have gone lost in a net: none came, or they stand for too little of the ink. Of merged and intended
 // lines one stands for several strokes, and what the user wants of the ink holds.
 bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
   constexpr double kLeastExplained = 0.5;  // of the ink
@@ -332,8 +332,9 @@ std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
   }
+  constexpr double kMostShown = 1e9;  // what an integer holds
   const bool isPx = params.minLengthPx > 0.0;
-  const auto limit = std::lround(std::min(isPx ? params.minLengthPx : params.minWidths, 1e9));
+  const auto limit = std::lround(std::min(isPx ? params.minLengthPx : params.minWidths, kMostShown));
   return "No line of " + std::to_string(limit) + (isPx ? " px" : " stroke widths") +
          " or longer was found: lower the smallest length or raise the thresholds.";
 }
@@ -374,7 +375,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     addNote(*set, "No lines drawn over more than once were found: edges.intent changes nothing.");
   }
   sortAndCut(*set, params);
-  // Those of lines that were left out are no longer asked about.
+  // Those of lines that were left out are no longer offered.
   set->junctions = junctionsOfLines(std::move(set->junctions), set->contours);
   context.report(0.6);
   if (edges.subpixel) {

@@ -230,9 +230,9 @@ bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
 }
 
-// Within the discs of junctions and corners no grey values are asked. Where a pencil's broad and torn strokes meet,
-// whole strokes lie there: they are asked all along.
-void askHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
+// Within the discs of junctions and corners no grey values are read. Where a pencil's broad and torn strokes meet,
+// whole strokes lie there: they are read all along.
+void readHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
   for (int i = 0; i < std::ssize(paths); ++i) {
     std::vector<StrokePathPoint>& points = paths[i].points;
     const bool isHidden =
@@ -244,13 +244,13 @@ void askHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
   }
 }
 
-// The curves that were meant, in place of the lines, where the page shows lines drawn over more than once.
+// The intended curves, in place of the lines, where the page shows lines drawn over more than once.
 void groupByIntent(ContourSet& set, const EdgeParams& params, double width, double minWidths,
                    const RunContext& context) {
   const std::optional<double> given = params.mergeWidths > 0.0 ? std::optional(params.mergeWidths) : std::nullopt;
-  auto meant = intendedLines(set.contours, width, given, context);
-  if (!meant) return;
-  set.contours = std::move(*meant);
+  auto intended = intendedLines(set.contours, width, given, context);
+  if (!intended) return;
+  set.contours = std::move(*intended);
   set.report.isGrouped = true;
   set.report.droppedShort +=
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return c.lengthPx < minWidths * width; }));
@@ -294,7 +294,7 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   return found;
 }
 
-// One line of several strokes, by whichever of the two ways is asked for.
+// One line of several strokes, by whichever of the two ways is requested.
 void joinStrokes(ContourSet& set, const EdgeParams& params, double width, double minWidths, const RunContext& context) {
   if (params.intent) {
     groupByIntent(set, params, width, minWidths, context);
@@ -319,7 +319,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   std::optional<GraininessMap> ofKept;
   if (anyPencil) {
     ofKept = grainOf(paths, grey, options, context);
-    askHidden(paths, *ofKept);
+    readHidden(paths, *ofKept);
   }
   const GraininessMap* grain = ofKept ? &*ofKept : nullptr;
   RefinedStrokes placed = options.page != nullptr ? placeOnPage(paths, grain, *options.page, params.subpixel, context)

@@ -16,6 +16,7 @@
 namespace batten {
 namespace {
 
+constexpr double kMiddleHalf = 0.25;                    // of the width to either side: the middle half of a stroke
 constexpr float kEndContrast = 4.0f;                    // [grey]
 constexpr double kBesideEndPx = 2.5;                    // [px] of paper looked at round an end
 constexpr double kEndStepPx = 0.5;                      // [px] between the places at which an end is compared
@@ -128,7 +129,7 @@ EndPatch patchAt(const EndCourse& end, double tipPx, double radius, const GreyIm
   return patch;
 }
 
-// The places at which the model of an end is asked for: those of a patch, for every tip that is tried.
+// The places at which the model of an end is evaluated: those of a patch, for every tip that is tried.
 class EndPlaces {
  public:
   explicit EndPlaces(const EndPatch& patch)
@@ -193,7 +194,7 @@ BATTEN_HOT_LOOP void addLanes(const double* seen, const double* reached, int lan
 class RoundLanes {
  public:
   RoundLanes(const PenModel& pen, const EndPlaces& places)
-      : pen_(pen), count_(std::max(8, static_cast<int>(std::ceil(4.0 * pen.radius / pen.blur)))) {
+      : pen_(pen), count_(std::max(kFewestLanes, static_cast<int>(std::ceil(kLanesPerBlur * pen.radius / pen.blur)))) {
     lane_ = 2.0 * pen.radius / count_;
     for (int j = 0; j < count_; ++j) {
       for (int k = 0; k < places.columns(); ++k) {
@@ -217,7 +218,9 @@ class RoundLanes {
   }
 
  private:
-  static constexpr double kFar = 3.5;  // standard deviations: nothing is seen of lanes farther off
+  static constexpr int kFewestLanes = 8;        // of a round end, however blurred
+  static constexpr double kLanesPerBlur = 4.0;  // of the radius: a lane is half a standard deviation wide
+  static constexpr double kFar = 3.5;           // standard deviations: nothing is seen of lanes farther off
   double middleOf(int j) const { return (j + 0.5) * lane_ - pen_.radius; }
   double tipOf(int j) const {
     const double v = middleOf(j);
@@ -280,7 +283,7 @@ std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside
     const double s = k * kStrokeStepPx;
     const Vec2 normal = end.normal(s);
     for (int j = -lanes; j <= lanes; ++j) {
-      const Vec2 at = end.position(s) + (0.25 * widthPx * j / lanes) * normal;
+      const Vec2 at = end.position(s) + (kMiddleHalf * widthPx * j / lanes) * normal;
       level[k] += sampleGrey(grey, at.x(), at.y()) / static_cast<float>(2 * lanes + 1);
     }
   }

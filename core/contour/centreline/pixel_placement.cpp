@@ -228,7 +228,7 @@ std::vector<CoursePlace> sampleOf(const std::vector<StrokeCourse>& courses, cons
   return some;
 }
 
-/// Makes the tables that are asked for whatever the page is, side by side: later ones wait for each other.
+/// Makes the tables that every page needs, side by side: later ones wait for each other.
 void makeTables(std::initializer_list<int> indices, const RunContext& context) {
   parallelFor(context, static_cast<int>(indices.size()), 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) (void)PageResponse(*(indices.begin() + k));

@@ -26,6 +26,8 @@ struct CourseBlock {
   int course, begin, end;
 };
 
+// A Gaussian of its own, because whole profiles are averaged: smoothValues() mirrors the ends of a line, while here the
+// window shrinks evenly towards them.
 std::array<float, kMeanHalf + 1> alongKernel() {
   std::array<float, kMeanHalf + 1> kernel{};
   for (int k = 0; k <= kMeanHalf; ++k) {

@@ -34,6 +34,7 @@ constexpr double kFaintSlackRad = 2.0 * kRadPerDeg;               // and by so m
 constexpr double kNoiseLimit = 3.5;                               // standard deviations
 constexpr double kDentReach = 8.0;                                // units
 constexpr double kDentShare = 0.5;                                // of the turn that turns back
+constexpr double kLeastDivisor = 1e-9;                   // keeps shares finite where there is no side or no turn
 constexpr double kNoDentTurn = 70.0 * kRadPerDeg;        // beside a turn back a gentler one may be a side of a dent
 constexpr double kSteepness = 4.0, kOddsAtLimit = 19.0;  // 19 to 1 where the worst share is just 1
 
@@ -95,12 +96,13 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   const bool isTipLost = contour_.kind == ContourKind::Outline && !contour_.points[tip.index].refined;
   const double arc = arc_[isTipLost ? tip.index : e.pointIndex];
   const bool toEnd = !contour_.closed && std::min(arc, length_ - arc) <= std::min(e.freeBefore, e.freeAfter);
-  double worst = (toEnd ? kLeastSideToEnd : kLeastSide) * unit / std::max(1e-9, std::min(e.freeBefore, e.freeAfter));
+  double worst =
+      (toEnd ? kLeastSideToEnd : kLeastSide) * unit / std::max(kLeastDivisor, std::min(e.freeBefore, e.freeAfter));
   const auto demand = [&worst](double value, double limit) { worst = std::max(worst, value / limit); };
   const auto turnOver = [&](double units) {
     const double most = units * unit;
     const double turn = chordTurn(arc, kChordStart * unit, std::min(most, e.freeBefore), std::min(most, e.freeAfter));
-    return std::max(1e-9, std::copysign(1.0, e.angleRad) * turn);
+    return std::max(kLeastDivisor, std::copysign(1.0, e.angleRad) * turn);
   };
   const double near = turnOver(kShortChord), far = turnOver(kCertainChord);
   demand(kLeastCertainTurn, angle);

@@ -20,7 +20,8 @@
 namespace batten {
 namespace {
 
-constexpr double kSure = 5.0;  // standard deviations
+constexpr double kSure = 5.0;          // standard deviations
+constexpr double kBristleReach = 3.0;  // standard deviations: as far as neighbours are averaged
 
 struct Candidate {
   int index = 0;
@@ -87,13 +88,14 @@ bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, doub
          std::abs(coarse->angleRad) >= kSure * angleNoise(rough, kCoarser * scale);
 }
 
-// Without the bristles of a ragged border: every point the mean of its neighbours. Kept point for point.
-// Not complete when cancelled.
+// Without the bristles of a ragged border: every point the mean of its neighbours. Kept point for point. At an open end
+// the window is cut off and not mirrored as by smoothPolyline(), which holds the end itself, though it may be that of a
+// bristle. Not complete when cancelled.
 Contour smoothed(const Contour& contour, double sigmaPx, double step, const RunContext& context) {
   Contour out = contour;
   const int n = static_cast<int>(contour.points.size());
   const double sigma = sigmaPx / step;
-  const int reach = std::min(static_cast<int>(3.0 * sigma), n / 2);
+  const int reach = std::min(static_cast<int>(kBristleReach * sigma), n / 2);
   std::vector<double> weights;
   for (int k = 0; k <= reach; ++k) weights.push_back(std::exp(-0.5 * k * k / (sigma * sigma)));
   for (int i = 0; i < n && !context.isCancelled(); ++i) {

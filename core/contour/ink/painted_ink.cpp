@@ -117,10 +117,10 @@ BitImage applyPaint(std::span<const PaintedInk> painted, BitImage& strokes, BitI
       for (int i = 0; i < brush.wordsPerRow; ++i) {
         std::uint64_t &stroke = strokes.row(y)[i], &shape = shapes.row(y)[i], &under = brush.row(y)[i];
         const std::uint64_t ink = under & (stroke | shape), rest = (stroke | shape) & ~under;
-        std::uint64_t wanted = one.mode == EdgeMode::Outline ? ink : 0;
-        if (one.mode == EdgeMode::Automatic) wanted = ink & ownShapes.row(y)[i];
-        shape = (shape & rest) | wanted;
-        stroke = (stroke & rest) | (ink & ~wanted);
+        std::uint64_t toShape = one.mode == EdgeMode::Outline ? ink : 0;
+        if (one.mode == EdgeMode::Automatic) toShape = ink & ownShapes.row(y)[i];
+        shape = (shape & rest) | toShape;
+        stroke = (stroke & rest) | (ink & ~toShape);
         all.row(y)[i] = one.mode == EdgeMode::Automatic ? all.row(y)[i] & ~under : all.row(y)[i] | ink;
         under = 0;
       }

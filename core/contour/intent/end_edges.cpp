@@ -20,6 +20,8 @@ constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;    // of the chord before 
 constexpr double kLeastBendChord = 3.0;                  // samples: a shorter one has no direction, as of a stroke
 constexpr double kLongFrom = 25.0, kLongTo = 2.0;        // samples inside of the tip: where a bundle goes on the whole
 constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;  // [stroke widths] ends as near are arms of one junction
+constexpr double kSpreadsInside = 2.0;                   // so many spreads farther in the whole of a bundle is seen
+constexpr double kSamePlace = 1e-9;                      // the tip of a piece and that of its strip
 constexpr double kLinkReach = 4.0;     // [stroke widths] and the spread: a link so near to a bundle's tip is of its end
 constexpr double kTouchingEnds = 1.5;  // the way between them has no direction
 
@@ -43,7 +45,7 @@ const Strip& stripOf(const EndView& v, int end) { return v.view.strips[end / 2];
 
 // The chord reaches farther in, the wider the bundle: its very end is a few strokes only.
 double farInside(const EndView& v, int end) {
-  return kDirectionFrom + (v.view.isLater ? 2.0 * stripOf(v, end).spread : 0.0);
+  return kDirectionFrom + (v.view.isLater ? kSpreadsInside * stripOf(v, end).spread : 0.0);
 }
 Vec2 outOf(const EndView& v, int end) {
   return directionOut(stripOf(v, end), end % 2, farInside(v, end), kDirectionTo);
@@ -89,8 +91,8 @@ void setLinks(std::vector<EndPair>& pairs, const EndView& v) {
       const Vec2& at = tipOf(v.pieces.pieces[link->to / 2].strip, link->to % 2);
       const auto isAt = [&](int end) {
         const Strip& s = stripOf(v, end);
-        const double reach = v.view.isLater ? kLinkReach + 2.0 * s.spread : 0.0;
-        return (tipOf(s, end % 2) - at).norm() <= reach + 1e-9;
+        const double reach = v.view.isLater ? kLinkReach + kSpreadsInside * s.spread : 0.0;
+        return (tipOf(s, end % 2) - at).norm() <= reach + kSamePlace;
       };
       if (!isAt(p.a) || !isAt(p.b)) continue;
       if (!v.view.isLater && !((link->from == p.a && link->to == p.b) || (link->from == p.b && link->to == p.a)))

@@ -145,7 +145,7 @@ class MeanDrawer {
     const MeanPoint& start = line.points.front();
     std::optional<int> best;
     double nearest = reach;
-    for (int i = n - 1; i >= (3 * n) / 4; --i) {
+    for (int i = n - 1; i >= (3 * n) / 4; --i) {  // of the last quarter: no more is given up
       const double d = (line.points[i].at - start.at).norm();
       if (d >= nearest || line.points[i].tangent.dot(start.tangent) < kClosingCos) continue;
       nearest = d;

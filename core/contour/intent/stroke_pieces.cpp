@@ -52,10 +52,10 @@ SampledLine sampledLine(const Contour& line, double widthPx) {
   const int last = static_cast<int>(points.size()) - 1;
   int i = 0;
   for (int k = 0; k < steps + (line.closed ? 0 : 1); ++k) {
-    const double wanted = length * k / steps;
-    while (i < last && arc[i + 1] <= wanted) ++i;
+    const double along = length * k / steps;
+    while (i < last && arc[i + 1] <= along) ++i;
     const double end = i < last ? arc[i + 1] : length;
-    const double f = end > arc[i] ? std::clamp((wanted - arc[i]) / (end - arc[i]), 0.0, 1.0) : 0.0;
+    const double f = end > arc[i] ? std::clamp((along - arc[i]) / (end - arc[i]), 0.0, 1.0) : 0.0;
     const bool isEnd = i == last && !line.closed;
     const Vec2& next = isEnd ? points[i] : points[wrapIndex(i + 1, last + 1)];
     sampled.samples.push_back(

@@ -21,7 +21,8 @@ constexpr double kLevelPx = 1.0;        // of a width, that the grid of pixels e
 // Beyond the disc of a junction, over which the direction and the width of a chain are taken: [stroke widths], and
 // where strokes are thin as many pixels as keep a single step of the skeleton below 15 degrees.
 constexpr double kEndReachWidths = 2.0, kLeastEndReachPx = 4.0;
-constexpr double kPathCoreWidths = 2.5;  // and a pixel: where strokes cross the ink is no wider
+constexpr double kRimReachWidths = 2.0, kRimReachPx = 2.0;  // along a line: within so much it widens into a solid
+constexpr double kPathCoreWidths = 2.5;                     // and a pixel: where strokes cross the ink is no wider
 
 InkPixel measured(const SkeletonPixel& p, const BitImage& ink) {
   return {p.x, p.y, static_cast<float>(inkRadius(ink, p.x, p.y))};
@@ -43,7 +44,7 @@ std::vector<int> rimsOf(std::vector<InkPixel>& p) {
   for (const int step : {1, -1}) {
     for (int i = step > 0 ? 0 : n - 1; i >= 0 && i < n; i += step) {
       if (p[i].inJunction) continue;
-      const double width = std::max(1.0, p[i].widthPx()), reach = 2.0 * width + 2.0;
+      const double width = std::max(1.0, p[i].widthPx()), reach = kRimReachWidths * width + kRimReachPx;
       double arc = 0.0;
       int k = i + step;
       for (; k >= 0 && k < n && arc <= reach; k += step) {

@@ -44,8 +44,8 @@ struct Room {
 // As much of a move as there is room for: not beyond the strokes on either side, and nowhere farther than they are.
 Vec2 within(const Vec2& move, const Vec2& normal, const Room& room) {
   if (!(room.larger() > kLeastRoomPx)) return Vec2::Zero();  // single strokes stay
-  const double wanted = move.dot(normal), across = std::clamp(wanted, -room.right, room.left);
-  Vec2 along = move - wanted * normal;
+  const double offset = move.dot(normal), across = std::clamp(offset, -room.right, room.left);
+  Vec2 along = move - offset * normal;
   const double most = std::sqrt(std::max(0.0, room.larger() * room.larger() - across * across));
   if (along.norm() > most) along *= most / along.norm();
   return across * normal + along;
@@ -89,11 +89,11 @@ Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<Bu
   const int n = static_cast<int>(points.size());
   int i = 0;
   for (int k = 0; k < spans + (closed ? 0 : 1); ++k) {
-    const double want = k * made.step;
-    while (i + 1 < n && s[i + 1] <= want) ++i;
+    const double arc = k * made.step;
+    while (i + 1 < n && s[i + 1] <= arc) ++i;
     const int next = i + 1 < n ? i + 1 : (closed ? 0 : i);
     const double gap = (points[next] - points[i]).norm();
-    const double part = gap > 0.0 ? std::clamp((want - s[i]) / gap, 0.0, 1.0) : 0.0;
+    const double part = gap > 0.0 ? std::clamp((arc - s[i]) / gap, 0.0, 1.0) : 0.0;
     const Room room{kBundleShare * static_cast<double>(std::max(bundle[i].left, bundle[next].left)),
                     kBundleShare * static_cast<double>(std::max(bundle[i].right, bundle[next].right))};
     made.nodes.push_back({points[i] + part * (points[next] - points[i]), leftNormal(tangent[i]), room});
@@ -154,10 +154,10 @@ std::vector<Vec2> shifts(const Nodes& line, bool closed, double longestPx) {
     bool outside = false;
     for (int k = 0; k < n; ++k) {
       const Node& node = line.nodes[k];
-      const Vec2 wanted = (*fair)[k] - node.at;
-      shift[k] = within(wanted, node.normal, node.room);
+      const Vec2 unbounded = (*fair)[k] - node.at;
+      shift[k] = within(unbounded, node.normal, node.room);
       const double room = std::max(node.room.larger(), kLeastRoomPx);
-      const double beyond = (wanted - shift[k]).norm(), over = beyond / room;
+      const double beyond = (unbounded - shift[k]).norm(), over = beyond / room;
       if (beyond <= std::max(kLeastRoomPx, kOver * room)) continue;
       outside = true;
       held[k] = node.at + shift[k];

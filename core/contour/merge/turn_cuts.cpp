@@ -34,11 +34,11 @@ class TurnSearch {
     if (points.size() < 2 || steps < 2 * kLeastPart) return;
     int at = 0;
     for (int k = 0; k < samples; ++k) {
-      const double wanted = length * k / steps;
-      while (at + 1 < std::ssize(arc) && arc[at + 1] <= wanted) ++at;
+      const double along = length * k / steps;
+      while (at + 1 < std::ssize(arc) && arc[at + 1] <= along) ++at;
       const double end = at + 1 < std::ssize(arc) ? arc[at + 1] : length;
       const Vec2& next = points[wrapIndex(at + 1, static_cast<int>(points.size()))];
-      const double f = end > arc[at] ? std::clamp((wanted - arc[at]) / (end - arc[at]), 0.0, 1.0) : 0.0;
+      const double f = end > arc[at] ? std::clamp((along - arc[at]) / (end - arc[at]), 0.0, 1.0) : 0.0;
       const bool isLast = at + 1 == std::ssize(arc) && !line.closed;
       samples_.push_back(isLast ? points[at] : Vec2(points[at] + f * (next - points[at])));
       point_.push_back(wrapIndex(f < 0.5 || isLast ? at : at + 1, static_cast<int>(points.size())));

@@ -19,6 +19,7 @@ constexpr int kAheadRightX[4] = {0, -1, -1, 0};  // right
 constexpr int kAheadRightY[4] = {0, 0, -1, -1};  // down
 
 constexpr std::size_t kCancelEvery = 1u << 18;  // cracks; well below 50 ms
+constexpr int kRowsPerLook = 256;               // between two looks at the cancel token, where few cracks begin
 
 struct Border {
   std::vector<Vec2> midpoints;  // reused from border to border
@@ -93,7 +94,7 @@ Result<ContourSet> followAll(const BitImage& ink, bool internal, double minLengt
   CrackFollower follower(ink, context);
   Border border;
   for (int y = 0; y < ink.height; ++y) {
-    if (y % 256 == 0 && context.isCancelled()) return cancelled();
+    if (y % kRowsPerLook == 0 && context.isCancelled()) return cancelled();
     for (int word = 0; word < ink.wordsPerRow; ++word) {
       for (std::uint64_t starts = follower.unvisitedLeftCracks(y, word); starts != 0;
            starts = follower.unvisitedLeftCracks(y, word)) {

@@ -157,10 +157,10 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params, const 
       return groupSegments(points, sturgesGroups(static_cast<int>(points.size())));
     }
     case SegmentMode::Count: {
-      const double wanted = std::min(measured.length() / params.spacingPx, static_cast<double>(kMostStations));
+      const double groups = std::min(measured.length() / params.spacingPx, static_cast<double>(kMostStations));
       return groupSegments(groupedPoints(piece), params.count > 0
                                                      ? params.count
-                                                     : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
+                                                     : std::max(kFewestOpen, static_cast<int>(std::lround(groups))));
     }
     case SegmentMode::Adaptive:
       return adaptiveSegments(measured, params, context);

@@ -19,7 +19,7 @@ class PixelResponse {
  public:
   static constexpr double kStepPx = 0.05;  ///< [px] of the blurs there are tables for.
   static constexpr int kBlurs = 50;        ///< Up to 2.5 px, as far as profiles can tell a blur.
-  /// The table for a blur of (index + 1) * kStepPx, made when first asked for. Thread safe. @pre 0 <= index < kBlurs.
+  /// The table for a blur of (index + 1) * kStepPx, made at the first request. Thread safe. @pre 0 <= index < kBlurs.
   static const PixelResponse& forBlur(int index);
   /// [px] Standard deviation of the Gaussian.
   double blur() const { return blur_; }
