@@ -205,8 +205,9 @@ BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgePar
 }
 
 // What the user turned over or painted to be followed along its middle is.
-BitImage notChosen(BitImage fillings, const RunPieces& regions, const BitImage& painted, const EdgeParams& edges) {
-  if (painted.width > 0) fillings = without(std::move(fillings), painted);
+BitImage notChosen(BitImage fillings, const RunPieces& regions, const std::optional<BitImage>& painted,
+                   const EdgeParams& edges) {
+  if (painted) fillings = without(std::move(fillings), *painted);
   const ChosenInk chosen(regions, edges.choices);
   for (std::size_t i = 0; i < regions.runs.size(); ++i) {
     if (chosen.choiceOf(regions.piece[i])) clearBits(fillings, regions.runs[i]);
@@ -238,7 +239,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   int faint = 0;
   if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
     const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
-    const FaintMarks dropped = faintMarks(marks, ink, *lines, grey, split->penPx.value_or(0.0), context);
+    const FaintMarks dropped = faintMarks(marks, ink, *lines, grey, split->penPx, context);
     found.blots = without(std::move(found.blots), dropped.ink);
     split->shapes = without(std::move(split->shapes), dropped.ink);
     split->strokes = without(std::move(split->strokes), dropped.ink);
@@ -251,17 +252,18 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
                          notChosen(findFillings(*split, *lines, context), found.regions, split->painted, edges));
   }
   if (context.isCancelled()) return cancelled();
-  const bool isPaintedInVain = split->painted.width > 0 && both(found.blots, split->painted).count() > 0;
+  const bool isPaintedInVain = split->painted && both(found.blots, *split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
-  const BitImage grainy = split->pencil.width > 0 ? without(std::move(split->pencil), found.blots) : BitImage();
+  const auto grainy = split->pencil ? std::optional(without(std::move(split->pencil->ink), found.blots)) : std::nullopt;
   int texture = 0;
   if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
     EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);
     split->shapes = without(std::move(even.ink), split->strokes);
     texture = even.filled;
   }
-  Result<ContourSet> borders = bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &grainy, context);
+  Result<ContourSet> borders =
+      bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, grainy ? &*grainy : nullptr, context);
   if (!borders) return fail(borders.error());
   borders->report.droppedHoles += texture;
   borders->report.droppedFaint = faint;

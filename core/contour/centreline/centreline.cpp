@@ -289,6 +289,8 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
     found.bodies = std::move(bodies);
     const GraininessMap ofBodies = grainOf(paths, grey, options, context);
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));
+  } else {
+    pencil.assign(paths.size(), false);
   }
   bridgeGaps(paths, pencil, found.bodies ? *found.bodies : strokes, grey, params, context);
   return found;

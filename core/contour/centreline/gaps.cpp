@@ -112,7 +112,7 @@ std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const std::v
     const StrokePath& s = paths[i];
     if (s.closed || s.points.size() < 3) continue;
     const double width = s.widthPx();
-    const bool isPencil = !pencil.empty() && pencil[i];
+    const bool isPencil = pencil[i];
     if (!isPencil && s.length() < kLeastStrokeWidths * width) continue;
     const double inkWidth = s.tip[0] || s.tip[1] ? inkWidthOf(s, ink) : width;
     for (int side = 0; side < 2; ++side) {

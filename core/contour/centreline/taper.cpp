@@ -90,8 +90,9 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
     const CoursePoint& p = c.points[track.first + i];
     const double local = std::min(1.0, kWider * std::max(kThin, track.stations[i].share)) * w;
     const InkAcross ink = acrossAt(c, p.base, p.tangent, inkLevel, local, grey);
-    if (std::abs(ink.centre) >= kLargestTaperStepPx) continue;
-    track.stations[i].at += ink.centre * leftNormal(p.tangent);
+    const double centre = ink.centre.value_or(0.0);  // without ink it stays
+    if (std::abs(centre) >= kLargestTaperStepPx) continue;
+    track.stations[i].at += centre * leftNormal(p.tangent);
     const InkAcross centred = acrossAt(c, track.stations[i].at, p.tangent, inkLevel, local, grey);
     track.stations[i].dark = std::max(track.stations[i].dark, centred.middle / contrast);
   }
@@ -104,8 +105,9 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
     const double share = ink.darkness / whole;
     if (share > least + kGrowsAgain) break;
     const bool steers = share > kSteersFrom;
-    if (steers && std::abs(ink.centre) > kLargestTaperStepPx) break;
-    const Vec2 at = last + d + (steers ? 0.5 * ink.centre : 0.0) * leftNormal(d);
+    const double centre = ink.centre.value_or(0.0);  // without ink it goes straight on
+    if (steers && std::abs(centre) > kLargestTaperStepPx) break;
+    const Vec2 at = last + d + (steers ? 0.5 * centre : 0.0) * leftNormal(d);
     track.stations.push_back({at, share, ink.middle / contrast});
     least = std::min(least, share);
     if (share < kGone) break;

@@ -110,8 +110,8 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   demand(kLeastChordShare * angle, near);
   demand(near, kMostChordShare * angle);
   demand(far - near, kFlankShare * near);
-  const auto turnsBack = [&](double free, double other) {
-    return free < kDentReach * unit && other * e.angleRad < 0.0 && std::abs(other) >= kDentShare * angle;
+  const auto turnsBack = [&](double free, const std::optional<double>& other) {
+    return other && free < kDentReach * unit && *other * e.angleRad < 0.0 && std::abs(*other) >= kDentShare * angle;
   };
   if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
   if (e.isLocated) {

@@ -69,7 +69,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::nearest(const std::vector<Con
     least = d;
   }
   if (!best) return std::nullopt;
-  return Snapped{*best, std::sqrt(least), 0.0};
+  return Snapped{*best, std::sqrt(least)};
 }
 
 std::optional<double> CornerFinder::turnScore(const ContourPlace& p) {
@@ -105,7 +105,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::sharpestTurn(std::vector<Scor
     taken.push_back(here);
     const double distance = (fixAt(turn.place).position - mark).norm();
     const double score = turn.score * (1.0 - kFartherWorsePart * distance / snap_);
-    if (distance <= snap_ && score > (best ? best->score : 0.0)) best = Snapped{turn.place, distance, score};
+    if (distance <= snap_ && score > scoreOf(best)) best = Snapped{turn.place, distance, score};
   }
   return best;
 }
@@ -126,7 +126,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::sharpest(const std::vector<Co
         if (const auto score = turnScore(*p)) turns.push_back({*p, *score});
     }
     const auto snapped = sharpestTurn(std::move(turns), mark);
-    if (snapped && snapped->score > (best ? best->score : 0.0)) best = snapped;
+    if (snapped && scoreOf(snapped) > scoreOf(best)) best = snapped;
     first = end;
   }
   return best;

@@ -41,8 +41,8 @@ class CornerFinder {
   /// A point that a mark may stand for.
   struct Snapped {
     ContourPlace place;
-    double distance = 0.0;  ///< [px] from the mark to the turn or the point.
-    double score = 0.0;     ///< Of the turn; 0 for a point that does not turn.
+    double distance = 0.0;             ///< [px] from the mark to the turn or the point.
+    std::optional<double> score = {};  ///< Of the turn; absent: a point that does not turn.
   };
   struct ScoredPlace {
     ContourPlace place;
@@ -57,6 +57,7 @@ class CornerFinder {
   std::optional<Snapped> sharpestTurn(std::vector<ScoredPlace> turns, const Vec2& mark);
   std::optional<double> turnScore(const ContourPlace&);
   const CornerFix& fixAt(const ContourPlace&);
+  static double scoreOf(const std::optional<Snapped>& turn) { return turn ? turn->score.value_or(0.0) : 0.0; }
 
   const ContourSet& set_;
   double snap_, reach_;                            // [px]

@@ -182,10 +182,10 @@ class CircleBase {
     if (!std::isfinite(radius) || radius > kFlattestPx || far > kWidestPart * radius) return;
     radius_ = centreY_ > blocks.front().y ? -radius : radius;
   }
-  // Height and its derivatives 1 to 3 with respect to x; 0 where there is no circle.
+  // Height and its derivatives 1 to 3 with respect to x; all 0 where the blocks lie on a line.
   State at(double x) const {
-    if (!(radius_ != 0.0)) return State::Zero();
-    const double dx = x - centreX_, root = std::sqrt(radius_ * radius_ - dx * dx), sign = radius_ > 0.0 ? 1.0 : -1.0;
+    if (!radius_) return State::Zero();
+    const double dx = x - centreX_, root = std::sqrt(*radius_ * *radius_ - dx * dx), sign = *radius_ > 0.0 ? 1.0 : -1.0;
     const double p = -dx / root, q = -(1.0 + p * p) / root, r = -3.0 * p * q / root;
     return {centreY_ + sign * root, sign * p, sign * q, sign * r};
   }
@@ -193,7 +193,8 @@ class CircleBase {
  private:
   static constexpr double kFlattestPx = 1e5;  // of the radius: a flatter circle is a line
   static constexpr double kWidestPart = 0.9;  // of it along the axis: farther out it turns round
-  double centreX_ = 0.0, centreY_ = 0.0, radius_ = 0.0;
+  double centreX_ = 0.0, centreY_ = 0.0;
+  std::optional<double> radius_;  // negative: of the arc below the centre
 };
 
 // What of the derivatives is open where a model begins.

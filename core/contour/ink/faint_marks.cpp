@@ -123,11 +123,11 @@ class LineContrasts {
 }  // namespace
 
 FaintMarks faintMarks(const BitImage& marks, const BitImage& ink, const ContourSet& lines, const GreyImage& grey,
-                      double penPx, const RunContext& context) {
+                      std::optional<double> penPx, const RunContext& context) {
   FaintMarks faint{BitImage(marks.width, marks.height)};
-  if (!(penPx > 0.0) || lines.contours.empty() || marks.count() == 0) return faint;
-  const Contrasts contrasts(ink, grey, penPx);
-  const LineContrasts ofLines(lines, contrasts, penPx, context);
+  if (!penPx || !(*penPx > 0.0) || lines.contours.empty() || marks.count() == 0) return faint;
+  const Contrasts contrasts(ink, grey, *penPx);
+  const LineContrasts ofLines(lines, contrasts, *penPx, context);
   const RunPieces pieces = findPieces(marks, Connectivity::Eight, context);
   std::map<int, std::vector<InkRun>> runs;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) runs[pieces.piece[i]].push_back(pieces.runs[i]);
@@ -138,7 +138,7 @@ FaintMarks faintMarks(const BitImage& marks, const BitImage& ink, const ContourS
       box.x0 = std::min(box.x0, run.x0);
       box.x1 = std::max(box.x1, run.x1);
     }
-    if (std::hypot(box.x1 - box.x0, box.y1 - box.y0) > kMostPens * penPx) continue;
+    if (std::hypot(box.x1 - box.x0, box.y1 - box.y0) > kMostPens * *penPx) continue;
     std::vector<float> levels;
     for (const InkRun& run : ofPiece) {
       for (int x = run.x0; x < run.x1; ++x) levels.push_back(static_cast<float>(grey.row(run.y)[x]));

@@ -95,10 +95,11 @@ bool areSeen(const StripPair& pair) {
   return static_cast<double>(seen) >= kLeastSeen * count;
 }
 
+// @pre from < to.
 double middleOf(const std::vector<StripCrossing>& crossings, std::size_t from, std::size_t to) {
   std::vector<double> sizes;
   for (std::size_t i = from; i < to; ++i) sizes.push_back(std::abs(crossings[i].across));
-  return sizes.empty() ? 0.0 : upperMedian(sizes);
+  return upperMedian(sizes);
 }
 
 double partingOf(const std::vector<StripCrossing>& c) {

@@ -122,7 +122,8 @@ class PieceCutter {
   }
 
   // In the middle of every run of samples that lie on another line.
-  void addCrossings(int l, std::vector<StrokeCut>& cuts) const {
+  std::vector<StrokeCut> crossingsOf(int l) const {
+    std::vector<StrokeCut> cuts;
     const int n = lines_[l].count();
     std::vector<bool> crossed;
     for (int k = 0; k < n; ++k) crossed.push_back(isCrossed(l, k));
@@ -133,6 +134,7 @@ class PieceCutter {
       cuts.push_back({(k + last) / 2, CutKind::Crossing});
       k = last;
     }
+    return cuts;
   }
 
   // Ascending, none too near to another or to an open end.
@@ -145,7 +147,8 @@ class PieceCutter {
       cuts.push_back({static_cast<int>(at - line.samples.begin()), CutKind::Corner});
     }
     for (const int sample : attached_[l]) cuts.push_back({sample, CutKind::Attachment});
-    addCrossings(l, cuts);
+    const std::vector<StrokeCut> crossings = crossingsOf(l);
+    cuts.insert(cuts.end(), crossings.begin(), crossings.end());
     cuts = places(std::move(cuts));
     std::stable_sort(cuts.begin(), cuts.end(), [](const StrokeCut& a, const StrokeCut& b) { return a.kind > b.kind; });
     std::vector<StrokeCut> kept;

@@ -21,7 +21,8 @@ struct WindowCut {
   int top;
 };
 
-/// Where a row enters and leaves, from its first pixel centre on and clipped to the page; -1 where it does not.
+/// Where a row enters and leaves, from its first pixel centre on and clipped to the page; it ends before the page where
+/// it does not, so that no pixel lies between.
 struct RowCut {
   double from, to;
 };
