@@ -43,7 +43,7 @@ constexpr int kFewestPaperSamples = 12;  // that tell the paper of a region
 
 // How much darker than both its sides a place is on paper, by region.
 struct PaperDepth {
-  std::vector<float> mean, sigma;
+  std::vector<float> mean, sigma;  // apart, since pushPull() and the lookup take plain numbers
 };
 
 // Looks along strokes of one width.
@@ -209,10 +209,10 @@ class EndFollower {
   Step darkestFrom(const Vec2& at, const Vec2& along) const {
     Step best{along, meter_.depth(at, along)};
     for (const double a : {-kTurnDeg * kRadPerDeg, kTurnDeg * kRadPerDeg}) {
-      const Vec2 turned(std::cos(a) * along.x() - std::sin(a) * along.y(),
-                        std::sin(a) * along.x() + std::cos(a) * along.y());
-      const double depth = meter_.depth(at, turned);
-      if (depth > best.depth) best = {turned, depth};
+      const Vec2 rotated(std::cos(a) * along.x() - std::sin(a) * along.y(),
+                         std::sin(a) * along.x() + std::cos(a) * along.y());
+      const double depth = meter_.depth(at, rotated);
+      if (depth > best.depth) best = {rotated, depth};
     }
     return best;
   }

@@ -315,8 +315,8 @@ void continueSide(const Followed& f, double from, double to, CornerSide& side) {
   const double w[4] = {f.mean[0], -f.mean[1] * half, f.mean[2] / 2.0 * half * half,
                        -f.mean[3] / 6.0 * half * half * half};
   side.coefficient = {w[0] + w[1] + w[2] + w[3], w[1] + 2.0 * w[2] + 3.0 * w[3], w[2] + 3.0 * w[3], w[3], 0.0};
-  const State turned(1.0, -1.0, 1.0, -1.0);
-  Eigen::Map<Spread>(side.spread.data()) = turned.asDiagonal() * f.spread * turned.asDiagonal();
+  const State reversed(1.0, -1.0, 1.0, -1.0);
+  Eigen::Map<Spread>(side.spread.data()) = reversed.asDiagonal() * f.spread * reversed.asDiagonal();
   const State row(1.0, from, from * from / 2.0, from * from * from / 6.0);
   side.sigmaPx = std::sqrt(std::max(0.0, row.dot(f.spread * row)));
 }

@@ -64,7 +64,7 @@ struct Nodes {
 
 // Beyond the end of a stroke there is room still, and less the farther away: the line need not turn to it at once.
 void addRoomBeyond(Nodes& line, bool closed) {
-  std::vector<double> left, right;
+  std::vector<double> left, right;  // apart, since each is spread by itself
   for (const Node& node : line.nodes) {
     const double most = kBeyond * (node.room.left + node.room.right);
     left.push_back(std::min(node.room.left, most));

@@ -40,8 +40,8 @@ class TurnSearch {
       const Vec2& next = points[wrapIndex(at + 1, static_cast<int>(points.size()))];
       const double f = end > arc[at] ? std::clamp((along - arc[at]) / (end - arc[at]), 0.0, 1.0) : 0.0;
       const bool isLast = at + 1 == std::ssize(arc) && !line.closed;
-      samples_.push_back(isLast ? points[at] : Vec2(points[at] + f * (next - points[at])));
-      point_.push_back(wrapIndex(f < 0.5 || isLast ? at : at + 1, static_cast<int>(points.size())));
+      samples_.push_back({isLast ? points[at] : Vec2(points[at] + f * (next - points[at])),
+                          wrapIndex(f < 0.5 || isLast ? at : at + 1, static_cast<int>(points.size()))});
     }
   }
 
@@ -67,7 +67,7 @@ class TurnSearch {
         return isBeside(other.sample, turn.sample) &&
                (other.score > turn.score || (other.score == turn.score && other.sample < turn.sample));
       });
-      if (!isPart) points.push_back(point_[sharpestBeside(turn.sample)]);
+      if (!isPart) points.push_back(samples_[sharpestBeside(turn.sample)].point);
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -83,7 +83,7 @@ class TurnSearch {
   }
   Vec2 chord(int from, int to) const {
     const int n = static_cast<int>(samples_.size());
-    return samples_[wrapIndex(to, n)] - samples_[wrapIndex(from, n)];
+    return samples_[wrapIndex(to, n)].at - samples_[wrapIndex(from, n)].at;
   }
   static double angleBetween(const Vec2& in, const Vec2& out) { return std::atan2(cross(in, out), in.dot(out)); }
 
@@ -122,9 +122,12 @@ class TurnSearch {
     return wrapIndex(best, static_cast<int>(samples_.size()));
   }
 
+  struct Sample {
+    Vec2 at;
+    int point;  // of the line, nearest to the sample
+  };
   bool closed_;
-  std::vector<Vec2> samples_;
-  std::vector<int> point_;  ///< Of the line, nearest to every sample.
+  std::vector<Sample> samples_;
 };
 
 }  // namespace

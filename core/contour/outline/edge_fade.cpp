@@ -121,7 +121,7 @@ void undoFade(Contour& c, const GreyImage& grey, const RunContext& context) {
   const double blur = std::sqrt(*c.blurPx * *c.blurPx + kPixelVariance + PixelWindow::kVariance);
   const std::vector<std::optional<float>> measured = measureFade(c, grey, blur, context);
   if (context.isCancelled()) return;
-  std::vector<float> fade, weight;
+  std::vector<float> fade, weight;  // apart, since smoothValues() takes plain numbers
   for (const auto& value : measured) {
     fade.push_back(value.value_or(0.0f));
     weight.push_back(value ? 1.0f : 0.0f);

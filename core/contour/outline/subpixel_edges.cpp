@@ -130,7 +130,7 @@ void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
   for (int round = 0; round < kReversalRounds; ++round) {
     bool clean = true;
     for (int i = 0; i < n; ++i) {
-      const Vec2 tangent = -leftNormal(normal[index(i)]);  // turned back by 90 degrees
+      const Vec2 tangent = -leftNormal(normal[index(i)]);  // rotated back by 90 degrees
       if ((point(i + 1).at - point(i).at).dot(tangent) > 0.0) continue;
       const Vec2 from = point(i - 1).at, to = point(i + 2).at;
       point(i).at = from + (to - from) / 3.0;
