@@ -64,6 +64,7 @@ std::optional<int> ChosenInk::choiceOf(int piece) const {
 std::optional<int> ChosenInk::choiceAt(const Vec2& px) const {
   if (chosen_.empty()) return std::nullopt;
   const int x = static_cast<int>(std::floor(px.x())), y = static_cast<int>(std::floor(px.y()));
+  // The pixel itself, then its neighbours, the nearer ones first.
   constexpr std::array<std::pair<int, int>, 9> kNear = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   for (const auto& [dx, dy] : kNear) {

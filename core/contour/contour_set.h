@@ -102,7 +102,7 @@ struct ContourReport {
   int droppedFaint = 0;           ///< Specks much fainter than the strokes around.
   double refinedShare = 0;        ///< Part of the points that were placed on the grey values, 0..1.
   std::optional<double> widthPx;  ///< [px] Stroke width, the unit of EdgeParams::mergeWidths; absent: no strokes.
-  bool isGrouped = false;         ///< The lines are curves that were meant by lines drawn over more than once.
+  bool isGrouped = false;         ///< The lines are intended curves of lines drawn over more than once.
   std::string note;
 };
 

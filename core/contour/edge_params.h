@@ -26,7 +26,7 @@ struct EdgeParams {
       4.0;  ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each other; 0 = none.
   double mergeWidths =
       0.0;  ///< [stroke widths] 0..20. Strokes closer together than this are merged into one line; 0 = off.
-  /// Lines that were drawn over more than once become the curves that were meant, found place by place; mergeWidths,
+  /// Lines that were drawn over more than once become the intended curves, found place by place; mergeWidths,
   /// where it is not 0, is the distance to begin with. Pages without such lines stay as they are.
   bool intent = false;
   double spurFactor = 1.5;   ///< [stroke widths] 0..5. Side branches of the skeleton shorter than this are dropped.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/number_text.h"
-#include "core/contour/line_choices.h"
+#include "core/contour/ink/line_choices.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {

@@ -12,6 +12,8 @@
 namespace batten {
 namespace {
 
+constexpr double kFarthestCornerPx = 1e7;  // of a region: far beyond any page; a limit of input
+
 /// Where the row through y meets the sides of a polygon, sorted.
 std::vector<double> crossings(const RegionOfInterest& region, double y) {
   std::vector<double> at;
@@ -95,7 +97,8 @@ std::optional<Error> validate(const RegionOfInterest& region) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
   if (region.cornersPx.size() < 3) return bad("A region needs at least three corners.");
   for (const Vec2& p : region.cornersPx) {
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e7) return bad("A corner of a region has no valid position.");
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kFarthestCornerPx)
+      return bad("A corner of a region has no valid position.");
   }
   if (!(polygonArea(region.cornersPx) > 0.0)) return bad("A region must have an area.");
   return std::nullopt;

@@ -10,14 +10,14 @@
 
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
-#include "core/contour/blots.h"
 #include "core/contour/centreline/centreline.h"
+#include "core/contour/centreline/fine_lines.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/chosen_ink.h"
-#include "core/contour/faint_marks.h"
-#include "core/contour/fine_lines.h"
-#include "core/contour/ink_split.h"
-#include "core/contour/line_choices.h"
+#include "core/contour/ink/blots.h"
+#include "core/contour/ink/faint_marks.h"
+#include "core/contour/ink/ink_split.h"
+#include "core/contour/ink/line_choices.h"
 #include "core/contour/outline/crack_contours.h"
 #include "core/contour/outline/implied_borders.h"
 #include "core/contour/outline/soft_borders.h"
@@ -95,7 +95,7 @@ void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& co
   });
 }
 
-// Who asked for outlines on a shaded drawing wants the edges of its tones, not where they fade.
+// The outlines of a shaded drawing are the edges of its tones, not where they fade.
 void dropSoftBorders(ContourSet& set, const GreyImage& grey, const ContourParams& params, const RunContext& context) {
   std::vector<Contour> kept;
   for (Contour& contour : set.contours) {
@@ -146,7 +146,7 @@ double shortestPx(const ContourParams& params, double penPx) {
 // [px] A pen width for ink that is followed along its borders alone: that of its borders in the middle, where twice
 // the area by the border is the width of a line; never more than a small mark may be wide.
 double penOfBorders(const ContourSet& borders) {
-  constexpr double kMostPenPx = 40.0 / 3.0;
+  constexpr double kMostPenPx = 40.0 / 3.0;  // of whose usual least length, three widths, a small mark has 40 px
   std::vector<std::pair<double, double>> widths;
   double all = 0.0, sum = 0.0;
   for (const Contour& c : borders.contours) {
@@ -205,8 +205,9 @@ BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgePar
 }
 
 // What the user turned over or painted to be followed along its middle is.
-BitImage notChosen(BitImage fillings, const RunPieces& regions, const BitImage& painted, const EdgeParams& edges) {
-  if (painted.width > 0) fillings = without(std::move(fillings), painted);
+BitImage notChosen(BitImage fillings, const RunPieces& regions, const std::optional<BitImage>& painted,
+                   const EdgeParams& edges) {
+  if (painted) fillings = without(std::move(fillings), *painted);
   const ChosenInk chosen(regions, edges.choices);
   for (std::size_t i = 0; i < regions.runs.size(); ++i) {
     if (chosen.choiceOf(regions.piece[i])) clearBits(fillings, regions.runs[i]);
@@ -238,7 +239,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   int faint = 0;
   if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
     const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
-    const FaintMarks dropped = faintMarks(marks, ink, *lines, grey, split->penPx.value_or(0.0), context);
+    const FaintMarks dropped = faintMarks(marks, ink, *lines, grey, split->penPx, context);
     found.blots = without(std::move(found.blots), dropped.ink);
     split->shapes = without(std::move(split->shapes), dropped.ink);
     split->strokes = without(std::move(split->strokes), dropped.ink);
@@ -251,17 +252,18 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
                          notChosen(findFillings(*split, *lines, context), found.regions, split->painted, edges));
   }
   if (context.isCancelled()) return cancelled();
-  const bool isPaintedInVain = split->painted.width > 0 && both(found.blots, split->painted).count() > 0;
+  const bool isPaintedInVain = split->painted && both(found.blots, *split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
-  const BitImage grainy = split->pencil.width > 0 ? without(std::move(split->pencil), found.blots) : BitImage();
+  const auto grainy = split->pencil ? std::optional(without(std::move(split->pencil->ink), found.blots)) : std::nullopt;
   int texture = 0;
   if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
     EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);
     split->shapes = without(std::move(even.ink), split->strokes);
     texture = even.filled;
   }
-  Result<ContourSet> borders = bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &grainy, context);
+  Result<ContourSet> borders =
+      bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, grainy ? &*grainy : nullptr, context);
   if (!borders) return fail(borders.error());
   borders->report.droppedHoles += texture;
   borders->report.droppedFaint = faint;
@@ -311,7 +313,7 @@ double explainedInk(const ContourSet& set, const BitImage& ink) {
   return area / std::max(1.0, static_cast<double>(ink.count()));
 }
 
-// Whether lines may have gone lost in a net: none came, or they stand for too little of the ink. Of merged and meant
+// Whether lines may have gone lost in a net: none came, or they stand for too little of the ink. Of merged and intended
 // lines one stands for several strokes, and what the user wants of the ink holds.
 bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
   constexpr double kLeastExplained = 0.5;  // of the ink
@@ -332,8 +334,9 @@ std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
   }
+  constexpr double kMostShown = 1e9;  // what an integer holds
   const bool isPx = params.minLengthPx > 0.0;
-  const auto limit = std::lround(std::min(isPx ? params.minLengthPx : params.minWidths, 1e9));
+  const auto limit = std::lround(std::min(isPx ? params.minLengthPx : params.minWidths, kMostShown));
   return "No line of " + std::to_string(limit) + (isPx ? " px" : " stroke widths") +
          " or longer was found: lower the smallest length or raise the thresholds.";
 }
@@ -374,7 +377,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     addNote(*set, "No lines drawn over more than once were found: edges.intent changes nothing.");
   }
   sortAndCut(*set, params);
-  // Those of lines that were left out are no longer asked about.
+  // Those of lines that were left out are no longer offered.
   set->junctions = junctionsOfLines(std::move(set->junctions), set->contours);
   context.report(0.6);
   if (edges.subpixel) {

@@ -15,7 +15,7 @@ using nlohmann::json;
 class Suggest : public test::Program {
  protected:
   std::string page(int strokes) const {
-    const test::MeantLine line = test::cubicLine({60, 500}, {420, 560}, {200, 80}, {580, 120});
+    const test::IntendedLine line = test::cubicLine({60, 500}, {420, 560}, {200, 80}, {580, 120});
     std::vector<test::PenPath> drawn;
     for (int k = 0; k < strokes; ++k)
       drawn.push_back(test::wanderAlong(line, 0.0, 1.0, 10.0, 101 + static_cast<unsigned>(k)));

@@ -12,11 +12,11 @@
 
 namespace batten::test {
 
-MeantLine straightLine(const Vec2& a, const Vec2& b) {
+IntendedLine straightLine(const Vec2& a, const Vec2& b) {
   return [a, b](double t) { return Vec2(a + t * (b - a)); };
 }
 
-MeantLine cubicLine(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+IntendedLine cubicLine(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return [=](double t) {
     const double u = 1.0 - t;
     return Vec2(u * u * u * a + 3.0 * u * u * t * b + 3.0 * u * t * t * c + t * t * t * d);
@@ -28,7 +28,7 @@ Vec2 beanAt(double t) {
   return {320.0 + r * std::cos(a), 320.0 + r * std::sin(a)};
 }
 
-PenPath strokeAlong(const MeantLine& line, double from, double to, double offset, double waver, double phase) {
+PenPath strokeAlong(const IntendedLine& line, double from, double to, double offset, double waver, double phase) {
   PenPath points;
   constexpr int kSteps = 1500;
   for (int i = 0; i <= kSteps; ++i) {
@@ -39,7 +39,7 @@ PenPath strokeAlong(const MeantLine& line, double from, double to, double offset
   return points;
 }
 
-PenPath wanderAlong(const MeantLine& line, double from, double to, double scatterPx, unsigned seed) {
+PenPath wanderAlong(const IntendedLine& line, double from, double to, double scatterPx, unsigned seed) {
   constexpr int kSteps = 1500, kWaves = 4;
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -60,7 +60,7 @@ PenPath wanderAlong(const MeantLine& line, double from, double to, double scatte
   return points;
 }
 
-void drawOver(std::vector<PenPath>& strokes, const MeantLine& line, int count, double spreadPx, unsigned seed) {
+void drawOver(std::vector<PenPath>& strokes, const IntendedLine& line, int count, double spreadPx, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int k = 0; k < count; ++k) {

@@ -38,7 +38,7 @@ SquareSums squaresPlain(const StrokePixels& pixels, const BorderResiduals& of) {
   return sums;
 }
 
-constexpr BorderKernels kPlainBorders{sumsPlain, squaresPlain};
+constexpr BorderKernels kPlainBorders{sumsPlain, squaresPlain};  // for any processor
 
 #ifdef BATTEN_HAS_AVX2
 
@@ -134,7 +134,7 @@ BATTEN_AVX2 SquareSums squaresAvx2(const StrokePixels& pixels, const BorderResid
   return {sums[0], sums[1], sums[2], sums[3], _mm_cvtsd_f64(sumW)};
 }
 
-constexpr BorderKernels kAvx2Borders{sumsAvx2, squaresAvx2};
+constexpr BorderKernels kAvx2Borders{sumsAvx2, squaresAvx2};  // four values at once
 
 #endif
 

@@ -44,23 +44,23 @@ void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
 }
 
 // The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
-StrokeNet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
-                        const RunContext& context) {
+StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
+                            const RunContext& context) {
   const BitImage* shapes = options.shapes;
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
   const bool isKnown = options.known != nullptr && options.known->ink == all;
   if (isKnown && shapes == nullptr) return {std::move(options.known->paths), std::move(options.known->junctions)};
   BitImage skeleton = isKnown ? std::move(options.known->skeleton) : BitImage(all);
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
-  if (shapes == nullptr) return findStrokeNet(skeleton, all, params, context);
-  StrokeNet net = findStrokeNet(without(std::move(skeleton), *shapes), all, params, context);
-  endAtRims(net.paths, *shapes);
-  return net;
+  if (shapes == nullptr) return findPathsAndJunctions(skeleton, all, params, context);
+  StrokePathSet found = findPathsAndJunctions(without(std::move(skeleton), *shapes), all, params, context);
+  endAtRims(found.paths, *shapes);
+  return found;
 }
 
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
 bool isMargin(const Contour& c, const GreyImage& grey, double pixelsPerPx) {
-  constexpr double kTouchPx = 2.0, kMostly = 0.7;
+  constexpr double kTouchPx = 2.0, kMostly = 0.7;  // from the stroke to the border of the page; of its points
   int touching = 0;
   for (const ContourPoint& point : c.points) {
     const Vec2& p = point.at;
@@ -97,8 +97,8 @@ BitImage coverOf(const BitImage& like, const std::vector<StrokePath>& paths, con
 BitImage grainHoles(const BitImage& taken, const BitImage& rest, const BitImage& strokes, double widthPx,
                     const RunContext& context) {
   constexpr double kLeastInkShare = 0.25;  // of a hole of grain; that of a loop has none but at its rim
-  constexpr double kLeastGapWidths =
-      4.0;  // the means that tell lines from paper are as long: half of it at either side
+  // The means that tell lines from paper are as long: half of it at either side.
+  constexpr double kLeastGapWidths = 4.0;
   const BitImage body = either(taken, rest);
   const BitImage brief = without(taken, keepPieces(taken, {.minDiagonal = kLeastGapWidths * widthPx}, context));
   const BitImage besidePaper = grown(without(grown(body, 1, context), body), 1, context);
@@ -170,7 +170,7 @@ RefinedStrokes placeOnPage(const std::vector<StrokePath>& paths, const Grainines
 
 // [grey] by which a stroke is darker than the paper on both its sides.
 double depthOf(const StrokePath& s, const GreyImage& grey) {
-  constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;
+  constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;  // from the middle: paper beyond the blur of the border
   const auto level = [&](const Vec2& at) {
     return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
                                           std::clamp(static_cast<int>(at.y()), 0, grey.height - 1)));
@@ -230,9 +230,9 @@ bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
 }
 
-// Within the discs of junctions and corners no grey values are asked. Where a pencil's broad and torn strokes meet,
-// whole strokes lie there: they are asked all along.
-void askHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
+// Within the discs of junctions and corners no grey values are read. Where a pencil's broad and torn strokes meet,
+// whole strokes lie there: they are read all along.
+void readHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
   for (int i = 0; i < std::ssize(paths); ++i) {
     std::vector<StrokePathPoint>& points = paths[i].points;
     const bool isHidden =
@@ -244,20 +244,20 @@ void askHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
   }
 }
 
-// The curves that were meant, in place of the lines, where the page shows lines drawn over more than once.
+// The intended curves, in place of the lines, where the page shows lines drawn over more than once.
 void groupByIntent(ContourSet& set, const EdgeParams& params, double width, double minWidths,
                    const RunContext& context) {
   const std::optional<double> given = params.mergeWidths > 0.0 ? std::optional(params.mergeWidths) : std::nullopt;
-  auto meant = intendedLines(set.contours, width, given, context);
-  if (!meant) return;
-  set.contours = std::move(*meant);
+  auto intended = intendedLines(set.contours, width, given, context);
+  if (!intended) return;
+  set.contours = std::move(*intended);
   set.report.isGrouped = true;
   set.report.droppedShort +=
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return c.lengthPx < minWidths * width; }));
 }
 
 struct PathsFound {
-  StrokeNet net;
+  StrokePathSet strokes;
   std::optional<BitImage> bodies;  ///< What the strokes became where some are of a pencil.
   double widthPx = 0.0;            ///< Median of the strokes as they were thresholded.
 };
@@ -268,8 +268,8 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   const BitImage* shapes = options.shapes;
   const int pixelsPerPx = options.pixelsPerPx();
   PathsFound found;
-  found.net = centrelinesOf(strokes, options, params, context);
-  std::vector<StrokePath>& paths = found.net.paths;
+  found.strokes = centrelinesOf(strokes, options, params, context);
+  std::vector<StrokePath>& paths = found.strokes.paths;
   if (context.isCancelled()) return found;
   found.widthPx = medianWidth(paths, [](int) { return true; });
   const bool isKnown = shapes == nullptr && options.known != nullptr && options.known->ink == strokes;
@@ -285,16 +285,18 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
     bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context, pixelsPerPx));
     if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     if (context.isCancelled()) return found;
-    found.net = centrelinesOf(bodies, options, params, context);
+    found.strokes = centrelinesOf(bodies, options, params, context);
     found.bodies = std::move(bodies);
     const GraininessMap ofBodies = grainOf(paths, grey, options, context);
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));
+  } else {
+    pencil.assign(paths.size(), false);
   }
   bridgeGaps(paths, pencil, found.bodies ? *found.bodies : strokes, grey, params, context);
   return found;
 }
 
-// One line of several strokes, by whichever of the two ways is asked for.
+// One line of several strokes, by whichever of the two ways is requested.
 void joinStrokes(ContourSet& set, const EdgeParams& params, double width, double minWidths, const RunContext& context) {
   if (params.intent) {
     groupByIntent(set, params, width, minWidths, context);
@@ -308,7 +310,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
                                 const RunContext& context, const CentrelineOptions& options) {
   PathsFound found = findPaths(strokes, grey, params, options, context);
   if (context.isCancelled()) return cancelled();
-  std::vector<StrokePath>& paths = found.net.paths;
+  std::vector<StrokePath>& paths = found.strokes.paths;
   const bool anyPencil = found.bodies.has_value();
   const int pixelsPerPx = options.pixelsPerPx();
   ContourSet set;
@@ -319,7 +321,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   std::optional<GraininessMap> ofKept;
   if (anyPencil) {
     ofKept = grainOf(paths, grey, options, context);
-    askHidden(paths, *ofKept);
+    readHidden(paths, *ofKept);
   }
   const GraininessMap* grain = ofKept ? &*ofKept : nullptr;
   RefinedStrokes placed = options.page != nullptr ? placeOnPage(paths, grain, *options.page, params.subpixel, context)
@@ -335,7 +337,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);
   if (!params.intent && params.mergeWidths <= 0.0)
-    set.junctions = junctionsOfLines(std::move(found.net.junctions), set.contours);
+    set.junctions = junctionsOfLines(std::move(found.strokes.junctions), set.contours);
   if (context.isCancelled()) return cancelled();
   set.report.droppedMargins =
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey, pixelsPerPx); }));

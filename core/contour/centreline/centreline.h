@@ -33,7 +33,7 @@ struct StrokesOfInk {
 };
 
 /// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth stroke paths joined through
-/// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
+/// crossings, gaps bridged, overdrawn strokes merged on request), then the centre from the grey profile across the
 /// stroke.
 struct CentrelineOptions {
   const BitImage* shapes = nullptr;  ///< Ink beside the strokes, which they may run into: they end at its rim.

@@ -16,6 +16,7 @@
 namespace batten {
 namespace {
 
+constexpr double kMiddleHalf = 0.25;                    // of the width to either side: the middle half of a stroke
 constexpr float kEndContrast = 4.0f;                    // [grey]
 constexpr double kBesideEndPx = 2.5;                    // [px] of paper looked at round an end
 constexpr double kEndStepPx = 0.5;                      // [px] between the places at which an end is compared
@@ -23,15 +24,15 @@ constexpr double kTipStepPx = 0.25;                     // [px] between the plac
 constexpr int kTipSteps = 5;                            // and how many of them to either side
 constexpr double kSamplesPerPx = 4.0;                   // at half a pixel's step each pixel is seen so often
 constexpr double kLessSkewed = 0.5, kMostSkewed = 1.0;  // [-] slopes of a cut: as far as 45 degrees from square
-constexpr double kCutSlopes[] = {-kMostSkewed, -kLessSkewed, 0.0, kLessSkewed, kMostSkewed};
-constexpr double kLeastEndBlurPx = 0.4, kMostEndBlurPx = 2.4, kBlurStepPx = 0.1;  // standard deviations
-constexpr double kThinnerPx = 0.75, kThickerPx = 0.25, kRadiusStepPx = 0.1;       // than half the width at half level
+constexpr double kCutSlopes[] = {-kMostSkewed, -kLessSkewed, 0.0, kLessSkewed, kMostSkewed};  // all that are tried
+constexpr double kLeastEndBlurPx = 0.4, kMostEndBlurPx = 2.4, kBlurStepPx = 0.1;              // standard deviations
+constexpr double kThinnerPx = 0.75, kThickerPx = 0.25, kRadiusStepPx = 0.1;  // than half the width at half level
 
 // [stroke widths] and [px] beyond the end of a skeleton in which the end of the ink is looked for: the skeleton stops
 // up to a width before it, a worn mask up to another, and half the profile of the end lies behind it.
 constexpr double kBeyondEndWidths = 2.0, kBeyondEndPx = 3.0;
 
-constexpr double kLeastRadiusPx = 0.3;
+constexpr double kLeastRadiusPx = 0.3;      // of a strip that can be told from its blur
 constexpr double kRuledOut = 6.0;           // [nats] less likely than the best: not tried
 constexpr double kLeastEndVariance = 0.25;  // [grey^2] of the rounding to whole levels and of the model
 
@@ -128,12 +129,12 @@ EndPatch patchAt(const EndCourse& end, double tipPx, double radius, const GreyIm
   return patch;
 }
 
-// The places at which the model of an end is asked for: those of a patch, for every tip that is tried.
+// The places at which the model of an end is evaluated: those of a patch, for every tip that is tried.
 class EndPlaces {
  public:
   explicit EndPlaces(const EndPatch& patch)
       : patch_(patch), rows_((patch.rows - 1) * kStepsPerRow + 2 * kTipSteps + 1), columns_(patch.columns) {}
-  static constexpr int kStepsPerRow = static_cast<int>(kEndStepPx / kTipStepPx);
+  static constexpr int kStepsPerRow = static_cast<int>(kEndStepPx / kTipStepPx);  // places of the tip from row to row
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   double along(int i) const { return patch_.firstPx + (i - kTipSteps) * kTipStepPx; }
@@ -193,7 +194,7 @@ BATTEN_HOT_LOOP void addLanes(const double* seen, const double* reached, int lan
 class RoundLanes {
  public:
   RoundLanes(const PenModel& pen, const EndPlaces& places)
-      : pen_(pen), count_(std::max(8, static_cast<int>(std::ceil(4.0 * pen.radius / pen.blur)))) {
+      : pen_(pen), count_(std::max(kFewestLanes, static_cast<int>(std::ceil(kLanesPerBlur * pen.radius / pen.blur)))) {
     lane_ = 2.0 * pen.radius / count_;
     for (int j = 0; j < count_; ++j) {
       for (int k = 0; k < places.columns(); ++k) {
@@ -217,7 +218,9 @@ class RoundLanes {
   }
 
  private:
-  static constexpr double kFar = 3.5;  // standard deviations: nothing is seen of lanes farther off
+  static constexpr int kFewestLanes = 8;        // of a round end, however blurred
+  static constexpr double kLanesPerBlur = 4.0;  // of the radius: a lane is half a standard deviation wide
+  static constexpr double kFar = 3.5;           // standard deviations: nothing is seen of lanes farther off
   double middleOf(int j) const { return (j + 0.5) * lane_ - pen_.radius; }
   double tipOf(int j) const {
     const double v = middleOf(j);
@@ -234,7 +237,7 @@ struct FittedEnd {
   double misfit = std::numeric_limits<double>::infinity();
 };
 
-constexpr int kTips = 2 * kTipSteps + 1, kTipLanes = kTips + 1;
+constexpr int kTips = 2 * kTipSteps + 1, kTipLanes = kTips + 1;  // an even number fills the vectors
 
 // The misfit of every tip, the last first; behind them one that is none. `model` runs on by one number.
 BATTEN_HOT_LOOP void addMisfits(const EndPatch& patch, const double* model, int modelRows, double* __restrict misfit) {
@@ -280,7 +283,7 @@ std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside
     const double s = k * kStrokeStepPx;
     const Vec2 normal = end.normal(s);
     for (int j = -lanes; j <= lanes; ++j) {
-      const Vec2 at = end.position(s) + (0.25 * widthPx * j / lanes) * normal;
+      const Vec2 at = end.position(s) + (kMiddleHalf * widthPx * j / lanes) * normal;
       level[k] += sampleGrey(grey, at.x(), at.y()) / static_cast<float>(2 * lanes + 1);
     }
   }

@@ -24,9 +24,11 @@ constexpr double kBesideWidths = 0.75;           // [stroke widths] from the mid
 constexpr double kBesidePx[] = {1.5, 2.5, 3.5};  // and so much more
 constexpr double kTrailCoreWidths = 0.25;        // [stroke widths] to both sides of the middle, where all is ink,
 constexpr double kMostTrailCorePx = 1.0;         // and of wide ones: three lanes see what there is
-constexpr double kSoftEndPx = 2.0;               // beyond its mask a stroke fades by the blur of the scan
-constexpr double kLeastEndWidths = 3.0;          // [stroke widths] a shorter stroke has no direction
-constexpr double kMostAheadWidths = 1.5;         // [stroke widths] of ink before a free end: more is others'
+constexpr int kMostHook = 3;  // part of the stretch that gives the direction: what is left out at its end is no more
+constexpr double kAheadStepPx = 0.5;      // of the search for the end of the ink
+constexpr double kSoftEndPx = 2.0;        // beyond its mask a stroke fades by the blur of the scan
+constexpr double kLeastEndWidths = 3.0;   // [stroke widths] a shorter stroke has no direction
+constexpr double kMostAheadWidths = 1.5;  // [stroke widths] of ink before a free end: more is others'
 // [standard deviations of a step on paper] The darkest of three directions is 0.85 darker than one on an average; what
 // is not clearly more speaks against the line.
 constexpr double kNoEvidence = 2.0;
@@ -41,7 +43,7 @@ constexpr int kFewestPaperSamples = 12;  // that tell the paper of a region
 
 // How much darker than both its sides a place is on paper, by region.
 struct PaperDepth {
-  std::vector<float> mean, sigma;
+  std::vector<float> mean, sigma;  // apart, since pushPull() and the lookup take plain numbers
 };
 
 // Looks along strokes of one width.
@@ -131,14 +133,15 @@ class EndFollower {
     const int n = static_cast<int>(path.points.size());
     const auto at = [&](int k) -> const Vec2& { return path.points[side == 0 ? k : n - 1 - k].at; };
     const int back = std::min(n - 1, static_cast<int>(meter_.stepPx() + widthPx));
-    const int hook = std::min(back / 3, static_cast<int>(0.5 * widthPx + 1.0));
+    const int hook = std::min(back / kMostHook, static_cast<int>(0.5 * widthPx + 1.0));
     const Vec2 d = at(hook) - at(back);
     if (!(d.norm() > 0.0)) return std::nullopt;
     FaintEnd end{at(0), d.normalized(), 0.0, path.length()};
     end.depth = depthOf(path);
-    for (double ahead = 0.0; ink_.at(static_cast<int>(end.at.x()), static_cast<int>(end.at.y())); ahead += 0.5) {
+    for (double ahead = 0.0; ink_.at(static_cast<int>(end.at.x()), static_cast<int>(end.at.y()));
+         ahead += kAheadStepPx) {
       if (ahead > kMostAheadWidths * widthPx + 1.0) return std::nullopt;
-      end.at += 0.5 * end.out;
+      end.at += kAheadStepPx * end.out;
     }
     end.at += meter_.softEndPx() * end.out;
     return end;
@@ -206,10 +209,10 @@ class EndFollower {
   Step darkestFrom(const Vec2& at, const Vec2& along) const {
     Step best{along, meter_.depth(at, along)};
     for (const double a : {-kTurnDeg * kRadPerDeg, kTurnDeg * kRadPerDeg}) {
-      const Vec2 turned(std::cos(a) * along.x() - std::sin(a) * along.y(),
-                        std::sin(a) * along.x() + std::cos(a) * along.y());
-      const double depth = meter_.depth(at, turned);
-      if (depth > best.depth) best = {turned, depth};
+      const Vec2 rotated(std::cos(a) * along.x() - std::sin(a) * along.y(),
+                         std::sin(a) * along.x() + std::cos(a) * along.y());
+      const double depth = meter_.depth(at, rotated);
+      if (depth > best.depth) best = {rotated, depth};
     }
     return best;
   }

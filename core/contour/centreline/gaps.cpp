@@ -14,8 +14,8 @@ namespace batten {
 namespace {
 
 // A skeleton ends before its ink does, by up to a width and a pixel; there are two of them to a gap.
-constexpr double kSkeletonShort = 2.0;  // [stroke widths]
-constexpr double kSkeletonShortPx = 2.0;
+constexpr double kSkeletonShort = 2.0;      // [stroke widths]
+constexpr double kSkeletonShortPx = 2.0;    // and a pixel at each of the two
 constexpr double kFacingDeg = 30.0;         // between the direction of an end and the way to the other
 constexpr double kShortGapWidths = 1.5;     // [stroke widths] below this gap its direction is unreliable:
 constexpr double kShortGapTurnDeg = 60.0;   // the directions of the two ends decide,
@@ -60,7 +60,7 @@ Vec2 endDirection(const StrokePath& s, int side, double width) {
 
 // [px] of ink on one side of a place.
 double inkTowards(const BitImage& ink, const Vec2& from, const Vec2& direction, double most) {
-  constexpr double kStepPx = 0.125;
+  constexpr double kStepPx = 0.125;  // of a chord; many are averaged
   double reach = 0.0;
   for (; reach < most; reach += kStepPx) {
     const Vec2 p = from + reach * direction;
@@ -71,7 +71,9 @@ double inkTowards(const BitImage& ink, const Vec2& from, const Vec2& direction, 
 
 // [px] width of the ink across a stroke: the mean over the middle half of its chords, since each is whole pixels.
 double inkWidthOf(const StrokePath& s, const BitImage& ink) {
-  constexpr int kChords = 64, kReach = 4, kFewestChords = 4;
+  constexpr int kChords = 64;       // at most, spread over the stroke
+  constexpr int kReach = 4;         // points to either side, for the direction
+  constexpr int kFewestChords = 4;  // of which half are averaged
   const int n = static_cast<int>(s.points.size());
   std::vector<double> chords;
   for (int k = 0; k < kChords && n > 2 * kReach; ++k) {
@@ -110,7 +112,7 @@ std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const std::v
     const StrokePath& s = paths[i];
     if (s.closed || s.points.size() < 3) continue;
     const double width = s.widthPx();
-    const bool isPencil = !pencil.empty() && pencil[i];
+    const bool isPencil = pencil[i];
     if (!isPencil && s.length() < kLeastStrokeWidths * width) continue;
     const double inkWidth = s.tip[0] || s.tip[1] ? inkWidthOf(s, ink) : width;
     for (int side = 0; side < 2; ++side) {
@@ -129,7 +131,7 @@ std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const std::v
 // [px] of the straight way from one end to the other that is paper, between the last ink here and the first ink there:
 // the gap as it is seen. Skeletons end inside the ink, by an amount that depends on the shape of the pen tip.
 double paperBetween(const OpenEnd& a, const OpenEnd& b, const BitImage& ink) {
-  constexpr double kStepPx = 0.25;
+  constexpr double kStepPx = 0.25;  // passes over no more than the corner of a pixel
   const double length = (b.at - a.at).norm();
   const int steps = static_cast<int>(length / kStepPx) + 1;
   std::optional<int> first;
@@ -224,7 +226,7 @@ void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
       const OpenEnd& a = ends[i];
       if (!a.best || *a.best <= i || ends[*a.best].best != i) continue;
       const OpenEnd& b = ends[*a.best];
-      // A stroke path is turned at most once a round, so that the sides noted above stay true.
+      // A stroke path is reversed at most once a round, so that the sides noted above stay true.
       if (moved[a.path] || moved[b.path]) {
         joined = true;
         continue;

@@ -11,7 +11,7 @@ namespace batten {
 /// Joins stroke paths over gaps: mutually nearest free ends that look at each other. How long a gap is
 /// (EdgeParams::gapFactor) is measured from ink to ink. Strokes too short to have a direction are not joined, nor such
 /// as differ much in width, but for those of a pencil, whose grain makes both.
-/// @param pencil whether each path was drawn with a pencil; empty: none was.
+/// @param pencil whether each path was drawn with a pencil.
 void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil, const BitImage& ink,
                 const GreyImage& grey, const EdgeParams& params, const RunContext& context);
 

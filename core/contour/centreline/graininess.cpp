@@ -33,6 +33,7 @@ constexpr int kLeastStride = 3;                // points: neighbouring samples s
 constexpr int kGrainEvery = 8;                 // points: regions are far larger
 constexpr double kLeastDepth = 2.0;            // [grey]
 constexpr double kMostDeviation = 0.12;        // of the depth: what is farther off is an end, a crossing or a gap
+constexpr int kPathsPerBlock = 4;              // worked on together; the result does not depend on it
 constexpr int kDepthPlaces = 12;               // along a stroke path without samples
 constexpr double kPenDepths = 2.0;             // of the pencil's depth: a stroke so dark may be a pen's
 constexpr double kPenGrain = 0.75;             // of the pencil's grain: that of a pen beside it is less
@@ -66,7 +67,7 @@ using Lanes = std::array<float, kLanes>;
 // The median of every lane over 2 kWindow + 1 places: after each round the largest of those left lies behind the
 // others. Unrolled, so that all places of a lane lie in registers and the lanes are worked on side by side.
 BATTEN_HOT_LOOP void medianOfLanes(const Lanes* places, float* __restrict median) {
-  constexpr int kPlaces = 2 * kWindow + 1;
+  constexpr int kPlaces = 2 * kWindow + 1;  // the middle one, and those to both sides
   for (int k = 0; k < kLanes; ++k) {
     float sorted[kPlaces];
     BATTEN_UNROLL
@@ -245,7 +246,7 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   const int stride = static_cast<int>(kLeastStride * std::max(1.0, total / kMostPx));
   std::vector<std::vector<GrainSample>> samples(paths.size());
   std::vector<double> depths(paths.size(), 0.0);
-  parallelFor(context, static_cast<int>(paths.size()), 4, [&](int begin, int end) {
+  parallelFor(context, static_cast<int>(paths.size()), kPathsPerBlock, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       samples[i] = samplesAlong(paths[i], grey, stride, places);
       depths[i] = depthOf(paths[i], samples[i], grey);

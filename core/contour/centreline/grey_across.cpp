@@ -42,7 +42,7 @@ BATTEN_HOT_LOOP void placeSamples(const ProfileRow& row, int count, std::int32_t
 }
 
 BATTEN_HOT_LOOP void blendSamples(const SamplesAcross& s, int count, float* __restrict out) {
-  constexpr auto kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);
+  constexpr auto kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);  // to grey levels 0..255
   for (int k = 0; k < count; ++k) {
     const auto a0 = static_cast<float>(s.upper[2 * k]), a1 = static_cast<float>(s.upper[2 * k + 1]);
     const auto b0 = static_cast<float>(s.lower[2 * k]), b1 = static_cast<float>(s.lower[2 * k + 1]);
@@ -84,6 +84,7 @@ BATTEN_HOT_LOOP void meansOfPaper(const float* p, int count, double* __restrict 
 
 // Gaussian of .5 px: two samples.
 constexpr int kSmoothHalf = 5;
+// Weights by the distance in samples, and the sum of all taps.
 constexpr std::array<float, kSmoothHalf + 1> kSmoothKernel = {0.2021f, 0.1779f, 0.1212f, 0.0639f, 0.0261f, 0.00825f};
 constexpr float kSmoothSum = [] {
   float sum = kSmoothKernel[0];
@@ -93,7 +94,7 @@ constexpr float kSmoothSum = [] {
 
 BATTEN_HOT_LOOP void smoothInside(const float* p, int count, float* __restrict out) {
   static_assert(kSmoothHalf == 5);
-  constexpr auto& w = kSmoothKernel;
+  constexpr auto& w = kSmoothKernel;  // short for the sum below
   for (int k = kSmoothHalf; k < count - kSmoothHalf; ++k) {
     const float sum = w[0] * p[k] + w[1] * (p[k - 1] + p[k + 1]) + w[2] * (p[k - 2] + p[k + 2]) +
                       w[3] * (p[k - 3] + p[k + 3]) + w[4] * (p[k - 4] + p[k + 4]) + w[5] * (p[k - 5] + p[k + 5]);

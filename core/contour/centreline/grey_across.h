@@ -12,8 +12,8 @@ namespace batten {
 /// 2 half + 1 samples along `normal`, kStrokeStepPx apart, the middle one at `at`: what sampleGrey() gives there.
 void sampleAcross(const GreyImage&, const Vec2& at, const Vec2& normal, int half, float* out);
 
-inline constexpr int kMeanHalf = 6;  ///< Profiles to either side that a mean is made of.
-inline constexpr int kMeanRows = 2 * kMeanHalf + 1;
+inline constexpr int kMeanHalf = 6;                  ///< Profiles to either side that a mean is made of.
+inline constexpr int kMeanRows = 2 * kMeanHalf + 1;  ///< The middle one, and those to both sides.
 /// The mean of kMeanRows profiles of `count` samples, `first` and those behind it, weighed by weights[k] where they lie
 /// k away from the middle one. `sum`: of all the weights.
 void meanOfProfiles(const float* first, int count, const float* weights, float sum, float* out);

@@ -34,7 +34,8 @@ struct PairCost {
 // The pairs of the greatest sum of gains, tried one end after the other.
 class BestPairs {
  public:
-  BestPairs(int ends, const std::vector<PairCost>& costs) : gain_(ends, std::vector<double>(ends, 0.0)), used_(ends) {
+  BestPairs(int ends, const std::vector<PairCost>& costs)
+      : gain_(ends, std::vector<std::optional<double>>(ends)), used_(ends) {
     for (const PairCost& c : costs) gain_[c.a][c.b] = c.gain;
   }
   std::vector<std::pair<int, int>> find() {
@@ -53,17 +54,17 @@ class BestPairs {
       return;
     }
     for (int b = a + 1; b < n; ++b) {
-      if (used_[b] || !(gain_[a][b] > 0.0)) continue;
+      if (used_[b] || !gain_[a][b] || !(*gain_[a][b] > 0.0)) continue;
       used_[b] = true;
       now_.emplace_back(a, b);
-      tryFrom(a + 1, sum + gain_[a][b]);
+      tryFrom(a + 1, sum + *gain_[a][b]);
       now_.pop_back();
       used_[b] = false;
     }
     tryFrom(a + 1, sum);
   }
 
-  std::vector<std::vector<double>> gain_;  // [a][b], a < b; 0 = no stroke goes that way
+  std::vector<std::vector<std::optional<double>>> gain_;  // [a][b], a < b; absent: no stroke goes that way
   std::vector<bool> used_;
   std::vector<std::pair<int, int>> now_, best_;
   double bestSum_ = 0.0;

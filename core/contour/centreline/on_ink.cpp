@@ -9,8 +9,8 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastReachPx = 2.0;
-constexpr int kFewestOnInk = 3;
+constexpr double kLeastReachPx = 2.0;  // of thin lines, whose ink the mask may have lost in part
+constexpr int kFewestOnInk = 3;        // points: a shorter part has no direction
 
 enum class Ground { Ink, Bridge, Paper };
 

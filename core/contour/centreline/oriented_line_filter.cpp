@@ -110,7 +110,7 @@ void sumStepsPlain(const float* grey, const int* steps, int stepCount, int count
 
 #ifdef BATTEN_HAS_AVX2
 
-constexpr int kPixelLanes = 8;
+constexpr int kPixelLanes = 8;  // floats that a processor works on at once
 
 // Eight times kVectors pixels at once, whose sums stay in registers.
 template <int kVectors>
@@ -233,15 +233,15 @@ float clearAt(const GraininessMap& grain, const LineFilter& filter, const Vec2& 
   return static_cast<float>(share * grain.depthAt(middle));
 }
 
-// Looks for gaps and lines, tile by tile.
+// Looks for gaps and lines, tile by tile: the pixels of the tile that are some.
 struct LineSearch {
   const GreyImage& grey;
   const GraininessMap& grain;
   const LineFilter& filter;
 
-  void gaps(const BitImage& where, int x0, int y0, BitImage& found) const {
-    std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
-    if (pixels.empty()) return;
+  std::vector<Pixel> gaps(const BitImage& where, int x0, int y0) const {
+    std::vector<Pixel> pixels = bodyPixels(where, x0, y0), found;
+    if (pixels.empty()) return found;
     Tile tile(grey, x0, y0, filter);
     const float clear = clearAt(grain, filter, middleOf(x0, y0));
     for (const Direction& d : filter.directions) {
@@ -252,15 +252,16 @@ struct LineSearch {
       tile.meanAlong(d, filter.reachPx);
       std::erase_if(pixels, [&](const Pixel& p) {
         if (!tile.isFlanked(d, tile.best(p.x, p.y) - clear, p.x, p.y)) return false;
-        found.set(x0 + p.x, y0 + p.y, true);
+        found.push_back(p);
         return true;
       });
     }
+    return found;
   }
 
-  void lines(const BitImage& where, int x0, int y0, BitImage& found) const {
-    std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
-    if (pixels.empty()) return;
+  std::vector<Pixel> lines(const BitImage& where, int x0, int y0) const {
+    std::vector<Pixel> pixels = bodyPixels(where, x0, y0), found;
+    if (pixels.empty()) return found;
     Tile tile(grey, x0, y0, filter);
     const Vec2 middle = middleOf(x0, y0);
     const float least =
@@ -269,10 +270,11 @@ struct LineSearch {
       tile.meanAlong(d, filter.reachPx);
       std::erase_if(pixels, [&](const Pixel& p) {
         if (!(tile.ridge(d, filter.ridgeSides, p.x, p.y) > least)) return false;
-        found.set(x0 + p.x, y0 + p.y, true);
+        found.push_back(p);
         return true;
       });
     }
+    return found;
   }
 
   static Vec2 middleOf(int x0, int y0) { return {x0 + 0.5 * kTile, y0 + 0.5 * kTile}; }
@@ -296,19 +298,23 @@ OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, c
   const LineFilter filter = filterFor(widthPx, pixelsPerPx);
   const LineSearch search{grey, grain, filter};
   const int columns = body.wordsPerRow, rows = (body.height + kTile - 1) / kTile;
-  const auto overTiles = [&](const auto& visit) {
+  // A tile is as wide as a word of the picture: no two write into one.
+  const auto overTiles = [&](BitImage& picture, const auto& pixelsOf) {
     parallelFor(context, columns * rows, 1, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) visit(i % columns * kTile, i / columns * kTile);
+      for (int i = begin; i < end; ++i) {
+        const int x0 = i % columns * kTile, y0 = i / columns * kTile;
+        for (const Pixel& p : pixelsOf(x0, y0)) picture.set(x0 + p.x, y0 + p.y, true);
+      }
     });
   };
   const BitImage near = grown(body, filter.halfPx, context);
-  overTiles([&](int x0, int y0) { search.gaps(near, x0, y0, found.gaps); });
+  overTiles(found.gaps, [&](int x0, int y0) { return search.gaps(near, x0, y0); });
   if (context.isCancelled()) return found;
   // A gap runs on as far as the lines that it was seen between.
   found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(filter.halfPx)}, context);
   // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both fail.
   const BitImage beside = both(grown(found.gaps, 2 * filter.halfPx, context), near);
-  overTiles([&](int x0, int y0) { search.lines(beside, x0, y0, found.lines); });
+  overTiles(found.lines, [&](int x0, int y0) { return search.lines(beside, x0, y0); });
   found.gaps = without(std::move(found.gaps), found.lines);
   return found;
 }

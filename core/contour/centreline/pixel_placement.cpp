@@ -26,12 +26,12 @@ constexpr double kProfileVariance = 0.42;  // [px^2] of the smoothing that a pro
 constexpr int kBlurPoints = 400;           // that vote for the blur
 constexpr int kBlurEvery = 5;              // points: neighbours share their pixels
 constexpr int kStartBlur = 12;             // index of .65 px, the usual blur of a scanner
-constexpr std::array kBlurStrides = {6, 2, 1};  // of the search from there
-constexpr int kGainPoints = 60;                 // of a stroke that vote for its darkness
-constexpr double kLargestGainChange = 1.25;
-constexpr int kPointsPerBlock = 64;  // worked on together; the result does not depend on it
-constexpr int kStrokeNewtonSteps = 4;
-constexpr double kLargestStepPx = 0.25, kSettledPx = 2e-3;
+constexpr std::array kBlurStrides = {6, 2, 1};              // of the search from there
+constexpr int kGainPoints = 60;                             // of a stroke that vote for its darkness
+constexpr double kLargestGainChange = 1.25;                 // in one go: the darkness that profiles show is off by less
+constexpr int kPointsPerBlock = 64;                         // worked on together; the result does not depend on it
+constexpr int kStrokeNewtonSteps = 4;                       // from the half levels; fewer once settled
+constexpr double kLargestStepPx = 0.25, kSettledPx = 2e-3;  // of one step; smaller ones change nothing
 constexpr double kLeastDeterminant = 1e-3;  // of the product of its diagonal: the two borders cannot be told apart
 constexpr double kNarrowestPx = 0.2;        // a stroke between borders nearer than this is none
 constexpr double kWidthOffShare = 0.3, kWidthOffPx = 0.3;  // from the width along the stroke: another stroke
@@ -228,7 +228,7 @@ std::vector<CoursePlace> sampleOf(const std::vector<StrokeCourse>& courses, cons
   return some;
 }
 
-/// Makes the tables that are asked for whatever the page is, side by side: later ones wait for each other.
+/// Makes the tables that every page needs, side by side: later ones wait for each other.
 void makeTables(std::initializer_list<int> indices, const RunContext& context) {
   parallelFor(context, static_cast<int>(indices.size()), 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) (void)PageResponse(*(indices.begin() + k));

@@ -26,6 +26,8 @@ struct CourseBlock {
   int course, begin, end;
 };
 
+// A Gaussian of its own, because whole profiles are averaged: smoothValues() mirrors the ends of a line, while here the
+// window shrinks evenly towards them.
 std::array<float, kMeanHalf + 1> alongKernel() {
   std::array<float, kMeanHalf + 1> kernel{};
   for (int k = 0; k <= kMeanHalf; ++k) {
@@ -109,7 +111,7 @@ void forCourses(std::vector<StrokeCourse>& courses, const RunContext& context, c
 
 RefinedStrokes refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
                                  const RefineSettings& settings, const RunContext& context) {
-  constexpr int kRounds = 2;
+  constexpr int kRounds = 2;  // the second samples across the middle that the first found
   std::vector<StrokeCourse> courses(paths.size());
   forCourses(courses, context, [&](int i) { courses[i] = resample(paths[i]); });
   if (settings.rule != CentreRule::None) {

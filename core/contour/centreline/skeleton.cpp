@@ -16,7 +16,7 @@ namespace {
 
 // Neighbours clockwise from north; even entries are 4-neighbours.
 constexpr int kAroundX[8] = {0, 1, 1, 1, 0, -1, -1, -1};
-constexpr int kAroundY[8] = {-1, -1, 0, 1, 1, 1, 0, -1};
+constexpr int kAroundY[8] = {-1, -1, 0, 1, 1, 1, 0, -1};  // down
 
 int neighbourhood(const BitImage& image, int x, int y) {
   int bits = 0;
@@ -24,7 +24,7 @@ int neighbourhood(const BitImage& image, int x, int y) {
   return bits;
 }
 
-constexpr int kBlockRows = 4;
+constexpr int kBlockRows = 4;  // words of 64 px that a processor works on at once
 
 // Ink in blocks of 64 x 4 px, column by column, a block of paper all around: what lies above and below a block comes
 // before and behind it, and all its rows are worked on at once.
@@ -133,6 +133,7 @@ int paperReach(const BitImage& ink, int x, int y, int most) {
 struct PixelLinks {
   std::uint8_t directions = 0, count = 0;
 };
+// By the bits of a neighbourhood.
 constexpr auto kPixelLinks = [] {
   std::array<PixelLinks, 256> all{};
   for (int bits = 0; bits < 256; ++bits) {

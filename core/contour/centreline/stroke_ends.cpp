@@ -34,7 +34,7 @@ constexpr double kOffCourseWidths = 0.15;    // [stroke widths] between a course
 constexpr double kTurnsAsideWidths = 0.75;   // [stroke widths] before the end of the ink a course may turn to a corner
 constexpr double kSkeletonOffWidths = 0.6;   // [stroke widths]
 constexpr double kLeastStepPx = 0.35;        // between neighbours on a contour, of about 1 px
-constexpr float kLeastWidthPx = 0.1f;
+constexpr float kLeastWidthPx = 0.1f;        // a point of a stroke has some width
 
 std::optional<StrokeCentre> centreAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction,
                                      const GreyImage& grey) {

@@ -82,7 +82,7 @@ struct FatCells {
 };
 
 FatCells fatCells(const BitImage& ink, double limitPx) {
-  constexpr double kCellsPerLimit = 16.0;
+  constexpr double kCellsPerLimit = 16.0;  // an opening to a sixteenth of its disc is exact enough for a share
   FatCells cells;
   cells.factor = std::max(1, static_cast<int>(limitPx / kCellsPerLimit));
   const int f = cells.factor, columns = (ink.width + f - 1) / f, rows = (ink.height + f - 1) / f;

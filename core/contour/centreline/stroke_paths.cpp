@@ -27,21 +27,21 @@ class StrokePathMaker {
   StrokePathMaker(const SkeletonGraph& graph, const EdgeParams& params)
       : graph_(graph), params_(params), ends_(2 * graph.edges().size()), partner_(2 * graph.edges().size()) {}
 
-  StrokeNet make() {
-    StrokeNet net;
+  StrokePathSet make() {
+    StrokePathSet found;
     const std::vector<std::optional<int>> choiceOf = choicesOfNodes(graph_, params_.junctions);
     std::vector<std::optional<int>> junctionOf(graph_.nodes().size());
     for (int i = 0; i < std::ssize(graph_.nodes()); ++i) {
       std::optional<StrokeJunction> junction = pair(graph_.nodes()[i], choiceOf[i]);
       if (!junction) continue;
-      junctionOf[i] = static_cast<int>(net.junctions.size());
-      net.junctions.push_back(std::move(*junction));
+      junctionOf[i] = static_cast<int>(found.junctions.size());
+      found.junctions.push_back(std::move(*junction));
     }
     for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
       if (!isShared(edge)) continue;
-      for (const std::optional<int> node : edge_(edge).node) net.junctions[*junctionOf[*node]].isDoubtful = true;
+      for (const std::optional<int> node : edge_(edge).node) found.junctions[*junctionOf[*node]].isDoubtful = true;
     }
-    std::vector<StrokePath>& paths = net.paths;
+    std::vector<StrokePath>& paths = found.paths;
     std::vector<bool> used(graph_.edges().size(), false);
     for (int pass = 0; pass < 2; ++pass) {
       for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
@@ -53,7 +53,7 @@ class StrokePathMaker {
         }
       }
     }
-    return net;
+    return found;
   }
 
  private:
@@ -229,8 +229,8 @@ std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, cons
   return points;
 }
 
-StrokeNet findStrokeNet(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
-                        const RunContext& context) {
+StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
+                                    const RunContext& context) {
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
   pruneSpurs(graph, params.spurFactor);
@@ -241,7 +241,7 @@ StrokeNet findStrokeNet(const BitImage& skeleton, const BitImage& ink, const Edg
 
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context) {
-  return findStrokeNet(skeleton, ink, params, context).paths;
+  return findPathsAndJunctions(skeleton, ink, params, context).paths;
 }
 
 double medianWidth(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen) {

@@ -39,15 +39,15 @@ struct StrokePath {
 };
 
 /// Strokes and the junctions where they meet.
-struct StrokeNet {
+struct StrokePathSet {
   std::vector<StrokePath> paths;
   std::vector<StrokeJunction> junctions;
 };
 
 /// The strokes of a skeleton: spurs pruned, junctions of one crossing merged, smooth edges led through (see
 /// EdgeParams). Deterministic order. Empty when cancelled.
-StrokeNet findStrokeNet(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
-                        const RunContext& context);
+StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
+                                    const RunContext& context);
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context);
 

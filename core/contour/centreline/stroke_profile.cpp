@@ -12,8 +12,9 @@ constexpr double kLeastStrokeContrast = 2.0;  // [grey] less is noise of the sca
 constexpr int kSpreadSamples = 8;             // to which the ink of a stroke spreads beyond its border, 2 px
 constexpr double kCrowdedShare = 0.25;        // of the contrast: if the outer end is so much darker, ink lies there
 constexpr double kCoreShare = 0.2;            // of the width to either side of the middle, where the ink is full
-constexpr int kMeansAtOnce = 64;
-constexpr double kPaperShare = 0.15;  // of the darkest: what is fainter counts as paper
+constexpr double kInkMiddlePx = 1.0;          // to either side of the course: the ink on it
+constexpr int kMeansAtOnce = 64;              // boxes: kept on the stack
+constexpr double kPaperShare = 0.15;          // of the darkest: what is fainter counts as paper
 
 // Paper across the profile: a line through the level at either side.
 struct PaperLine {
@@ -79,7 +80,7 @@ std::optional<StrokeCentre> halfLevelCentre(std::span<const float> profile, doub
   const int edge = std::min(half - 1, static_cast<int>(std::lround(0.5 * widthPx / kStrokeStepPx)));
   const PaperLine paper = paperBeside(scratch, edge, ink);
   const double contrast = paper.at(half) - ink;
-  if (!(contrast > 2.0)) return std::nullopt;
+  if (!(contrast > kLeastStrokeContrast)) return std::nullopt;
   // Depth below the half level, which follows the slope of the paper.
   const auto depth = [&](int k) { return paper.at(k) - 0.5 * contrast - scratch[k]; };
   if (!(depth(half) > 0.0)) return std::nullopt;
@@ -153,7 +154,7 @@ InkAcross inkAcross(std::span<const float> profile, double widthPx, double inkLe
     moment += dark * (k - half) * kStrokeStepPx * kStrokeStepPx;
   }
   if (ink.darkness > 0.0) ink.centre = moment / ink.darkness;
-  const int near = std::min(half, static_cast<int>(1.0 / kStrokeStepPx));
+  const int near = std::min(half, static_cast<int>(kInkMiddlePx / kStrokeStepPx));
   for (int k = half - near; k <= half + near; ++k)
     ink.middle += (paper.at(k) - static_cast<double>(profile[k])) / (2 * near + 1);
   return ink;

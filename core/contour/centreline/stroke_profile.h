@@ -63,10 +63,10 @@ std::optional<StrokeCentre> centroidCentre(std::span<const float> profile, doubl
 
 /// The ink in a profile of 2 * half + 1 samples, all of its darkness summed up.
 struct InkAcross {
-  double darkness = 0.0;  ///< [grey px] below the paper; with noise also negative where there is no ink.
-  double centre = 0.0;    ///< [px] centroid along the profile, 0 = its middle; 0 where there is no ink.
-  double middle = 0.0;    ///< [grey] below the paper within a pixel of its middle, mean.
-  double paper = 255.0;   ///< [grey] at the middle, as it would be without ink.
+  double darkness = 0.0;              ///< [grey px] below the paper; with noise also negative where there is no ink.
+  std::optional<double> centre = {};  ///< [px] centroid along the profile, 0 = its middle; absent: there is no ink.
+  double middle = 0.0;                ///< [grey] below the paper within a pixel of its middle, mean.
+  double paper = 255.0;               ///< [grey] at the middle, as it would be without ink.
 };
 /// `widthPx`: no ink of the stroke lies farther than half of it, and blur, from the middle. `inkLevel` [grey]: of the
 /// stroke where it is whole; what lies beside it and is not far lighter is another one's.

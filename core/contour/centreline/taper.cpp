@@ -50,7 +50,7 @@ InkAcross acrossAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction,
 
 // The largest mean over five stations.
 double wholeDarkness(const std::vector<TaperStation>& stations) {
-  constexpr int kMean = 5;
+  constexpr int kMean = 5;  // stations: over them the noise of one counts little
   double most = 0.0;
   for (int i = 0; i + kMean <= std::ssize(stations); ++i) {
     double sum = 0.0;
@@ -90,8 +90,9 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
     const CoursePoint& p = c.points[track.first + i];
     const double local = std::min(1.0, kWider * std::max(kThin, track.stations[i].share)) * w;
     const InkAcross ink = acrossAt(c, p.base, p.tangent, inkLevel, local, grey);
-    if (std::abs(ink.centre) >= kLargestTaperStepPx) continue;
-    track.stations[i].at += ink.centre * leftNormal(p.tangent);
+    const double centre = ink.centre.value_or(0.0);  // without ink it stays
+    if (std::abs(centre) >= kLargestTaperStepPx) continue;
+    track.stations[i].at += centre * leftNormal(p.tangent);
     const InkAcross centred = acrossAt(c, track.stations[i].at, p.tangent, inkLevel, local, grey);
     track.stations[i].dark = std::max(track.stations[i].dark, centred.middle / contrast);
   }
@@ -104,8 +105,9 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
     const double share = ink.darkness / whole;
     if (share > least + kGrowsAgain) break;
     const bool steers = share > kSteersFrom;
-    if (steers && std::abs(ink.centre) > kLargestTaperStepPx) break;
-    const Vec2 at = last + d + (steers ? 0.5 * ink.centre : 0.0) * leftNormal(d);
+    const double centre = ink.centre.value_or(0.0);  // without ink it goes straight on
+    if (steers && std::abs(centre) > kLargestTaperStepPx) break;
+    const Vec2 at = last + d + (steers ? 0.5 * centre : 0.0) * leftNormal(d);
     track.stations.push_back({at, share, ink.middle / contrast});
     least = std::min(least, share);
     if (share < kGone) break;
@@ -123,7 +125,7 @@ std::optional<int> lastAbove(const std::vector<TaperStation>& stations, double s
 
 // The last station at which ink is seen on the course itself.
 std::optional<int> lastDark(const std::vector<TaperStation>& stations) {
-  constexpr double kSeen = 0.12;
+  constexpr double kSeen = 0.12;  // of the contrast: less may be paper
   for (int i = static_cast<int>(stations.size()) - 1; i >= 0; --i) {
     if (stations[i].dark >= kSeen) return i;
   }

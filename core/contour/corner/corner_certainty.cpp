@@ -23,18 +23,19 @@ constexpr double kPointsPerPx = 4.0;     // [1/px] more than any contour has: ne
 constexpr double kPointStepPx = 1.0;     // located points lie as far apart: a rounding may begin behind one
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
 constexpr double kLeastSide = 2.5, kLeastSideToEnd = 3.0;                    // units: ends have hooks of their own
-constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;
+constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;                      // a gentler one may be a bend of the line
 constexpr double kLeastUnlocatedTurn = 50.0 * kRadPerDeg;  // of the chords, where no vertex tells how sharp it is
 constexpr double kFlankShare = 0.25;                       // of the turn: how much more the longer chords may turn
 constexpr double kUnlocatedShare = 0.15;                   // the same where no vertex tells
 constexpr double kLeastChordShare = 0.5, kMostChordShare = 1.35;  // of the angle: cusps, arcs
 constexpr double kFaintTurn = 45.0 * kRadPerDeg;                  // below, both chords must show the angle itself
-constexpr double kFaintShare = 0.15, kFaintLongShare = 0.2;
-constexpr double kFaintSlackRad = 2.0 * kRadPerDeg;
-constexpr double kNoiseLimit = 3.5;  // standard deviations
-constexpr double kDentReach = 8.0;   // units
-constexpr double kDentShare = 0.5;   // of the turn that turns back
-constexpr double kNoDentTurn = 70.0 * kRadPerDeg;
+constexpr double kFaintShare = 0.15, kFaintLongShare = 0.2;       // of the angle: by which the two chords may miss it,
+constexpr double kFaintSlackRad = 2.0 * kRadPerDeg;               // and by so much more
+constexpr double kNoiseLimit = 3.5;                               // standard deviations
+constexpr double kDentReach = 8.0;                                // units
+constexpr double kDentShare = 0.5;                                // of the turn that turns back
+constexpr double kLeastDivisor = 1e-9;                   // keeps shares finite where there is no side or no turn
+constexpr double kNoDentTurn = 70.0 * kRadPerDeg;        // beside a turn back a gentler one may be a side of a dent
 constexpr double kSteepness = 4.0, kOddsAtLimit = 19.0;  // 19 to 1 where the worst share is just 1
 
 }  // namespace
@@ -95,12 +96,13 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   const bool isTipLost = contour_.kind == ContourKind::Outline && !contour_.points[tip.index].refined;
   const double arc = arc_[isTipLost ? tip.index : e.pointIndex];
   const bool toEnd = !contour_.closed && std::min(arc, length_ - arc) <= std::min(e.freeBefore, e.freeAfter);
-  double worst = (toEnd ? kLeastSideToEnd : kLeastSide) * unit / std::max(1e-9, std::min(e.freeBefore, e.freeAfter));
+  double worst =
+      (toEnd ? kLeastSideToEnd : kLeastSide) * unit / std::max(kLeastDivisor, std::min(e.freeBefore, e.freeAfter));
   const auto demand = [&worst](double value, double limit) { worst = std::max(worst, value / limit); };
   const auto turnOver = [&](double units) {
     const double most = units * unit;
     const double turn = chordTurn(arc, kChordStart * unit, std::min(most, e.freeBefore), std::min(most, e.freeAfter));
-    return std::max(1e-9, std::copysign(1.0, e.angleRad) * turn);
+    return std::max(kLeastDivisor, std::copysign(1.0, e.angleRad) * turn);
   };
   const double near = turnOver(kShortChord), far = turnOver(kCertainChord);
   demand(kLeastCertainTurn, angle);
@@ -108,8 +110,8 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   demand(kLeastChordShare * angle, near);
   demand(near, kMostChordShare * angle);
   demand(far - near, kFlankShare * near);
-  const auto turnsBack = [&](double free, double other) {
-    return free < kDentReach * unit && other * e.angleRad < 0.0 && std::abs(other) >= kDentShare * angle;
+  const auto turnsBack = [&](double free, const std::optional<double>& other) {
+    return other && free < kDentReach * unit && *other * e.angleRad < 0.0 && std::abs(*other) >= kDentShare * angle;
   };
   if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
   if (e.isLocated) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/vec2.h"
@@ -12,13 +13,13 @@ namespace batten {
 /// A corner candidate on a line, with its measurements.
 struct CornerEvidence {
   int pointIndex = 0;
-  double angleRad = 0.0;                       ///< Change of direction, signed as Turning.
-  Vec2 positionPx = Vec2::Zero();              ///< Where its two sides meet, or the point itself.
-  bool isLocated = false;                      ///< The sides meet.
-  double roughPx = 0.0;                        ///< [px] rms of the line about smooth stretches of it.
-  double angleNoiseRad = 0.0;                  ///< [rad] standard deviation that this gives to the angle.
-  double freeBefore = 0.0, freeAfter = 0.0;    ///< [px of arc] To the neighbouring places or the open ends.
-  double angleBefore = 0.0, angleAfter = 0.0;  ///< [rad] Of those places; 0 at an end.
+  double angleRad = 0.0;                     ///< Change of direction, signed as Turning.
+  Vec2 positionPx = Vec2::Zero();            ///< Where its two sides meet, or the point itself.
+  bool isLocated = false;                    ///< The sides meet.
+  double roughPx = 0.0;                      ///< [px] rms of the line about smooth stretches of it.
+  double angleNoiseRad = 0.0;                ///< [rad] standard deviation that this gives to the angle.
+  double freeBefore = 0.0, freeAfter = 0.0;  ///< [px of arc] To the neighbouring places or the open ends.
+  std::optional<double> angleBefore = {}, angleAfter = {};  ///< [rad] Of those places; absent: an open end.
 };
 
 /// How certain it is that such places are corners and neither bends nor dents: 0..1, from kCertainCorner on taken for

@@ -11,10 +11,10 @@
 namespace batten {
 namespace {
 
-constexpr double kLooksLikeCornerRad = 25.0 * kRadPerDeg;
-constexpr double kTurnInnerPx = 3.0;       // the part next to a corner that blur has rounded
-constexpr double kTurnOuterPx = 16.0;      // about as far as a corner of a drawing stands free
-constexpr double kSnapOuterPx = 64.0;      // looked at on either side before the neighbours are known
+constexpr double kLooksLikeCornerRad = 25.0 * kRadPerDeg;  // a gentler turn is a bend: no mark snaps to it
+constexpr double kTurnInnerPx = 3.0;                       // the part next to a corner that blur has rounded
+constexpr double kTurnOuterPx = 16.0;                      // about as far as a corner of a drawing stands free
+constexpr double kSnapOuterPx = 64.0;                      // looked at on either side before the neighbours are known
 constexpr double kOneTurnPx = 5.0;         // the first of equally sharp points within this stands for the turn
 constexpr double kFartherWorsePart = 0.5;  // of its score: what a turn at the snap distance loses
 
@@ -69,7 +69,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::nearest(const std::vector<Con
     least = d;
   }
   if (!best) return std::nullopt;
-  return Snapped{*best, std::sqrt(least), 0.0};
+  return Snapped{*best, std::sqrt(least)};
 }
 
 std::optional<double> CornerFinder::turnScore(const ContourPlace& p) {
@@ -92,11 +92,12 @@ const CornerFix& CornerFinder::fixAt(const ContourPlace& p) {
 }
 
 // Of the turns of one stretch of a line.
-std::optional<CornerFinder::Snapped> CornerFinder::sharpestTurn(std::vector<Turn> turns, const Vec2& mark) {
-  std::stable_sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.score > b.score; });
+std::optional<CornerFinder::Snapped> CornerFinder::sharpestTurn(std::vector<ScoredPlace> turns, const Vec2& mark) {
+  std::stable_sort(turns.begin(), turns.end(),
+                   [](const ScoredPlace& a, const ScoredPlace& b) { return a.score > b.score; });
   std::optional<Snapped> best;
   std::vector<Vec2> taken;
-  for (const Turn& turn : turns) {
+  for (const ScoredPlace& turn : turns) {
     const Vec2& here = at(turn.place);
     if (std::any_of(taken.begin(), taken.end(), [&](const Vec2& t) { return (t - here).norm() < kOneTurnPx; })) {
       continue;
@@ -104,7 +105,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::sharpestTurn(std::vector<Turn
     taken.push_back(here);
     const double distance = (fixAt(turn.place).position - mark).norm();
     const double score = turn.score * (1.0 - kFartherWorsePart * distance / snap_);
-    if (distance <= snap_ && score > (best ? best->score : 0.0)) best = Snapped{turn.place, distance, score};
+    if (distance <= snap_ && score > scoreOf(best)) best = Snapped{turn.place, distance, score};
   }
   return best;
 }
@@ -119,13 +120,13 @@ std::optional<CornerFinder::Snapped> CornerFinder::sharpest(const std::vector<Co
     // A stretch of one line.
     auto end = first + 1;
     while (end != near.end() && end->contour == first->contour && end->index == (end - 1)->index + 1) ++end;
-    std::vector<Turn> turns;
+    std::vector<ScoredPlace> turns;
     if (!isDrawn(contourOf(*first).kind)) {
       for (auto p = first; p != end; ++p)
         if (const auto score = turnScore(*p)) turns.push_back({*p, *score});
     }
     const auto snapped = sharpestTurn(std::move(turns), mark);
-    if (snapped && snapped->score > (best ? best->score : 0.0)) best = snapped;
+    if (snapped && scoreOf(snapped) > scoreOf(best)) best = snapped;
     first = end;
   }
   return best;

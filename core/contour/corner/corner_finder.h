@@ -41,10 +41,10 @@ class CornerFinder {
   /// A point that a mark may stand for.
   struct Snapped {
     ContourPlace place;
-    double distance = 0.0;  ///< [px] from the mark to the turn or the point.
-    double score = 0.0;     ///< Of the turn; 0 for a point that does not turn.
+    double distance = 0.0;             ///< [px] from the mark to the turn or the point.
+    std::optional<double> score = {};  ///< Of the turn; absent: a point that does not turn.
   };
-  struct Turn {
+  struct ScoredPlace {
     ContourPlace place;
     double score = 0.0;
   };
@@ -54,9 +54,10 @@ class CornerFinder {
   std::vector<ContourPlace> placesNear(const Vec2& mark) const;
   std::optional<Snapped> nearest(const std::vector<ContourPlace>& near, const Vec2& mark) const;
   std::optional<Snapped> sharpest(const std::vector<ContourPlace>& near, const Vec2& mark);
-  std::optional<Snapped> sharpestTurn(std::vector<Turn> turns, const Vec2& mark);
+  std::optional<Snapped> sharpestTurn(std::vector<ScoredPlace> turns, const Vec2& mark);
   std::optional<double> turnScore(const ContourPlace&);
   const CornerFix& fixAt(const ContourPlace&);
+  static double scoreOf(const std::optional<Snapped>& turn) { return turn ? turn->score.value_or(0.0) : 0.0; }
 
   const ContourSet& set_;
   double snap_, reach_;                            // [px]

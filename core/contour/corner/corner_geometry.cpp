@@ -13,27 +13,30 @@
 namespace batten {
 namespace {
 
-constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
-constexpr double kOutlineZonePx = 4.0;
+constexpr double kUnrefinedWeight = 0.1;       // points known to the pixel only
+constexpr double kOutlineZonePx = 4.0;         // what blur and mask round of the corner of an outline
 constexpr double kFarthestMeetPx = 6.0;        // of the meeting point from the contour
 constexpr double kFarthestStrokeMeetPx = 9.0;  // of thin strokes; beyond, sides that nearly touch meet off the ink
 constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
 constexpr double kFilledHalfPx = 3.0;   // half of a gap between two sides of a stroke that blur and the mask may fill
 constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
-constexpr int kCornerNewtonSteps = 12;
-constexpr int kLocateRounds = 4;
-constexpr double kFreeSidesPx = 6.0;  // sides nearer to each other than this share their blur
-constexpr double kFarthestPixelMovePx = 3.0;
-constexpr double kFarthestScales = 2.0;  // of what is looked at: a side extended farther says nothing
-constexpr double kSettled = 1e-9;        // of that
-constexpr double kMeetPx = 1e-3;         // between the two sides where they meet
-constexpr double kExtensions = 2.0;      // of the farthest tip: a side is extended as far
-constexpr double kLeastReach = 0.4;      // of the stretch asked for: a shorter side is none
+constexpr int kCornerNewtonSteps = 12;  // fewer once the meeting point is settled
+constexpr int kLocateRounds = 4;        // of zone and meeting point in turn; fewer once they are settled
+constexpr double kFreeSidesPx = 6.0;    // sides nearer to each other than this share their blur
+constexpr double kFarthestPixelMovePx = 3.0;  // from where the sides meet: farther off lies another edge
+constexpr double kFarthestScales = 2.0;       // of what is looked at: a side extended farther says nothing
+constexpr double kSettled = 1e-9;             // of that
+constexpr double kMeetPx = 1e-3;              // between the two sides where they meet
+constexpr double kExtensions = 2.0;           // of the farthest tip: a side is extended as far
+constexpr double kLeastReach = 0.4;           // of the requested stretch: a shorter side is none
 // What a side may miss its points by, and the two each other: the part that grows with the stretch is that of arcs.
 constexpr double kMisfitShare = 0.02, kMisfitPx = 0.1, kGapShare = 0.15, kSideGapPx = 0.5;
 constexpr double kLeastZonePx = 3.0, kMostZonePx = 60.0;                 // of a stroke's corner, otherwise its width
 constexpr double kSharpestHalfTipRad = 0.03, kFlattestHalfTipRad = 1.5;  // 2 and 86 degrees: keep sine and tangent sane
-constexpr double kSettledZonePx = 0.5;
+constexpr double kSettledZonePx = 0.5;                                   // points lie no nearer to each other
+// Points lie half a pixel apart or more, and a few are looked at beyond.
+constexpr double kNearestPerPx = 2.0;
+constexpr int kNearestBeyond = 4;
 constexpr double kFitOuterPx = 260.0;   // looked at on either side at most
 constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
 
@@ -81,8 +84,8 @@ std::optional<CornerSides> fitSides(const Contour& contour, int at, const SideRe
   return CornerSides{*before, *after};
 }
 
-// Lets the pixels have their say, within reason.
-CornerFix askPixels(const GreyImage& grey, double blurPx, const CornerSides& sides, CornerFix fix) {
+// Moves a corner to where its pixels place it, unless that lies too far away.
+CornerFix fitToPixels(const GreyImage& grey, double blurPx, const CornerSides& sides, CornerFix fix) {
   const auto fitted = fitCornerToPixels(grey, fix.position, blurPx, sides);
   if (!fitted) return fix;
   const auto m = meet(fitted->before, fitted->after, fix.zonePx + kExtensions * kFarthestTipPx);
@@ -168,8 +171,8 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     const double halfTip = std::max(kSharpestHalfTipRad, 0.5 * (std::numbers::pi - std::abs(m->angle)));
     const double most = reachesTip ? std::max(kFarthestStrokeMeetPx, inner) : kFarthestTipPx;
     const double farthest = std::clamp(eatenHalf / std::sin(halfTip), kFarthestMeetPx, most);
-    // Points lie half a pixel apart or more.
-    const NearestPoint nearest = nearestAlong(contour, at, m->position, static_cast<int>(farthest * 2.0) + 4);
+    const NearestPoint nearest =
+        nearestAlong(contour, at, m->position, static_cast<int>(farthest * kNearestPerPx) + kNearestBeyond);
     if (nearest.distance > farthest) return result;
     result.position = m->position;
     result.angleRad = -m->angle;
@@ -177,12 +180,12 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     result.zonePx = from;
     // From the tip, where the contour may have ended before it.
     const double free = blending / (2.0 * std::tan(std::min(halfTip, kFlattestHalfTipRad))) - nearest.distance;
-    const double wanted = std::clamp(free, inner, inner + kWidestZonePx);
-    if (nearest.index == at && std::abs(wanted - zone) < kSettledZonePx) break;
+    const double nextZone = std::clamp(free, inner, inner + kWidestZonePx);
+    if (nearest.index == at && std::abs(nextZone - zone) < kSettledZonePx) break;
     at = nearest.index;
-    zone = wanted;
+    zone = nextZone;
   }
-  if (grey != nullptr && contour.blurPx) return askPixels(*grey, *contour.blurPx, *sides, result);
+  if (grey != nullptr && contour.blurPx) return fitToPixels(*grey, *contour.blurPx, *sides, result);
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSamePlacePx = 2.0;  // marks whose points are as near stand for one corner
 constexpr double kSliverPx = 12.0;    // a piece shorter than this has no points beyond the rounded zones of its corners
-constexpr float kCornerSigmaPx = 0.1f;
+constexpr float kCornerSigmaPx = 0.1f;  // [px] noise assumed of a corner that is all its piece has
 constexpr double kGuessedZonePx = 0.5;  // of a corner that was not located: its point itself
 constexpr double kZonesLookedAt = 3.0;  // zones, and a sliver: what lies farther from a corner cannot be behind it
 constexpr int kManyMarks = 16;          // from here on sorting the points of the drawing pays

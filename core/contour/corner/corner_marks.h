@@ -82,7 +82,7 @@ struct PieceSet {
   std::vector<MarkPair> closeCorners;  ///< Neighbours so close that the piece between them is a sliver (under 12 px).
 };
 
-/// Number of corners that no mark asked for.
+/// Number of corners without a mark.
 int unmarkedCornerCount(const PieceSet&);
 
 /// Cuts the contours at the marks ([004] section 3.2). Marks that snap to the same point count once.

@@ -21,15 +21,16 @@ using SidesSpread = Eigen::Matrix<double, 8, 8>;
 
 constexpr double kNearSigmas = 3.5;        // of blur: an edge farther away says nothing
 constexpr double kSeenPx = 1.2;            // the points of a side have seen the pixels this far before the first block
+constexpr double kBeyondSidesPx = 2.0;     // beyond where both sides begin, whose first points have seen these
 constexpr double kTonesPx = 12.0;          // beyond the wedge, where the tones are taken
 constexpr double kFarthestWedgePx = 40.0;  // of pixels from the corner
-constexpr int kFewestTones = 12, kFewestPixels = 12;
-constexpr double kLeastCornerContrast = 4.0;  // [grey]
-constexpr double kWedgeError = 0.015;         // [contrast] what the model leaves: pixels taken for round spots, bends
-constexpr double kSpotError = 0.05;           // [contrast] and more where there is no blur to hide that
-constexpr double kMostCorrelation = 0.99;     // as far as bothBelow() is good
-constexpr int kCornerRounds = 4;
-constexpr double kMostSurprise = 2.0;  // mean square of what is left, in units of the noise
+constexpr int kFewestTones = 12, kFewestPixels = 12;  // for a median of either tone; for the eight unknowns
+constexpr double kLeastCornerContrast = 4.0;          // [grey]
+constexpr double kWedgeError = 0.015;      // [contrast] what the model leaves: pixels taken for round spots, bends
+constexpr double kSpotError = 0.05;        // [contrast] and more where there is no blur to hide that
+constexpr double kMostCorrelation = 0.99;  // as far as bothBelow() is good
+constexpr int kCornerRounds = 4;           // each linear about the sides of the one before
+constexpr double kMostSurprise = 2.0;      // mean square of what is left, in units of the noise
 
 double below(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
@@ -106,7 +107,7 @@ struct CornerScene {
 
 /// The pixels that show the corner, the tones beside it and their noise. Nothing when they do not tell.
 std::optional<CornerScene> readScene(const GreyImage& grey, const Vec2& corner, const Wedge& wedge) {
-  const double radius = std::min(kFarthestWedgePx, std::max(wedge.from(0), wedge.from(1)) + 2.0);
+  const double radius = std::min(kFarthestWedgePx, std::max(wedge.from(0), wedge.from(1)) + kBeyondSidesPx);
   const double reach = radius + kTonesPx;
   const int left = std::max(0, static_cast<int>(corner.x() - reach)),
             right = std::min(grey.width - 1, static_cast<int>(corner.x() + reach));

@@ -20,13 +20,13 @@ namespace {
 
 constexpr double kBlockPx = 2.0;         // points are averaged over this much of the axis
 constexpr double kGuessedWeight = 0.02;  // points known to the pixel only, or guessed
-constexpr double kLeastSideWeight = 1.0 / 64.0, kMostSideWeight = 16.0;
-constexpr double kLeastSigmaPx = 1e-3;
-constexpr double kSteepest = 0.8;       // slope against the axis up to which a side is a function of x
-constexpr double kPriorDensity = 0.01;  // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
-constexpr double kPriorBlocks = 3.0;
+constexpr double kLeastSideWeight = 1.0 / 64.0, kMostSideWeight = 16.0;  // noise 8 times and 1/4 of the median
+constexpr double kLeastSigmaPx = 1e-3;                                   // keeps the ratio of noises finite
+constexpr double kSteepest = 0.8;         // slope against the axis up to which a side is a function of x
+constexpr double kPriorDensity = 0.01;    // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
+constexpr double kPriorBlocks = 3.0;      // how much it counts beside the noise that is measured
 constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
-constexpr int kFewestBlocks = 3;
+constexpr int kFewestBlocks = 3;          // two say nothing of a bend
 constexpr int kMostGuessed = 40, kFewestKnown = 12;  // points
 constexpr int kAxisPoints = 12;                      // nearest to the corner: over more a side may bend
 constexpr int kOutlineGroup = 2, kStrokeGroup = 4;   // blocks: over as many points share their noise
@@ -182,17 +182,19 @@ class CircleBase {
     if (!std::isfinite(radius) || radius > kFlattestPx || far > kWidestPart * radius) return;
     radius_ = centreY_ > blocks.front().y ? -radius : radius;
   }
-  // Height and its derivatives 1 to 3 with respect to x; 0 where there is no circle.
+  // Height and its derivatives 1 to 3 with respect to x; all 0 where the blocks lie on a line.
   State at(double x) const {
-    if (!(radius_ != 0.0)) return State::Zero();
-    const double dx = x - centreX_, root = std::sqrt(radius_ * radius_ - dx * dx), sign = radius_ > 0.0 ? 1.0 : -1.0;
+    if (!radius_) return State::Zero();
+    const double dx = x - centreX_, root = std::sqrt(*radius_ * *radius_ - dx * dx), sign = *radius_ > 0.0 ? 1.0 : -1.0;
     const double p = -dx / root, q = -(1.0 + p * p) / root, r = -3.0 * p * q / root;
     return {centreY_ + sign * root, sign * p, sign * q, sign * r};
   }
 
  private:
-  static constexpr double kFlattestPx = 1e5, kWidestPart = 0.9;
-  double centreX_ = 0.0, centreY_ = 0.0, radius_ = 0.0;
+  static constexpr double kFlattestPx = 1e5;  // of the radius: a flatter circle is a line
+  static constexpr double kWidestPart = 0.9;  // of it along the axis: farther out it turns round
+  double centreX_ = 0.0, centreY_ = 0.0;
+  std::optional<double> radius_;  // negative: of the arc below the centre
 };
 
 // What of the derivatives is open where a model begins.
@@ -217,7 +219,7 @@ void goTo(Followed& f, double h, double tau2) {
   f.mean = go * f.mean;
   f.spread = go * f.spread * go.transpose();
   if (!(tau2 > 0.0)) return;
-  static constexpr double kRest[4] = {6.0, 2.0, 1.0, 1.0};
+  static constexpr double kRest[4] = {6.0, 2.0, 1.0, 1.0};  // (3 - i)!
   const double h2 = h * h, odd[7] = {h, h2, h2 * h, h2 * h2, h2 * h2 * h, h2 * h2 * h2, h2 * h2 * h2 * h};
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) f.spread(i, j) += tau2 * odd[6 - i - j] / ((7 - i - j) * kRest[i] * kRest[j]);
@@ -313,8 +315,8 @@ void continueSide(const Followed& f, double from, double to, CornerSide& side) {
   const double w[4] = {f.mean[0], -f.mean[1] * half, f.mean[2] / 2.0 * half * half,
                        -f.mean[3] / 6.0 * half * half * half};
   side.coefficient = {w[0] + w[1] + w[2] + w[3], w[1] + 2.0 * w[2] + 3.0 * w[3], w[2] + 3.0 * w[3], w[3], 0.0};
-  const State turned(1.0, -1.0, 1.0, -1.0);
-  Eigen::Map<Spread>(side.spread.data()) = turned.asDiagonal() * f.spread * turned.asDiagonal();
+  const State reversed(1.0, -1.0, 1.0, -1.0);
+  Eigen::Map<Spread>(side.spread.data()) = reversed.asDiagonal() * f.spread * reversed.asDiagonal();
   const State row(1.0, from, from * from / 2.0, from * from * from / 6.0);
   side.sigmaPx = std::sqrt(std::max(0.0, row.dot(f.spread * row)));
 }

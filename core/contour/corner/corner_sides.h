@@ -11,10 +11,10 @@ namespace batten {
 /// One side of a corner as a polynomial over a straight axis, to be extended to the corner and beyond. Beyond `from`,
 /// away from the corner, it need not follow the points.
 struct CornerSide {
-  static constexpr int kMostDegree = 4;
+  static constexpr int kMostDegree = 4;               ///< Sides are cubics so far: the last coefficient is 0.
   Vec2 origin = Vec2::Zero();                         ///< [px] the contour point that the fit started from.
   Vec2 along = Vec2::Zero();                          ///< Unit axis, pointing away from the corner.
-  Vec2 across = Vec2::Zero();                         ///< Unit, along turned by 90 degrees.
+  Vec2 across = Vec2::Zero();                         ///< Unit, along rotated by 90 degrees.
   std::array<double, kMostDegree + 1> coefficient{};  ///< [px] of powers of z, which is -1 at `from` and 1 at `to`.
   double from = 0.0;                                  ///< [px] the points used begin here...
   double to = 0.0;                                    ///< ...and end here, along the axis.

@@ -20,7 +20,8 @@
 namespace batten {
 namespace {
 
-constexpr double kSure = 5.0;  // standard deviations
+constexpr double kSure = 5.0;          // standard deviations
+constexpr double kBristleReach = 3.0;  // standard deviations: as far as neighbours are averaged
 
 struct Candidate {
   int index = 0;
@@ -71,14 +72,15 @@ std::vector<double> roughnessOf(const Contour& contour, double scale, const RunC
 // [rad] Standard deviation of the angle between two parabolas of length `scale` on such a line, whose dents are about
 // `kDentPx` long: the slope at the end of a parabola has variance 192 S / L^3 for noise of density S.
 double angleNoise(double roughPx, double scale) {
-  constexpr double kDentPx = 8.0, kSlopeVariance = 192.0;
+  constexpr double kDentPx = 8.0, kSlopeVariance = 192.0;  // how long dents are; see above
   return roughPx * std::sqrt(2.0 * kSlopeVariance * kDentPx / (scale * scale * scale));
 }
 
 // On a clean line a corner is one however short its sides are. On a rough one it may be a dent, which has gone once
 // more of the line is looked at; a corner has not.
 bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, double rough, double inner, double scale) {
-  constexpr double kCleanScore = 0.75, kCoarser = 3.5, kStays = 0.7;
+  constexpr double kCleanScore = 0.75;            // of the angle: the sides are smooth
+  constexpr double kCoarser = 3.5, kStays = 0.7;  // of the scale; of the angle that is left there
   const double angle = std::abs(turning.angleRad);
   if (turning.score >= kCleanScore * angle && angle >= kSure * angleNoise(rough, scale)) return true;
   const auto coarse = turningAt(contour, i, inner, inner + kCoarser * scale);
@@ -86,13 +88,14 @@ bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, doub
          std::abs(coarse->angleRad) >= kSure * angleNoise(rough, kCoarser * scale);
 }
 
-// Without the bristles of a ragged border: every point the mean of its neighbours. Kept point for point.
-// Not complete when cancelled.
+// Without the bristles of a ragged border: every point the mean of its neighbours. Kept point for point. At an open end
+// the window is cut off and not mirrored as by smoothPolyline(), which holds the end itself, though it may be that of a
+// bristle. Not complete when cancelled.
 Contour smoothed(const Contour& contour, double sigmaPx, double step, const RunContext& context) {
   Contour out = contour;
   const int n = static_cast<int>(contour.points.size());
   const double sigma = sigmaPx / step;
-  const int reach = std::min(static_cast<int>(3.0 * sigma), n / 2);
+  const int reach = std::min(static_cast<int>(kBristleReach * sigma), n / 2);
   std::vector<double> weights;
   for (int k = 0; k <= reach; ++k) weights.push_back(std::exp(-0.5 * k * k / (sigma * sigma)));
   for (int i = 0; i < n && !context.isCancelled(); ++i) {
@@ -139,7 +142,8 @@ class CornerDetector {
 
   // The sharpest point of a sharp feature, unless it is one of the many of a ragged line.
   std::optional<Candidate> sharpest(const SharpFeature& feature) const {
-    constexpr double kArmPx = 6.0, kChordShare = 0.9;
+    constexpr double kArmPx = 6.0;       // of the chords
+    constexpr double kChordShare = 0.9;  // of the smallest angle: chords see less of a turn
     Candidate best;
     const int n = static_cast<int>(rough_.size());
     for (int k = feature.first; k <= feature.last && n > 0; ++k) {
@@ -155,12 +159,12 @@ class CornerDetector {
  private:
   // Of `scale_`: what dents and bristles are smoothed over, and what is left out and looked at beside a corner then.
   static constexpr double kSmoothing = 0.6, kRaggedInner = 0.7, kRaggedScale = 2.0;
-  static constexpr std::size_t kFewestLinePoints = 8;
-  static constexpr double kLeastScaleStepPx = 0.1;
+  static constexpr std::size_t kFewestLinePoints = 8;  // shorter lines have no two sides
+  static constexpr double kLeastScaleStepPx = 0.1;     // keeps reaches in points finite where points coincide
 
   // Whether dents look like corners here.
   bool isRagged(int i) const {
-    constexpr double kRagged = 1.5;
+    constexpr double kRagged = 1.5;  // of the smallest angle: noise of the angle as large passes for corners
     return kSure * angleNoise(rough_[i], scale_) > kRagged * minAngle_;
   }
 
@@ -187,7 +191,7 @@ class CornerDetector {
 
   // More of the line is looked at, without its bristles, and the sides are straight: what bends them counts as noise.
   std::optional<Candidate> onRagged(int i) const {
-    constexpr double kLeastScore = 0.25;
+    constexpr double kLeastScore = 0.25;  // of the angle: half of onClean(), as straight sides fit less well
     const double scale = kRaggedScale * scale_;
     if (isStraight(smooth_, i, scale)) return std::nullopt;
     const double inner =
@@ -255,7 +259,7 @@ std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpFe
 
 // Sides that lead elsewhere, past a neighbour that is none, locate nothing.
 bool isLocated(const CornerFix& fix, double seenRad) {
-  constexpr double kLeastShare = 0.5;
+  constexpr double kLeastShare = 0.5;  // of the turn that was seen
   return fix.exact && fix.angleRad * seenRad > 0.0 && std::abs(fix.angleRad) >= kLeastShare * std::abs(seenRad);
 }
 
@@ -331,7 +335,7 @@ std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAn
 // nearer to it stays.
 std::vector<CornerSuggestion> oncePerCorner(const ContourSet& set, const std::vector<CornerSuggestion>& all,
                                             double snapDistancePx, const RunContext& context) {
-  constexpr double kOneCornerPx = 2.0;
+  constexpr double kOneCornerPx = 2.0;  // located corners as near are one
   struct Found {
     int suggestion;
     Corner corner;

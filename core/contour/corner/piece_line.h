@@ -14,7 +14,7 @@ struct PiecePoint {
   Vec2 at = Vec2::Zero();              ///< [px] image frame or [mm] model frame: that of the line it belongs to.
   bool refined = true;                 ///< Placed on the grey values; of what was drawn: drawn, not laid between.
   std::optional<float> sigmaPx = {};   ///< [px] > 0: standard deviation across the line.
-  std::optional<float> spreadPx = {};  ///< [px] half-width of the bundle of merged strokes: the line meant may lie
+  std::optional<float> spreadPx = {};  ///< [px] half-width of the bundle of merged strokes: the intended line may lie
                                        ///< anywhere within.
 };
 

@@ -14,13 +14,15 @@
 namespace batten {
 namespace {
 
-constexpr double kEndReach = 8.0, kEndReachLater = 10.0;
-constexpr double kNoCandidateDeg = 180.0;
-constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;  // of the chord before the one that gives the direction
-constexpr double kLeastBendChord = 3.0;                // samples: a shorter one has no direction, as of a stroke
-constexpr double kLongFrom = 25.0, kLongTo = 2.0;
-constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;
-constexpr double kLinkReach = 4.0;
+constexpr double kEndReach = 8.0, kEndReachLater = 10.0;  // [stroke widths] those of bundles lie scattered
+constexpr double kNoCandidateDeg = 180.0;  // counts as the cost of a rival where there is none: it turns right back
+constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;    // of the chord before the one that gives the direction
+constexpr double kLeastBendChord = 3.0;                  // samples: a shorter one has no direction, as of a stroke
+constexpr double kLongFrom = 25.0, kLongTo = 2.0;        // samples inside of the tip: where a bundle goes on the whole
+constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;  // [stroke widths] ends as near are arms of one junction
+constexpr double kSpreadsInside = 2.0;                   // so many spreads farther in the whole of a bundle is seen
+constexpr double kSamePlace = 1e-9;                      // the tip of a piece and that of its strip
+constexpr double kLinkReach = 4.0;     // [stroke widths] and the spread: a link so near to a bundle's tip is of its end
 constexpr double kTouchingEnds = 1.5;  // the way between them has no direction
 
 // Cost of a pair beside its turn. A gap weighs as a turn of so many degrees per stroke width, less between bundles,
@@ -33,9 +35,9 @@ constexpr double kEndAngleUnitDeg = 30.0, kMissUnitDeg = 60.0;
 constexpr double kNoWidth = 0.5;                               // [stroke widths] added, for the logarithm of nothing
 constexpr double kFirstBendDeg = 20.0, kSecondBendDeg = 40.0;  // from where on a turn weighs more, and more again
 constexpr double kUnlikeBendDeg = 25.0, kLongBendDeg = 30.0;   // the same of other angles
-constexpr double kMostLinkedTurnDeg = 150.0, kMostLongTurnDeg = 120.0, kMostAdvantageDeg = 90.0;
-constexpr double kBackDeg = 120.0;  // what turns more runs back
-constexpr int kMostArms = 6, kMostLinks = 4;
+constexpr double kMostLinkedTurnDeg = 150.0, kMostLongTurnDeg = 120.0, kMostAdvantageDeg = 90.0;  // caps
+constexpr double kBackDeg = 120.0;            // what turns more runs back
+constexpr int kMostArms = 6, kMostLinks = 4;  // caps
 
 double signedDeg(const Vec2& a, const Vec2& b) { return kDegPerRad * std::atan2(cross(a, b), a.dot(b)); }
 
@@ -43,7 +45,7 @@ const Strip& stripOf(const EndView& v, int end) { return v.view.strips[end / 2];
 
 // The chord reaches farther in, the wider the bundle: its very end is a few strokes only.
 double farInside(const EndView& v, int end) {
-  return kDirectionFrom + (v.view.isLater ? 2.0 * stripOf(v, end).spread : 0.0);
+  return kDirectionFrom + (v.view.isLater ? kSpreadsInside * stripOf(v, end).spread : 0.0);
 }
 Vec2 outOf(const EndView& v, int end) {
   return directionOut(stripOf(v, end), end % 2, farInside(v, end), kDirectionTo);
@@ -59,17 +61,17 @@ double bendAt(const EndView& v, int end) {
 
 void setGeometry(EndPair& p, const EndView& v) {
   const Vec2 outA = outOf(v, p.a), outB = outOf(v, p.b);
-  const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
-  p.gap = way.norm();
+  const Vec2 chord = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
+  p.gap = chord.norm();
   p.turnDeg = turnDeg(outA, -outB);
-  p.offset = std::max(std::abs(cross(outA, way)), std::abs(cross(outB, way)));
+  p.offset = std::max(std::abs(cross(outA, chord)), std::abs(cross(outB, chord)));
 }
 
-// [deg] Between the two ends and the way from one to the other, summed.
+// [deg] Between the two ends and the chord from one to the other, summed.
 double missDeg(const EndPair& p, const EndView& v) {
   if (p.gap < kTouchingEnds) return p.turnDeg;
-  const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
-  return turnDeg(outOf(v, p.a), way) + turnDeg(outOf(v, p.b), -way);
+  const Vec2 chord = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
+  return turnDeg(outOf(v, p.a), chord) + turnDeg(outOf(v, p.b), -chord);
 }
 
 // Counts the links of the trace between members that lie at both ends.
@@ -89,8 +91,8 @@ void setLinks(std::vector<EndPair>& pairs, const EndView& v) {
       const Vec2& at = tipOf(v.pieces.pieces[link->to / 2].strip, link->to % 2);
       const auto isAt = [&](int end) {
         const Strip& s = stripOf(v, end);
-        const double reach = v.view.isLater ? kLinkReach + 2.0 * s.spread : 0.0;
-        return (tipOf(s, end % 2) - at).norm() <= reach + 1e-9;
+        const double reach = v.view.isLater ? kLinkReach + kSpreadsInside * s.spread : 0.0;
+        return (tipOf(s, end % 2) - at).norm() <= reach + kSamePlace;
       };
       if (!isAt(p.a) || !isAt(p.b)) continue;
       if (!v.view.isLater && !((link->from == p.a && link->to == p.b) || (link->from == p.b && link->to == p.a)))
@@ -154,9 +156,9 @@ Vec2 directionOut(const Strip& strip, int side, double fromInside, double toInsi
   const int from = std::min(last, static_cast<int>(std::lround(fromInside)));
   const int to = std::min(std::max(0, from - 1), static_cast<int>(std::lround(toInside)));
   const auto at = [&](int inside) { return strip.samples[side == 0 ? inside : last - inside].at; };
-  const Vec2 way = at(to) - at(from);
-  const double length = way.norm();
-  if (length > 0.0) return way / length;
+  const Vec2 chord = at(to) - at(from);
+  const double length = chord.norm();
+  if (length > 0.0) return chord / length;
   return side == 0 ? Vec2(-strip.samples.front().tangent) : strip.samples.back().tangent;
 }
 

@@ -30,7 +30,7 @@ struct EndView {
   const std::vector<StripPair>& sides;
 };
 
-constexpr int kEndFeatures = 33, kEndFeaturesLater = 44;
+constexpr int kEndFeatures = 33, kEndFeaturesLater = 44;  ///< Of endFeatures(): of pieces, of bundles.
 
 /// All pairs of ends within 8 stroke widths, of bundles within 10.
 std::vector<EndPair> findEndPairs(const EndView& view, const RunContext& context);

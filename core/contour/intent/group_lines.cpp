@@ -19,16 +19,16 @@ namespace batten {
 namespace {
 
 // In stroke widths.
-constexpr double kLeastAlone = 0.9;   // of the ink of its pieces: a shorter mean has some of them side by side
-constexpr double kReachShare = 0.95;  // of the strokes' samples lie within the reach of the bundle
-constexpr double kBundleMargin = 1.0;
-constexpr double kClosing = 3.0;     // ends as near as this, and the spread, close a line
-constexpr double kClosingCos = 0.5;  // 60 degrees
-constexpr double kShortestRing = 15.0;
+constexpr double kLeastAlone = 0.9;     // of the ink of its pieces: a shorter mean has some of them side by side
+constexpr double kReachShare = 0.95;    // of the strokes' samples lie within the reach of the bundle
+constexpr double kBundleMargin = 1.0;   // beyond the middles of the strokes: the ink of the outermost
+constexpr double kClosing = 3.0;        // ends as near as this, and the spread, close a line
+constexpr double kClosingCos = 0.5;     // 60 degrees
+constexpr double kShortestRing = 15.0;  // the ends of a shorter line are near each other in any case
 // What runs within the bundle of a longer line is of it; a lone line has no bundle.
 constexpr double kExplainedNear = 1.5, kExplainedAlong = 4.5, kExplainedSpreads = 1.5, kExplainedCos = 0.85,
                  kExplainedNearCos = 0.5;
-constexpr double kUnexplained = 3.0, kUnexplainedShare = 0.35;
+constexpr double kUnexplained = 3.0, kUnexplainedShare = 0.35;  // of a line, of its ink: with less of its own it goes
 
 // A line made of one mean.
 struct GroupLine {
@@ -145,7 +145,7 @@ class MeanDrawer {
     const MeanPoint& start = line.points.front();
     std::optional<int> best;
     double nearest = reach;
-    for (int i = n - 1; i >= (3 * n) / 4; --i) {
+    for (int i = n - 1; i >= (3 * n) / 4; --i) {  // of the last quarter: no more is given up
       const double d = (line.points[i].at - start.at).norm();
       if (d >= nearest || line.points[i].tangent.dot(start.tangent) < kClosingCos) continue;
       nearest = d;
@@ -176,9 +176,9 @@ std::vector<Contour> withoutExplained(std::vector<GroupLine> found, const Stroke
       for (const StripSample& sample : set.pieces[piece].strip.samples) {
         bool explained = false;
         ink.around(sample.at, [&](const Explaining& e) {
-          const double d = (e.at - sample.at).norm(), way = std::abs(e.tangent.dot(sample.tangent));
-          explained =
-              explained || (d <= kExplainedNear && way > kExplainedNearCos) || (d <= e.reach && way > kExplainedCos);
+          const double d = (e.at - sample.at).norm(), cosine = std::abs(e.tangent.dot(sample.tangent));
+          explained = explained || (d <= kExplainedNear && cosine > kExplainedNearCos) ||
+                      (d <= e.reach && cosine > kExplainedCos);
         });
         all += 1.0;
         unexplained += explained ? 0.0 : 1.0;

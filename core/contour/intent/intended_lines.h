@@ -10,7 +10,7 @@
 
 namespace batten {
 
-/// One line for each curve that was meant, however often it was drawn over and in however many strokes. The lines are
+/// One line for each intended curve, however often it was drawn over and in however many strokes. The lines are
 /// cut where they may have gone from one curve into another (stroke_pieces.h), the pieces grouped by place, without one
 /// distance for the page (stroke_groups.h), and every group replaced by its mean, with the spread of its strokes as the
 /// bundle of its points. A group of pieces that follow each other on one line stays as it was traced. What is left of a

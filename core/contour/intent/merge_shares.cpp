@@ -12,9 +12,9 @@ namespace batten {
 
 std::vector<MergeShares> mergeSharesOf(const std::vector<Strip>& strips, const std::vector<Contour>& merged,
                                        double widthPx, double reach, const RunContext& context) {
-  constexpr double kSameWayCos = 0.8;
-  constexpr int kEvery = 2;        // points of a merged line
-  constexpr int kMergedReach = 5;  // points: of the chord of a direction
+  constexpr double kSameWayCos = 0.8;  // 37 degrees
+  constexpr int kEvery = 2;            // points of a merged line
+  constexpr int kMergedReach = 5;      // points: of the chord of a direction
   struct MergedPlace {
     int line;
     Vec2 at, tangent;

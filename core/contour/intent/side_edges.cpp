@@ -19,12 +19,12 @@ namespace {
 constexpr double kAlongStep = 0.75;               // a crossing lies within this of the normal
 constexpr double kSideCos = 0.86602540378443865;  // 30 degrees
 constexpr double kLeastSeen = 0.34;               // of the crossings
-constexpr int kLeastCrossings = 2;
-constexpr double kBesideEnd = 6.0;     // an end beside another strip is no farther from it
-constexpr int kAtEnd = 2;              // samples: a crossing there is one of the end
-constexpr int kLevelEnds = 4;          // samples: by less, ends are level
-constexpr double kCrossingSide = 0.3;  // farther to both sides: they cross
-constexpr int kStripsPerBlock = 8;
+constexpr int kLeastCrossings = 2;                // of both together: one may be chance
+constexpr double kBesideEnd = 6.0;                // an end beside another strip is no farther from it
+constexpr int kAtEnd = 2;                         // samples: a crossing there is one of the end
+constexpr int kLevelEnds = 4;                     // samples: by less, ends are level
+constexpr double kCrossingSide = 0.3;             // farther to both sides: they cross
+constexpr int kStripsPerBlock = 8;                // worked on together; the result does not depend on it
 
 // Of the features. The weights (intent_weights.h) were learned with these: they change together only.
 constexpr double kSideAngleUnitDeg = 10.0;
@@ -71,9 +71,9 @@ class PairFinder {
     grid_.around(own.at, [&](const StripPlace& p) {
       if (p.strip == s) return;
       const StripSample& beside = strips_[p.strip].samples[p.sample];
-      const Vec2 way = beside.at - own.at;
-      if (std::abs(way.dot(own.tangent)) > kAlongStep) return;
-      const double across = leftNormal(own.tangent).dot(way);
+      const Vec2 offset = beside.at - own.at;
+      if (std::abs(offset.dot(own.tangent)) > kAlongStep) return;
+      const double across = leftNormal(own.tangent).dot(offset);
       if (std::abs(across) > reach_) return;
       const double c = beside.tangent.dot(own.tangent);
       if (std::abs(c) <= kSideCos) return;
@@ -95,10 +95,11 @@ bool areSeen(const StripPair& pair) {
   return static_cast<double>(seen) >= kLeastSeen * count;
 }
 
+// @pre from < to.
 double middleOf(const std::vector<StripCrossing>& crossings, std::size_t from, std::size_t to) {
   std::vector<double> sizes;
   for (std::size_t i = from; i < to; ++i) sizes.push_back(std::abs(crossings[i].across));
-  return sizes.empty() ? 0.0 : upperMedian(sizes);
+  return upperMedian(sizes);
 }
 
 double partingOf(const std::vector<StripCrossing>& c) {
@@ -172,7 +173,7 @@ std::vector<StripPair> findStripPairs(const std::vector<Strip>& strips, double r
 SideMeasures measureSide(const StripPair& pair, const PairView& view) {
   const Strip &a = view.strips[pair.a], &b = view.strips[pair.b];
   SideMeasures m;
-  std::vector<double> apart, angles;
+  std::vector<double> apart, angles;  // not pairs: medians reorder each of them
   bool toLeft = false, toRight = false;
   int seen = 0;
   for (const auto* list : {&pair.fromA, &pair.fromB}) {
@@ -213,8 +214,8 @@ SideMeasures measureSide(const StripPair& pair, const PairView& view) {
 }
 
 std::vector<double> sideFeatures(const SideMeasures& m, const StripPair& pair, const PairView& view, bool sameLine) {
-  constexpr double kTouching = 1.5, kSmallAngleDeg = 12.0;
-  constexpr int kMostEndsBeside = 2;
+  constexpr double kTouching = 1.5, kSmallAngleDeg = 12.0;  // [stroke widths]; learned with, as those above
+  constexpr int kMostEndsBeside = 2;                        // a cap
   const Strip &a = view.strips[pair.a], &b = view.strips[pair.b];
   const Strip &shorter = a.count() <= b.count() ? a : b, &longer = a.count() <= b.count() ? b : a;
   const double shortest = shorter.count(), longest = longer.count(), g = view.scale;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -22,21 +21,21 @@ constexpr double kTurnCost = 30.0 / std::numbers::pi;  // [per rad] a sixth of a
 constexpr double kFewCrossings = 20.0;                 // what a pair with few crossings costs
 constexpr double kSurelyNear = 4.0;                    // what looks overdrawn as near as this is one
 constexpr double kOverdrawnPart = 0.1;  // of its cost: a pair that looks overdrawn comes before the trace
-constexpr double kTraceCost = 0.5;
+constexpr double kTraceCost = 0.5;      // less than any two ends cost: the trace has joined these
 // At one arc length pieces are no farther apart than a multiple of what is usual for the group, but for a few samples.
 constexpr double kLeastFarthest = 6.0, kFarthestFactor = 2.0, kFarthestShare = 0.8;
-constexpr int kMostFar = 4;
-constexpr double kAgreeing = 8.0;  // relations that disagree by more are the closing of a loop
-constexpr double kEndTaper = 6.0, kLeastTaperShare = 0.05;
-constexpr double kTraceWeight = 50.0, kEndWeight = 2.0;  // crossings
-constexpr int kRelaxations = 30;
-constexpr int kHannReach = 3;  // samples to either side
+constexpr int kMostFar = 4;                                 // samples
+constexpr double kAgreeing = 8.0;                           // relations that disagree by more are the closing of a loop
+constexpr double kEndTaper = 6.0, kLeastTaperShare = 0.05;  // at its end a stroke's weight falls to this
+constexpr double kTraceWeight = 50.0, kEndWeight = 2.0;     // crossings
+constexpr int kRelaxations = 30;                            // rounds: an offset passes on by a piece or more in each
+constexpr int kHannReach = 3;                               // samples to either side
 
 // Sample k of the first lies at direction * (sample of the second) + offset.
 struct Relation {
   int a = 0, b = 0;  // of the group
   double direction = 1.0, offset = 0.0, cost = 0.0, weight = 0.0;
-  double apart = 0.0;  // side by side: kMostQuantile of the distances
+  std::optional<double> apart = {};  // side by side: kMostQuantile of the distances; absent: end to end
   bool isTrace = false;
   int endA = 0, endB = 0;  // of a trace: which ends meet
 };
@@ -61,8 +60,8 @@ std::optional<Relation> besideRelation(const StripPair& pair, int a, int b, bool
 }
 
 std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, int sideB) {
-  const Vec2 way = tipOf(b, sideB) - tipOf(a, sideA);
-  const double gap = way.norm();
+  const Vec2 chord = tipOf(b, sideB) - tipOf(a, sideA);
+  const double gap = chord.norm();
   if (gap > kMostGap) return std::nullopt;
   const Vec2 out = directionOut(a, sideA, kDirectionFrom, kDirectionTo);
   const Vec2 in = -directionOut(b, sideB, kDirectionFrom, kDirectionTo);
@@ -72,7 +71,7 @@ std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, i
   r.endA = sideA;
   r.endB = sideB;
   r.direction = sideA == sideB ? -1.0 : 1.0;
-  const double ahead = std::max(0.0, way.dot(out));
+  const double ahead = std::max(0.0, chord.dot(out));
   const double atA = sideA == 1 ? a.count() - 1 + ahead : -ahead;
   r.offset = atA - r.direction * (sideB == 1 ? b.count() - 1 : 0);
   r.cost = gap + kTurnCost * std::acos(std::clamp(c, -1.0, 1.0)) + 1.0;
@@ -82,7 +81,7 @@ std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, i
 
 // [sample] Where a piece lies at a common arc length; absent: not there.
 std::optional<double> sampleAt(const Strip& strip, const PlacedPiece& placed, double s) {
-  constexpr double kRounding = 1e-6;
+  constexpr double kRounding = 1e-6;  // samples
   const double k = placed.direction * (s - placed.offset), last = strip.count() - 1;
   if (k < -kRounding || k > last + kRounding) return std::nullopt;
   return std::clamp(k, 0.0, last);
@@ -104,57 +103,58 @@ double highEnd(const Strip& strip, const PlacedPiece& p) {
 // Pieces of a group on one or several common arc lengths.
 class CommonLength {
  public:
-  CommonLength(std::vector<const Strip*> strips, std::vector<Relation> relations)
-      : strips_(std::move(strips)), placed_(strips_.size()), tree_(strips_.size()), relations_(std::move(relations)) {
-    std::iota(tree_.begin(), tree_.end(), 0);
+  CommonLength(const std::vector<const Strip*>& strips, std::vector<Relation> relations)
+      : relations_(std::move(relations)) {
+    for (const Strip* strip : strips) pieces_.push_back({.strip = strip, .tree = static_cast<int>(pieces_.size())});
     std::stable_sort(relations_.begin(), relations_.end(),
                      [](const Relation& x, const Relation& y) { return x.cost < y.cost; });
     std::vector<double> apart;
     for (const Relation& r : relations_)
-      if (r.apart > 0.0) apart.push_back(r.apart);
+      if (r.apart && *r.apart > 0.0) apart.push_back(*r.apart);
     farthest_ = std::max(kLeastFarthest, apart.empty() ? 0.0 : kFarthestFactor * lowerQuantile(apart, kFarthestShare));
     for (const Relation& r : relations_) join(r);
     relax();
   }
-  int tree(int piece) const { return tree_[piece]; }
-  const PlacedPiece& placed(int piece) const { return placed_[piece]; }
+  int tree(int piece) const { return pieces_[piece].tree; }
+  const PlacedPiece& placed(int piece) const { return pieces_[piece].placed; }
   bool agrees(const Relation& r) const {
-    const PlacedPiece &a = placed_[r.a], &b = placed_[r.b];
-    return tree_[r.a] == tree_[r.b] && b.direction == a.direction * r.direction &&
+    const PlacedPiece &a = pieces_[r.a].placed, &b = pieces_[r.b].placed;
+    return pieces_[r.a].tree == pieces_[r.b].tree && b.direction == a.direction * r.direction &&
            std::abs(a.offset + a.direction * r.offset - b.offset) <= kAgreeing;
   }
   const std::vector<Relation>& relations() const { return relations_; }
 
  private:
   void join(const Relation& r) {
-    const int from = tree_[r.b], to = tree_[r.a];
+    const int from = pieces_[r.b].tree, to = pieces_[r.a].tree;
     if (from == to) return;
-    const PlacedPiece a = placed_[r.a], b = placed_[r.b];
+    const PlacedPiece a = pieces_[r.a].placed, b = pieces_[r.b].placed;
     const double flip = a.direction * r.direction * b.direction;
     const double shift = a.offset + a.direction * r.offset - flip * b.offset;
     if (parts(to, from, flip, shift)) return;
-    for (int i = 0; i < std::ssize(tree_); ++i) {
-      if (tree_[i] != from) continue;
-      tree_[i] = to;
-      placed_[i].direction *= flip;
-      placed_[i].offset = flip * placed_[i].offset + shift;
+    for (int i = 0; i < std::ssize(pieces_); ++i) {
+      if (pieces_[i].tree != from) continue;
+      pieces_[i].tree = to;
+      pieces_[i].placed.direction *= flip;
+      pieces_[i].placed.offset = flip * pieces_[i].placed.offset + shift;
     }
   }
   // Whether two trees, the second moved, lie far apart where they are at the same arc length: a line that forks.
   bool parts(int one, int other, double flip, double shift) const {
-    for (int i = 0; i < std::ssize(tree_); ++i)
-      for (int k = 0; k < std::ssize(tree_); ++k) {
-        if (tree_[i] != one || tree_[k] != other) continue;
-        PlacedPiece moved = placed_[k];
+    for (int i = 0; i < std::ssize(pieces_); ++i)
+      for (int k = 0; k < std::ssize(pieces_); ++k) {
+        if (pieces_[i].tree != one || pieces_[k].tree != other) continue;
+        PlacedPiece moved = pieces_[k].placed;
         moved.direction *= flip;
         moved.offset = flip * moved.offset + shift;
-        if (lowEnd(*strips_[k], moved) > highEnd(*strips_[i], placed_[i]) ||
-            highEnd(*strips_[k], moved) < lowEnd(*strips_[i], placed_[i]))
+        if (lowEnd(*pieces_[k].strip, moved) > highEnd(*pieces_[i].strip, pieces_[i].placed) ||
+            highEnd(*pieces_[k].strip, moved) < lowEnd(*pieces_[i].strip, pieces_[i].placed))
           continue;
         int far = 0;
-        for (int sample = 0; sample < strips_[k]->count(); ++sample) {
-          const auto at = sampleAt(*strips_[i], placed_[i], moved.direction * sample + moved.offset);
-          if (at && (pointAtSample(*strips_[i], *at) - strips_[k]->samples[sample].at).norm() > farthest_) ++far;
+        for (int sample = 0; sample < pieces_[k].strip->count(); ++sample) {
+          const auto at = sampleAt(*pieces_[i].strip, pieces_[i].placed, moved.direction * sample + moved.offset);
+          if (at && (pointAtSample(*pieces_[i].strip, *at) - pieces_[k].strip->samples[sample].at).norm() > farthest_)
+            ++far;
         }
         if (far > kMostFar) return true;
       }
@@ -162,28 +162,31 @@ class CommonLength {
   }
   // Least squares of the offsets over all relations that agree.
   void relax() {
-    std::vector<std::vector<const Relation*>> of(placed_.size());
+    std::vector<std::vector<const Relation*>> of(pieces_.size());
     for (const Relation& r : relations_) {
       if (!agrees(r)) continue;
       of[r.a].push_back(&r);
       of[r.b].push_back(&r);
     }
     for (int round = 0; round < kRelaxations; ++round)
-      for (int i = 0; i < std::ssize(placed_); ++i) {
+      for (int i = 0; i < std::ssize(pieces_); ++i) {
         double sum = 0.0, weights = 0.0;
         for (const Relation* r : of[i]) {
-          const PlacedPiece& other = placed_[r->a == i ? r->b : r->a];
-          const double way = placed_[r->a].direction * r->offset;
-          sum += r->weight * (r->a == i ? other.offset - way : other.offset + way);
+          const PlacedPiece& other = pieces_[r->a == i ? r->b : r->a].placed;
+          const double shift = pieces_[r->a].placed.direction * r->offset;
+          sum += r->weight * (r->a == i ? other.offset - shift : other.offset + shift);
           weights += r->weight;
         }
-        if (weights > 0.0) placed_[i].offset = sum / weights;
+        if (weights > 0.0) pieces_[i].placed.offset = sum / weights;
       }
   }
 
-  std::vector<const Strip*> strips_;
-  std::vector<PlacedPiece> placed_;
-  std::vector<int> tree_;
+  struct TreePiece {
+    const Strip* strip = nullptr;
+    PlacedPiece placed = {};
+    int tree = 0;
+  };
+  std::vector<TreePiece> pieces_;
   std::vector<Relation> relations_;
   double farthest_ = 0.0;
 };
@@ -346,7 +349,7 @@ std::vector<PieceMean> PieceMeans::of(const std::vector<int>& group) const {
   std::vector<Relation> relations = relationsOf(group, set_, pairs_, pairsOf_, areOne_);
   std::vector<const Strip*> strips;
   for (const int piece : group) strips.push_back(&set_.pieces[piece].strip);
-  const CommonLength common(std::move(strips), std::move(relations));
+  const CommonLength common(strips, std::move(relations));
   std::map<int, std::vector<Member>> trees;
   std::map<int, std::pair<int, int>> at;
   for (int i = 0; i < std::ssize(group); ++i) {

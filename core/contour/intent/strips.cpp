@@ -13,7 +13,7 @@ std::vector<Vec2> positionsOf(const std::vector<StripSample>& samples) {
 }
 
 void setTangents(Strip& strip) {
-  constexpr int kTangentReach = 2;
+  constexpr int kTangentReach = 2;  // samples to either side
   const std::vector<Vec2> tangents = directions(positionsOf(strip.samples), strip.closed, kTangentReach);
   for (int i = 0; i < strip.count(); ++i) strip.samples[i].tangent = tangents[i];
 }

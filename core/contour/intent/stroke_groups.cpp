@@ -15,10 +15,10 @@
 namespace batten {
 namespace {
 
-constexpr double kSideReachLater = 20.0;
-constexpr double kMostLogOdds = 5.0;    // one confident error is not to win over a bundle
-constexpr double kFreeBundleEnd = 2.0;  // and the spread: no other ink within
-constexpr double kSurelyOne = 1.0;      // log-odds
+constexpr double kSideReachLater = 20.0;  // [stroke widths] between bundles that may be one
+constexpr double kMostLogOdds = 5.0;      // one confident error is not to win over a bundle
+constexpr double kFreeBundleEnd = 2.0;    // and the spread: no other ink within
+constexpr double kSurelyOne = 1.0;        // log-odds
 
 std::vector<Strip> stripsOf(const StrokePieceSet& set) {
   std::vector<Strip> strips;
@@ -98,7 +98,8 @@ void setFreeBundleEnds(std::vector<Strip>& strips, const StrokePieceSet& set) {
 }  // namespace
 
 int overdrawnPlaces(const StrokePieceSet& set, const std::vector<StripPair>& pairs) {
-  constexpr double kNearest = 0.8, kFarthest = 8.0, kLongEnough = 5.0;
+  constexpr double kNearest = 0.8, kFarthest = 8.0;  // [stroke widths] apart: one stroke, two lines
+  constexpr double kLongEnough = 5.0;                // samples beside each other
   const std::vector<Strip> strips = stripsOf(set);
   const PairView view{strips};
   return static_cast<int>(std::ranges::count_if(pairs, [&](const StripPair& pair) {

@@ -29,7 +29,7 @@ struct GroupingProbe {
   StrokePieceSet* pieces = nullptr;  ///< Set by intendedLines().
 };
 
-/// Groups pieces by the curves that were meant. What lies side by side or meets end to end gets log-odds
+/// Groups pieces by the intended curves. What lies side by side or meets end to end gets log-odds
 /// (intent_weights.h), the groups are those of contractGreedily(); three rounds, of which the first two join only what
 /// is certain, because the ends, directions and widths of a bundle are known only once its strokes are one.
 /// @param scale [stroke widths] > 0, the distance for merging that suits the page as a whole.

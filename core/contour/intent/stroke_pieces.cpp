@@ -18,7 +18,7 @@ namespace {
 constexpr double kAttached = 1.6, kCrossed = 1.0, kFreeEnd = 2.0;
 constexpr int kOwnAttached = 6, kOwnCrossed = 8;  // a line is another line to itself from here on
 constexpr int kOnePlace = 2;                      // cuts as near as this are one
-constexpr int kShortestPiece = 3;
+constexpr int kShortestPiece = 3;                 // a shorter one has no direction
 
 enum class CutKind { Crossing, Attachment, Corner };  // the weaker first
 struct StrokeCut {
@@ -52,10 +52,10 @@ SampledLine sampledLine(const Contour& line, double widthPx) {
   const int last = static_cast<int>(points.size()) - 1;
   int i = 0;
   for (int k = 0; k < steps + (line.closed ? 0 : 1); ++k) {
-    const double wanted = length * k / steps;
-    while (i < last && arc[i + 1] <= wanted) ++i;
+    const double along = length * k / steps;
+    while (i < last && arc[i + 1] <= along) ++i;
     const double end = i < last ? arc[i + 1] : length;
-    const double f = end > arc[i] ? std::clamp((wanted - arc[i]) / (end - arc[i]), 0.0, 1.0) : 0.0;
+    const double f = end > arc[i] ? std::clamp((along - arc[i]) / (end - arc[i]), 0.0, 1.0) : 0.0;
     const bool isEnd = i == last && !line.closed;
     const Vec2& next = isEnd ? points[i] : points[wrapIndex(i + 1, last + 1)];
     sampled.samples.push_back(
@@ -122,7 +122,8 @@ class PieceCutter {
   }
 
   // In the middle of every run of samples that lie on another line.
-  void addCrossings(int l, std::vector<StrokeCut>& cuts) const {
+  std::vector<StrokeCut> crossingsOf(int l) const {
+    std::vector<StrokeCut> cuts;
     const int n = lines_[l].count();
     std::vector<bool> crossed;
     for (int k = 0; k < n; ++k) crossed.push_back(isCrossed(l, k));
@@ -133,6 +134,7 @@ class PieceCutter {
       cuts.push_back({(k + last) / 2, CutKind::Crossing});
       k = last;
     }
+    return cuts;
   }
 
   // Ascending, none too near to another or to an open end.
@@ -145,7 +147,8 @@ class PieceCutter {
       cuts.push_back({static_cast<int>(at - line.samples.begin()), CutKind::Corner});
     }
     for (const int sample : attached_[l]) cuts.push_back({sample, CutKind::Attachment});
-    addCrossings(l, cuts);
+    const std::vector<StrokeCut> crossings = crossingsOf(l);
+    cuts.insert(cuts.end(), crossings.begin(), crossings.end());
     cuts = places(std::move(cuts));
     std::stable_sort(cuts.begin(), cuts.end(), [](const StrokeCut& a, const StrokeCut& b) { return a.kind > b.kind; });
     std::vector<StrokeCut> kept;

@@ -13,15 +13,16 @@ namespace {
 
 // A square end of a stroke makes a spur that sticks out .41 radii; nothing that is drawn is dropped.
 constexpr double kSpurRadii = 1.6;
-constexpr int kInkSpurRounds = 3;
-constexpr double kStraightDeg = 45.0;  // chains that bend more at a junction are no single stroke
-constexpr double kWidthRatio = 1.6;    // nor those whose widths differ more, and a pixel
-constexpr double kDegPerOctave = 40.0;
-constexpr double kLevelPx = 1.0;  // of a width, that the grid of pixels explains
+constexpr int kInkSpurRounds = 3;       // a spur may show only once another has gone
+constexpr double kStraightDeg = 45.0;   // chains that bend more at a junction are no single stroke
+constexpr double kWidthRatio = 1.6;     // nor those whose widths differ more, and a pixel
+constexpr double kDegPerOctave = 40.0;  // what twice the width costs, as of a bend
+constexpr double kLevelPx = 1.0;        // of a width, that the grid of pixels explains
 // Beyond the disc of a junction, over which the direction and the width of a chain are taken: [stroke widths], and
 // where strokes are thin as many pixels as keep a single step of the skeleton below 15 degrees.
 constexpr double kEndReachWidths = 2.0, kLeastEndReachPx = 4.0;
-constexpr double kPathCoreWidths = 2.5;
+constexpr double kRimReachWidths = 2.0, kRimReachPx = 2.0;  // along a line: within so much it widens into a solid
+constexpr double kPathCoreWidths = 2.5;                     // and a pixel: where strokes cross the ink is no wider
 
 InkPixel measured(const SkeletonPixel& p, const BitImage& ink) {
   return {p.x, p.y, static_cast<float>(inkRadius(ink, p.x, p.y))};
@@ -43,14 +44,14 @@ std::vector<int> rimsOf(std::vector<InkPixel>& p) {
   for (const int step : {1, -1}) {
     for (int i = step > 0 ? 0 : n - 1; i >= 0 && i < n; i += step) {
       if (p[i].inJunction) continue;
-      const double width = std::max(1.0, p[i].widthPx()), reach = 2.0 * width + 2.0;
-      double way = 0.0;
+      const double width = std::max(1.0, p[i].widthPx()), reach = kRimReachWidths * width + kRimReachPx;
+      double arc = 0.0;
       int k = i + step;
-      for (; k >= 0 && k < n && way <= reach; k += step) {
-        way += stepLength(p[k], p[k - step]);
+      for (; k >= 0 && k < n && arc <= reach; k += step) {
+        arc += stepLength(p[k], p[k - step]);
         if (p[k].widthPx() > coreWidth(width)) break;
       }
-      if (k < 0 || k >= n || way > reach) continue;
+      if (k < 0 || k >= n || arc > reach) continue;
       for (int m = k - step; m != i; m -= step) p[m].inJunction = true;
       const int cut = step > 0 ? k : k + 1;
       if (cut > 0 && cut < n) rims.push_back(cut);

@@ -11,8 +11,8 @@ namespace batten {
 namespace {
 
 constexpr double kUneven = 0.15;  // share of its area that one width may leave unexplained
-constexpr double kBarWidths = 2.5;
-constexpr double kShortWidths = 8.0;  // a thick path shorter than this among thin ones is a bar
+// A path so many pens wide and no longer than so many of its own widths is a bar among thin strokes.
+constexpr double kBarWidths = 2.5, kShortWidths = 8.0;
 constexpr double kOwnPen = 10.0;      // widths of paths that show the pen of a piece
 constexpr double kLimbWidths = 12.0;  // shorter paths that hang on a shape may be its limbs
 constexpr double kSamePen = 1.5;      // ratio of widths

@@ -17,9 +17,9 @@ constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a 
 // lying down, and as large as it is long; what is as high is a row of joined letters, each about as wide as high.
 constexpr double kLetterHeight = 5.0;
 constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexplained in an alphabet
-constexpr double kHairWidths = 0.5;
+constexpr double kHairWidths = 0.5;         // of the pen of a piece: thinner paths are hairs
 constexpr double kLeastBroadPx = 4.5;  // of the page: below it the grid of pixels is as large as the contrast of a nib
-constexpr int kLeastVoters = 5;
+constexpr int kLeastVoters = 5;        // pieces: fewer are no lettering
 // Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
 // them.
 constexpr double kOneLineShare = 0.75;

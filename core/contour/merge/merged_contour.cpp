@@ -20,6 +20,8 @@ constexpr double kLeastAdvancePx = 0.2;   // along the line, from point to point
 constexpr double kLeastSeamPx = 0.35;     // between the last and the first point of a ring
 constexpr double kRoomSmoothing = 4.0;    // points
 constexpr double kBundleSmoothing = 1.5;  // points: little, as every stroke is to stay inside
+constexpr double kWidenedReach = 3.0;     // standard deviations of that smoothing: beyond, it averages next to nothing
+constexpr int kBundleTangentReach = 3;    // points to either side
 
 // The place, width and bundle between two points, at `part` of the way.
 ContourPoint contourPointBetween(const ContourPoint& a, const ContourPoint& b, double part) {
@@ -67,7 +69,7 @@ Contour orderedPoints(const MeanLine& line, const std::vector<Contour>& lines) {
 
 // Every value becomes the largest within the reach of the smoothing, and no value less than it was.
 std::vector<float> widened(const std::vector<float>& v, bool closed) {
-  const int n = static_cast<int>(v.size()), reach = static_cast<int>(std::ceil(3.0 * kBundleSmoothing));
+  const int n = static_cast<int>(v.size()), reach = static_cast<int>(std::ceil(kWidenedReach * kBundleSmoothing));
   std::vector<float> most(v.size());
   for (int i = 0; i < n; ++i)
     for (int k = i - reach; k <= i + reach; ++k) {
@@ -95,7 +97,7 @@ std::vector<BundleWidths> onBothSides(const std::vector<BundleWidths>& bundle, c
 // Where the strokes lie after the points of a line have moved.
 std::vector<BundleWidths> movedBundle(std::vector<BundleWidths> bundle, const std::vector<Vec2>& from,
                                       const std::vector<Vec2>& to, bool closed) {
-  const std::vector<Vec2> tangent = directions(from, closed, 3);
+  const std::vector<Vec2> tangent = directions(from, closed, kBundleTangentReach);
   for (int i = 0; i < std::ssize(from); ++i) {
     const auto across = static_cast<float>((to[i] - from[i]).dot(leftNormal(tangent[i])));
     bundle[i] = {std::max(0.0f, bundle[i].left - across), std::max(0.0f, bundle[i].right + across)};

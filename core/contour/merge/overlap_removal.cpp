@@ -19,14 +19,14 @@ constexpr double kOnLine = 0.15;        // the distance within which strokes are
 constexpr double kSameDirection = 0.8;  // 37 degrees: the cosine between lines that are one
 constexpr int kShortestOn = 12;         // points: lying on a line for less is crossing it
 constexpr int kShortestGap = 4;         // points: not lying on a line for less is noise
-constexpr double kOwnLength = 4.0;      // distances along a line, and 30 points, before it can lie on itself
-constexpr int kOwnPoints = 30;
-constexpr int kTipPoints = 8;         // over which the direction of an end is taken
-constexpr int kPointsPerLook = 4096;  // between two looks at the cancel token
-constexpr double kMostOnLinePx = 4.0;
-constexpr double kTouch = 0.25;       // distances: an end as near as this touches
-constexpr double kShort = 2.0;        // distances: such strokes need not touch
-constexpr double kBesideSlack = 0.1;  // part of a stretch that may be farther away than beside
+constexpr double kOwnLength = 4.0;      // distances along a line,
+constexpr int kOwnPoints = 30;          // and so many points, before it can lie on itself
+constexpr int kTipPoints = 8;           // over which the direction of an end is taken
+constexpr int kPointsPerLook = 4096;    // between two looks at the cancel token
+constexpr double kMostOnLinePx = 4.0;   // however far strokes are merged: farther off lies another stroke
+constexpr double kTouch = 0.25;         // distances: an end as near as this touches
+constexpr double kShort = 2.0;          // distances: such strokes need not touch
+constexpr double kBesideSlack = 0.1;    // part of a stretch that may be farther away than beside
 
 // A point of a piece.
 struct PiecePlace {

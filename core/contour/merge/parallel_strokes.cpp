@@ -27,13 +27,14 @@ constexpr double kFoldBack = 2.0;      // times the way about a turn
 constexpr double kGapWidths = 3.0;     // along a line: so short a gap beside it is none
 constexpr double kLevelDistances = 2;  // distances between two lines: ends as near along them are level
 constexpr double kLeastCellPx = 3.0;   // of the grid of points
-constexpr double kOwnApart = 3.0,
-                 kOwnWidths = 4.0;    // distances and widths along a line before it can lie beside itself
+// Distances and widths along a line before it can lie beside itself.
+constexpr double kOwnApart = 3.0, kOwnWidths = 4.0;
 constexpr double kLeastApart = 0.1;   // widths: nearer is the same line
 constexpr double kAsideWidths = 3.0;  // to either side of the place ahead
+constexpr double kAheadPx = 1.0;      // along the direction: points of a line are about one pixel apart
 constexpr int kSideTangentReach = 3;  // points to either side
-constexpr int kSidesPerBlock = 128;
-constexpr int kSidesPerLook = 16;  // between two looks at the cancel token
+constexpr int kSidesPerBlock = 128;   // worked on together; the result does not depend on it
+constexpr int kSidesPerLook = 16;     // between two looks at the cancel token
 
 struct LinePoint {
   Vec2 at = Vec2::Zero(), tangent = Vec2::Zero();
@@ -171,7 +172,7 @@ class SideFinder {
       cells_.around(ahead + r * across, [&](const LinePlace& p) {
         const LinePoint& other = pointAt(p);
         const Vec2 d = other.at - ahead;
-        found = found || (std::abs(d.dot(direction)) <= 1.0 && std::abs(d.dot(across)) <= aside &&
+        found = found || (std::abs(d.dot(direction)) <= kAheadPx && std::abs(d.dot(across)) <= aside &&
                           std::abs(other.tangent.dot(direction)) >= kAlikeCos);
       });
     return found;

@@ -1,19 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
-#include "core/base/run_context.h"
 #include "core/contour/merge/overlap_removal.h"
 
 namespace batten {
 
-/// Joins pieces into lines. Where pieces meet, those with matching positions and directions continue as one line; a
-/// remainder no longer than twice `distancePx` is an overshoot and is dropped. Lines that share a short stretch
-/// continue at its other end as they came. Free ends that face each other within the distance are joined, and a line
-/// that meets itself is closed. A single stroke that leaves the others smoothly and ends counts as an overshoot up to a
-/// greater length. `widestPx` is the largest distance that strokes are merged over in the end. Not complete when
-/// cancelled.
-std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, double widestPx, const RunContext& context);
+/// A stretch of a mean line between two nodes; its ends are numbered 2 * edge + side.
+struct GraphEdge {
+  MeanLine line;
+  std::array<std::optional<int>, 2> node;  ///< At the start and the end; none: the line ends there.
+  double length = 0.0;                     ///< [px]
+  bool alive = true;
+};
+
+/// Mean lines as a graph: edges, and for every node the ends that meet there.
+struct StrokeGraph {
+  std::vector<GraphEdge> edges;
+  std::vector<std::vector<int>> nodes;
+  void add(MeanLine line, std::optional<int> from, std::optional<int> to);
+  void remove(int edge);
+};
+
+/// Cuts the pieces where others are attached; what is nearer than the distance along a piece is one node.
+StrokeGraph graphOf(StrokePieces pieces, double distancePx);
 
 }  // namespace batten

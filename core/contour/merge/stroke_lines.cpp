@@ -11,14 +11,15 @@
 namespace batten {
 namespace {
 
-constexpr double kLook = 1.5;  // distances over which an end is looked at
-constexpr double kLeastLookPx = 12.0;
+constexpr double kLook = 1.5;                    // distances over which an end is looked at
+constexpr double kLeastLookPx = 12.0;            // over less, the steps of pixels give the direction
 constexpr double kSeamSmoothing = 3.0;           // points
 constexpr int kSeamReach = 12;                   // points on either side
 constexpr double kBentEnd = 0.5;                 // distances: means are bent so far from their ends,
 constexpr double kBentShare = 0.25;              // or for this part of a short one
 constexpr int kLongEnough = 8, kBeforeBend = 5;  // points: of a line with so many the direction is read before its end
-constexpr double kMeetingSine = 0.3;             // 17 degrees: at a smaller angle the place of meeting is uncertain
+constexpr double kSeamAdvancePx = 1.0, kEndAdvancePx = 0.5;  // less ahead of a line it would fold: it is cut back
+constexpr double kMeetingSine = 0.3;  // 17 degrees: at a smaller angle the place of meeting is uncertain
 
 // The two parts of a line meet before `joint` to within a few pixels: a little smoothing there.
 void smoothSeam(MeanLine& line, int joint) {
@@ -32,7 +33,7 @@ void smoothSeam(MeanLine& line, int joint) {
 // Cuts off what lies beyond the start of what follows.
 void giveIn(MeanLine& line, const Vec2& start, const Vec2& direction, double mostPx) {
   double given = 0.0;
-  while (line.points.size() > 3 && given < mostPx && (start - line.points.back().at).dot(direction) < 1.0) {
+  while (line.points.size() > 3 && given < mostPx && (start - line.points.back().at).dot(direction) < kSeamAdvancePx) {
     given += (line.points.back().at - line.points[line.count() - 2].at).norm();
     line.points.pop_back();
   }
@@ -43,7 +44,7 @@ void endLineAt(MeanLine& line, int side, const Vec2& place) {
   if (side == 0) reverseLine(line);
   const int n = line.count();
   const Vec2 out = line.points[n > kLongEnough ? n - kBeforeBend : n - 1].tangent;
-  while (line.points.size() > 3 && (place - line.points.back().at).dot(out) < 0.5) line.points.pop_back();
+  while (line.points.size() > 3 && (place - line.points.back().at).dot(out) < kEndAdvancePx) line.points.pop_back();
   MeanPoint last = line.points.back();
   last.at = place;
   line.points.push_back(last);

@@ -12,8 +12,8 @@
 namespace batten {
 namespace {
 
-constexpr int kMeanRounds = 3;
-constexpr int kMeansPerBlock = 256;
+constexpr int kMeanRounds = 3;          // beside a place that moved lie other strokes
+constexpr int kMeansPerBlock = 256;     // worked on together; the result does not depend on it
 constexpr int kPointsPerCheck = 1024;   // looked at between two looks at the cancel token
 constexpr double kParallelCos = 0.985;  // 10 degrees: fully one line
 constexpr double kCrossingCos = 0.906;  // 25 degrees: another line
@@ -276,7 +276,8 @@ bool StrokesBeside::isNear(const Vec2& at, int line, int index) const {
 
 std::vector<BundleWidths> StrokesBeside::bundle(const std::vector<Vec2>& points, bool closed,
                                                 const RunContext& context) const {
-  constexpr double kAlongPx = 1.5, kOneStrokePx = 1.0;
+  constexpr double kAlongPx = 1.5;      // from the normal: points of a line are about one pixel apart
+  constexpr double kOneStrokePx = 1.0;  // the points of one stroke scatter by less
   const std::vector<Vec2> tangent = directions(points, closed, kMeanTangentReach);
   std::vector<BundleWidths> bundle(points.size());
   const auto measure = [&](int i) {
@@ -291,7 +292,6 @@ std::vector<BundleWidths> StrokesBeside::bundle(const std::vector<Vec2>& points,
       low = std::min(low, offset);
       high = std::max(high, offset);
     });
-    // The points of one stroke scatter by less.
     if (high - low <= kOneStrokePx) return;
     bundle[i] = {static_cast<float>(high), static_cast<float>(-low)};
   };

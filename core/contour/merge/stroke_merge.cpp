@@ -7,7 +7,7 @@
 #include "core/base/statistics.h"
 #include "core/contour/merge/merged_contour.h"
 #include "core/contour/merge/overlap_removal.h"
-#include "core/contour/merge/stroke_graph.h"
+#include "core/contour/merge/piece_joining.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/contour/merge/stroke_mean.h"
 #include "core/contour/merge/stroke_turns.h"
@@ -17,10 +17,10 @@ namespace batten {
 
 namespace {
 
-constexpr double kFirstWidths = 1.5;  // [stroke widths] strokes as near as this are one before others are looked at
-constexpr int kMostLevels = 5;
-constexpr double kSmoothing = 0.25;         // of the distance
-constexpr double kLeastSmoothing = 2.0;     // points
+constexpr double kFirstWidths = 1.5;     // [stroke widths] strokes as near as this are one before others are looked at
+constexpr int kMostLevels = 5;           // each of half the distance: the first is a sixteenth
+constexpr double kSmoothing = 0.25;      // of the distance
+constexpr double kLeastSmoothing = 2.0;  // points
 constexpr float kLeastMergedShare = 1e-3f;  // of merged points in the window of the smoothing: less moves nothing
 constexpr float kMerged = 1.05f;            // weight of more than one stroke
 

@@ -12,20 +12,20 @@
 namespace batten {
 namespace {
 
-constexpr double kNodePx = 4.0;         // between the nodes at which the line is moved
-constexpr double kBundleShare = 0.9;    // of the bundle: the line stays between the strokes
-constexpr double kBeyond = 0.45;        // of the spread: the room just beyond the end of a stroke
-constexpr double kFade = 0.12;          // [px/px] how fast it goes to nothing from there
-constexpr double kLeastRoomPx = 0.02;   // of single strokes
-constexpr double kLeastBundlePx = 0.5;  // strokes nearer to each other need no fairing
-constexpr double kSmoothRoomPx = 0.5;   // from here on the line is smoothed between the nodes, too
-constexpr double kOver = 0.01;          // of the room: so little beyond it is cut off
-constexpr double kLeastStiffer = 2.0, kMostStiffer = 100.0;
-constexpr double kFirmest = 1e6;            // weight of a node that is held, against third differences
-constexpr double kShortestWaveSteps = 6.0;  // nodes: shorter waves cannot be told
-constexpr int kNormalReach = 3;             // points to either side
-constexpr int kFairingRounds = 24;
-constexpr int kFewestNodes = 8;
+constexpr double kNodePx = 4.0;                              // between the nodes at which the line is moved
+constexpr double kBundleShare = 0.9;                         // of the bundle: the line stays between the strokes
+constexpr double kBeyond = 0.45;                             // of the spread: the room just beyond the end of a stroke
+constexpr double kFade = 0.12;                               // [px/px] how fast it goes to nothing from there
+constexpr double kLeastRoomPx = 0.02;                        // of single strokes
+constexpr double kLeastBundlePx = 0.5;                       // strokes nearer to each other need no fairing
+constexpr double kSmoothRoomPx = 0.5;                        // from here on the line is smoothed between the nodes, too
+constexpr double kOver = 0.01;                               // of the room: so little beyond it is cut off
+constexpr double kLeastStiffer = 2.0, kMostStiffer = 100.0;  // times: by which the weight of a node may grow in a round
+constexpr double kFirmest = 1e6;                             // weight of a node that is held, against third differences
+constexpr double kShortestWaveSteps = 6.0;                   // nodes: shorter waves cannot be told
+constexpr int kNormalReach = 3;                              // points to either side
+constexpr int kFairingRounds = 24;                           // fewer once every node lies in its room
+constexpr int kFewestNodes = 8;                              // a shorter line is hardly longer than the shortest wave
 
 // Every value becomes the largest that is left of its neighbours' when they fall by `fall` a step.
 void spread(std::vector<double>& v, bool closed, double fall) {
@@ -44,8 +44,8 @@ struct Room {
 // As much of a move as there is room for: not beyond the strokes on either side, and nowhere farther than they are.
 Vec2 within(const Vec2& move, const Vec2& normal, const Room& room) {
   if (!(room.larger() > kLeastRoomPx)) return Vec2::Zero();  // single strokes stay
-  const double wanted = move.dot(normal), across = std::clamp(wanted, -room.right, room.left);
-  Vec2 along = move - wanted * normal;
+  const double offset = move.dot(normal), across = std::clamp(offset, -room.right, room.left);
+  Vec2 along = move - offset * normal;
   const double most = std::sqrt(std::max(0.0, room.larger() * room.larger() - across * across));
   if (along.norm() > most) along *= most / along.norm();
   return across * normal + along;
@@ -64,7 +64,7 @@ struct Nodes {
 
 // Beyond the end of a stroke there is room still, and less the farther away: the line need not turn to it at once.
 void addRoomBeyond(Nodes& line, bool closed) {
-  std::vector<double> left, right;
+  std::vector<double> left, right;  // apart, since each is spread by itself
   for (const Node& node : line.nodes) {
     const double most = kBeyond * (node.room.left + node.room.right);
     left.push_back(std::min(node.room.left, most));
@@ -89,11 +89,11 @@ Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<Bu
   const int n = static_cast<int>(points.size());
   int i = 0;
   for (int k = 0; k < spans + (closed ? 0 : 1); ++k) {
-    const double want = k * made.step;
-    while (i + 1 < n && s[i + 1] <= want) ++i;
+    const double arc = k * made.step;
+    while (i + 1 < n && s[i + 1] <= arc) ++i;
     const int next = i + 1 < n ? i + 1 : (closed ? 0 : i);
     const double gap = (points[next] - points[i]).norm();
-    const double part = gap > 0.0 ? std::clamp((want - s[i]) / gap, 0.0, 1.0) : 0.0;
+    const double part = gap > 0.0 ? std::clamp((arc - s[i]) / gap, 0.0, 1.0) : 0.0;
     const Room room{kBundleShare * static_cast<double>(std::max(bundle[i].left, bundle[next].left)),
                     kBundleShare * static_cast<double>(std::max(bundle[i].right, bundle[next].right))};
     made.nodes.push_back({points[i] + part * (points[next] - points[i]), leftNormal(tangent[i]), room});
@@ -107,7 +107,7 @@ class ThirdDifferences {
  public:
   ThirdDifferences(int count, bool closed) {
     std::vector<Eigen::Triplet<double>> entries;
-    static constexpr double kRow[4] = {-1.0, 3.0, -3.0, 1.0};
+    static constexpr double kRow[4] = {-1.0, 3.0, -3.0, 1.0};  // of a third difference
     for (int k = 0; k < (closed ? count : count - 3); ++k)
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) entries.emplace_back((k + i) % count, (k + j) % count, kRow[i] * kRow[j]);
@@ -154,10 +154,10 @@ std::vector<Vec2> shifts(const Nodes& line, bool closed, double longestPx) {
     bool outside = false;
     for (int k = 0; k < n; ++k) {
       const Node& node = line.nodes[k];
-      const Vec2 wanted = (*fair)[k] - node.at;
-      shift[k] = within(wanted, node.normal, node.room);
+      const Vec2 unbounded = (*fair)[k] - node.at;
+      shift[k] = within(unbounded, node.normal, node.room);
       const double room = std::max(node.room.larger(), kLeastRoomPx);
-      const double beyond = (wanted - shift[k]).norm(), over = beyond / room;
+      const double beyond = (unbounded - shift[k]).norm(), over = beyond / room;
       if (beyond <= std::max(kLeastRoomPx, kOver * room)) continue;
       outside = true;
       held[k] = node.at + shift[k];

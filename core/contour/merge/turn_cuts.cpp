@@ -13,13 +13,14 @@ namespace batten {
 namespace {
 
 // In samples, one stroke width apart.
-constexpr int kCutChord = 5, kCutBeyond = 15;  // chords end there; what lies beyond says how the line bends
-constexpr int kLeastPart = 3;
-constexpr int kShortCutChord = 3, kPlaceReach = 2;
+constexpr int kCutChord = 5, kCutBeyond = 15;       // chords end there; what lies beyond says how the line bends
+constexpr int kLeastPart = 3;                       // a shorter part has no direction
+constexpr int kShortCutChord = 3, kPlaceReach = 2;  // of the shorter chords; from where a corner is seen to where it is
 constexpr double kShortShare = 0.75;  // of the turn: chords as short see as much of a corner, but two thirds of an arc
 constexpr double kArcSamples = 6.0;   // as much of the bend beyond counts as no corner
-constexpr double kMostArc = 120.0 * kRadPerDeg;
-constexpr double kLeastTurn = 40.0 * kRadPerDeg, kLeastBeyondArc = 24.0 * kRadPerDeg;
+constexpr double kMostArc = 120.0 * kRadPerDeg;        // a line that curls beyond a corner must not hide it
+constexpr double kLeastTurn = 40.0 * kRadPerDeg;       // of a corner,
+constexpr double kLeastBeyondArc = 24.0 * kRadPerDeg;  // by more than an arc's
 
 // A line in steps of about one stroke width.
 class TurnSearch {
@@ -33,14 +34,14 @@ class TurnSearch {
     if (points.size() < 2 || steps < 2 * kLeastPart) return;
     int at = 0;
     for (int k = 0; k < samples; ++k) {
-      const double wanted = length * k / steps;
-      while (at + 1 < std::ssize(arc) && arc[at + 1] <= wanted) ++at;
+      const double along = length * k / steps;
+      while (at + 1 < std::ssize(arc) && arc[at + 1] <= along) ++at;
       const double end = at + 1 < std::ssize(arc) ? arc[at + 1] : length;
       const Vec2& next = points[wrapIndex(at + 1, static_cast<int>(points.size()))];
-      const double f = end > arc[at] ? std::clamp((wanted - arc[at]) / (end - arc[at]), 0.0, 1.0) : 0.0;
+      const double f = end > arc[at] ? std::clamp((along - arc[at]) / (end - arc[at]), 0.0, 1.0) : 0.0;
       const bool isLast = at + 1 == std::ssize(arc) && !line.closed;
-      samples_.push_back(isLast ? points[at] : Vec2(points[at] + f * (next - points[at])));
-      point_.push_back(wrapIndex(f < 0.5 || isLast ? at : at + 1, static_cast<int>(points.size())));
+      samples_.push_back({isLast ? points[at] : Vec2(points[at] + f * (next - points[at])),
+                          wrapIndex(f < 0.5 || isLast ? at : at + 1, static_cast<int>(points.size()))});
     }
   }
 
@@ -66,7 +67,7 @@ class TurnSearch {
         return isBeside(other.sample, turn.sample) &&
                (other.score > turn.score || (other.score == turn.score && other.sample < turn.sample));
       });
-      if (!isPart) points.push_back(point_[sharpestBeside(turn.sample)]);
+      if (!isPart) points.push_back(samples_[sharpestBeside(turn.sample)].point);
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -82,7 +83,7 @@ class TurnSearch {
   }
   Vec2 chord(int from, int to) const {
     const int n = static_cast<int>(samples_.size());
-    return samples_[wrapIndex(to, n)] - samples_[wrapIndex(from, n)];
+    return samples_[wrapIndex(to, n)].at - samples_[wrapIndex(from, n)].at;
   }
   static double angleBetween(const Vec2& in, const Vec2& out) { return std::atan2(cross(in, out), in.dot(out)); }
 
@@ -121,9 +122,12 @@ class TurnSearch {
     return wrapIndex(best, static_cast<int>(samples_.size()));
   }
 
+  struct Sample {
+    Vec2 at;
+    int point;  // of the line, nearest to the sample
+  };
   bool closed_;
-  std::vector<Vec2> samples_;
-  std::vector<int> point_;  ///< Of the line, nearest to every sample.
+  std::vector<Sample> samples_;
 };
 
 }  // namespace
@@ -138,9 +142,9 @@ Contour cutPart(const Contour& line, int from, int to) {
   part.bridges.clear();
   for (int i = from; i <= to; ++i) part.points.push_back(line.points[wrapIndex(i, n)]);
   for (const auto& [first, last] : line.bridges) {
-    for (const int turn : {0, n}) {
-      const int a = std::max(first + turn, from), b = std::min(last + turn, to);
-      if (a <= b && (turn == 0 || line.closed)) part.bridges.emplace_back(a - from, b - from);
+    for (const int shift : {0, n}) {
+      const int a = std::max(first + shift, from), b = std::min(last + shift, to);
+      if (a <= b && (shift == 0 || line.closed)) part.bridges.emplace_back(a - from, b - from);
     }
   }
   measureContour(part);

@@ -10,15 +10,16 @@ namespace {
 
 // Directions of travel along the cracks, clockwise on the screen.
 enum : int { kRight = 0, kDown = 1, kLeft = 2, kUp = 3 };
-constexpr int kStepX[4] = {1, 0, -1, 0};
-constexpr int kStepY[4] = {0, 1, 0, -1};
+constexpr int kStepX[4] = {1, 0, -1, 0};  // one crack right,
+constexpr int kStepY[4] = {0, 1, 0, -1};  // and down
 // Pixels ahead of a corner (x, y) of the pixel grid, relative to it, on the left and on the right of travel.
 constexpr int kAheadLeftX[4] = {0, 0, -1, -1};
-constexpr int kAheadLeftY[4] = {-1, 0, 0, -1};
-constexpr int kAheadRightX[4] = {0, -1, -1, 0};
-constexpr int kAheadRightY[4] = {0, 0, -1, -1};
+constexpr int kAheadLeftY[4] = {-1, 0, 0, -1};   // down
+constexpr int kAheadRightX[4] = {0, -1, -1, 0};  // right
+constexpr int kAheadRightY[4] = {0, 0, -1, -1};  // down
 
 constexpr std::size_t kCancelEvery = 1u << 18;  // cracks; well below 50 ms
+constexpr int kRowsPerLook = 256;               // between two looks at the cancel token, where few cracks begin
 
 struct Border {
   std::vector<Vec2> midpoints;  // reused from border to border
@@ -93,7 +94,7 @@ Result<ContourSet> followAll(const BitImage& ink, bool internal, double minLengt
   CrackFollower follower(ink, context);
   Border border;
   for (int y = 0; y < ink.height; ++y) {
-    if (y % 256 == 0 && context.isCancelled()) return cancelled();
+    if (y % kRowsPerLook == 0 && context.isCancelled()) return cancelled();
     for (int word = 0; word < ink.wordsPerRow; ++word) {
       for (std::uint64_t starts = follower.unvisitedLeftCracks(y, word); starts != 0;
            starts = follower.unvisitedLeftCracks(y, word)) {

@@ -14,15 +14,15 @@ namespace batten {
 namespace {
 
 constexpr double kFadeFromBlurs = 2.2, kFadeFromPx = 3.0;  // where slopes are measured from
-constexpr double kFadeLeverPx = 4.0;
-constexpr double kFadeSigma = 12.0;    // points: tones change slowly
-constexpr double kLargestFade = 0.4;   // of the contrast, over the lever: another line
-constexpr double kFaintestFade = 4.0;  // [grey]
-constexpr double kLargestFadePx = 0.5;
-constexpr float kLeastKnown = 0.05f;  // of the points around
-constexpr int kFadesPerBlock = 512;
-constexpr double kFadeBaseSigma = 2.0;  // points: noise of the points across the line
-constexpr int kFadeDirectionReach = 2;  // points to either side
+constexpr double kFadeLeverPx = 4.0;                       // over which they are measured: long against the pixels
+constexpr double kFadeSigma = 12.0;                        // points: tones change slowly
+constexpr double kLargestFade = 0.4;                       // of the contrast, over the lever: another line
+constexpr double kFaintestFade = 4.0;                      // [grey]
+constexpr double kLargestFadePx = 0.5;                     // of the correction: more is no fading tone
+constexpr float kLeastKnown = 0.05f;                       // of the points around
+constexpr int kFadesPerBlock = 512;                        // worked on together; the result does not depend on it
+constexpr double kFadeBaseSigma = 2.0;                     // points: noise of the points across the line
+constexpr int kFadeDirectionReach = 2;                     // points to either side
 
 double normalCdf(double x) { return NormalTable::instance().at(x).cdf; }
 
@@ -71,8 +71,8 @@ double fitRound(const FadingProfile& p, double position) {
 /// [px] How far the edge is found off per slope of one contrast a px on the ink side (towards the ink: positive). The
 /// paper side's does the opposite.
 double shiftPerSlope(double blur) {
-  constexpr double kSmallSlope = 0.002;
-  constexpr int kRounds = 12;
+  constexpr double kSmallSlope = 0.002;  // [1/px] small, since the shift per slope is a limit
+  constexpr int kRounds = 12;            // of levels and position in turn
   double position = 0.0;
   for (int round = 0; round < kRounds; ++round) position = fitRound({blur, kSmallSlope}, position);
   return position / kSmallSlope;
@@ -121,7 +121,7 @@ void undoFade(Contour& c, const GreyImage& grey, const RunContext& context) {
   const double blur = std::sqrt(*c.blurPx * *c.blurPx + kPixelVariance + PixelWindow::kVariance);
   const std::vector<std::optional<float>> measured = measureFade(c, grey, blur, context);
   if (context.isCancelled()) return;
-  std::vector<float> fade, weight;
+  std::vector<float> fade, weight;  // apart, since smoothValues() takes plain numbers
   for (const auto& value : measured) {
     fade.push_back(value.value_or(0.0f));
     weight.push_back(value ? 1.0f : 0.0f);

@@ -32,14 +32,14 @@ std::vector<bool> mouthsOf(const Contour& outline, const BitImage& strokes) {
 // along the end of the shape's ink.
 std::vector<Vec2> acrossMouth(const Vec2& from, std::span<const ContourPoint> rim, const Vec2& to) {
   constexpr double kMostSag = 0.3, kMostSagPx = 2.0;  // [of the way across]
-  const Vec2 way = to - from;
+  const Vec2 chord = to - from;
   double sag = 0.0;
-  for (const ContourPoint& p : rim) sag = std::max(sag, std::abs(cross(way, Vec2(p.at - from))));
-  const double length = way.norm();
+  for (const ContourPoint& p : rim) sag = std::max(sag, std::abs(cross(chord, Vec2(p.at - from))));
+  const double length = chord.norm();
   std::vector<Vec2> points;
   if (length > 0.0 && sag / length <= std::max(kMostSagPx, kMostSag * length)) {
     const int steps = std::max(1, static_cast<int>(std::lround(length)));
-    for (int k = 1; k < steps; ++k) points.push_back(from + way * (static_cast<double>(k) / steps));
+    for (int k = 1; k < steps; ++k) points.push_back(from + chord * (static_cast<double>(k) / steps));
     return points;
   }
   constexpr int kReach = 3;  // points to each side that even out the steps of the pixels

@@ -10,13 +10,13 @@
 namespace batten {
 namespace {
 
-constexpr double kNearPx = 3.0, kFarPx = 11.0;
-constexpr double kSoftRatio = 2.2;      // of the rises; a ramp has 3.7, an edge blurred by 5 px 2.15
-constexpr double kAlongSigma = 6.0;     // points: noise along the border
-constexpr int kShortestSoft = 30;       // points
-constexpr int kShortestSharp = 20;      // points: between soft stretches
-constexpr int kRaggedShare = 3;         // of the shortest soft stretch: shorter ones do not bridge sharp ones
-constexpr double kNearlyAllSoft = 0.9;  // no edge to tell from
+constexpr double kNearPx = 3.0, kFarPx = 11.0;  // to either side: what a soft border rises by between them
+constexpr double kSoftRatio = 2.2;              // of the rises; a ramp has 3.7, an edge blurred by 5 px 2.15
+constexpr double kAlongSigma = 6.0;             // points: noise along the border
+constexpr int kShortestSoft = 30;               // points
+constexpr int kShortestSharp = 20;              // points: between soft stretches
+constexpr int kRaggedShare = 3;                 // of the shortest soft stretch: shorter ones do not bridge sharp ones
+constexpr double kNearlyAllSoft = 0.9;          // no edge to tell from
 
 // Stretches that are soft, or sharp, as `what` says, and shorter than this become as what is around them.
 void flipShortStretches(std::vector<std::uint8_t>& soft, bool closed, std::uint8_t what, int shorter) {

@@ -63,7 +63,9 @@ Contour shrunk(const Contour& contour, int scale) {
 /// 0..1 per point: where the grey goes on changing beyond 3 px to each side of the line, so that the scan itself shows
 /// too little of the edge. Outlines are soft in parts: a tone against a mask is sharp there and fades elsewhere.
 std::vector<float> softness(const Contour& contour, const GreyImage& grey, double blurPx, const RunContext& context) {
-  constexpr double kInnerPx = 3.0, kOuterBlurs = 2.5, kLeastShare = 0.9, kMeasureSigma = 8.0, kBlendSigma = 4.0;
+  constexpr double kInnerPx = 3.0, kOuterBlurs = 2.5;  // to either side: what a scan shows, and a soft edge covers
+  constexpr double kLeastShare = 0.9;                  // of the outer rise: a sharp edge has as much within the inner
+  constexpr double kMeasureSigma = 8.0, kBlendSigma = 4.0;  // points: noise along the line; of soft and sharp
   const double reach = std::max(2.0 * kInnerPx, kOuterBlurs * blurPx);
   const std::vector<EdgeRise> rises =
       edgeRises(unrefinedPositionsOf(contour.points), contour.closed, grey, {kInnerPx, reach}, kMeasureSigma, context);

@@ -29,8 +29,8 @@ constexpr int kPixelBlurPoints = 300;            // that vote for the blur of th
 constexpr std::array kOutlineBlurStrides = {1};  // of its search, which begins near the end
 constexpr double kPixelGatePx = 0.5;             // as far as the pixels may move what the profiles found
 constexpr double kMostSquares = 1e9;             // [grey^2] of one point: no vote counts for more
-constexpr int kReversalRounds = 3;
-constexpr double kLeastVariance = 1e-6;  // [px^2] of the light's blur
+constexpr int kReversalRounds = 3;               // mending one step may reverse the next
+constexpr double kLeastVariance = 1e-6;          // [px^2] of the light's blur
 
 bool onPageBorder(const Vec2& crack, const GreyImage& grey) {
   return crack.x() <= 0.0 || crack.y() <= 0.0 || crack.x() >= grey.width || crack.y() >= grey.height;
@@ -130,7 +130,7 @@ void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
   for (int round = 0; round < kReversalRounds; ++round) {
     bool clean = true;
     for (int i = 0; i < n; ++i) {
-      const Vec2 tangent = -leftNormal(normal[index(i)]);  // turned back by 90 degrees
+      const Vec2 tangent = -leftNormal(normal[index(i)]);  // rotated back by 90 degrees
       if ((point(i + 1).at - point(i).at).dot(tangent) > 0.0) continue;
       const Vec2 from = point(i - 1).at, to = point(i + 2).at;
       point(i).at = from + (to - from) / 3.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/base/statistics.h"
@@ -50,7 +51,7 @@ class HoleSearch {
     std::vector<double> uneven;
     for (const InkHole& hole : holes_) {
       if (std::ssize(uneven) % kHolesPerLook == 0 && context_.isCancelled()) return {};
-      uneven.push_back(unevennessAround(hole));
+      uneven.push_back(unevennessAround(hole).value_or(0.0));  // what cannot be told counts as even
     }
     std::vector<double> widths, ranked = uneven;
     const double limit = upperMedian(ranked) >= kEvenInk ? kVeryEvenInk : kEvenInk;
@@ -78,7 +79,7 @@ class HoleSearch {
 
   // Uphill from the middle of the hole to the middle of the shape, or as far as it takes to be wide enough.
   static bool isNarrow(const InkHole& hole, MaskDistance& toOutside) {
-    constexpr int kAroundPx = 2;
+    constexpr int kAroundPx = 2;  // a step of the distance map must not end the climb
     cv::Point at(hole.middleX, hole.middleY);
     std::int32_t height = toOutside.squared(at.x, at.y);
     for (;;) {
@@ -113,7 +114,8 @@ class HoleSearch {
 
   // The grey levels of the ink around a hole in rows [y0, y1), its soft border left out. @param box the hole with its
   // surroundings.
-  void appendLevels(const InkHole& hole, const cv::Rect& box, int y0, int y1, std::vector<double>& levels) const {
+  std::vector<double> levelsAround(const InkHole& hole, const cv::Rect& box, int y0, int y1) const {
+    std::vector<double> levels;
     const cv::Rect rows = cv::Rect(box.x, y0 - kInkAroundPx - 1, box.width, y1 - y0 + 2 * (kInkAroundPx + 1)) & box;
     const cv::Mat toPaper = distanceInside(maskOf(rows, [&](int x, int y) { return ink_.at(x, y); }));
     cv::Mat notHole(rows.height, rows.width, CV_8U, cv::Scalar(255));
@@ -129,10 +131,11 @@ class HoleSearch {
         if (isInside && static_cast<double>(toHole.at<float>(at)) <= kInkAroundPx) levels.push_back(grey_.level(x, y));
       }
     }
+    return levels;
   }
 
-  // 0 where there is too little ink to tell.
-  double unevennessAround(const InkHole& hole) const {
+  // Absent where there is too little ink to tell.
+  std::optional<double> unevennessAround(const InkHole& hole) const {
     constexpr int kMargin = 1;  // [px] of paper around the page
     const cv::Rect page(-kMargin, -kMargin, ink_.width + 2 * kMargin, ink_.height + 2 * kMargin);
     const cv::Rect own = boxOf(hole);
@@ -141,10 +144,11 @@ class HoleSearch {
                          page;
     std::vector<double> levels;
     for (int y = box.y; y < box.y + box.height; y += kRowsAtOnce) {
-      if (context_.isCancelled()) return 0.0;
-      appendLevels(hole, box, y, std::min(box.y + box.height, y + kRowsAtOnce), levels);
+      if (context_.isCancelled()) return std::nullopt;
+      const std::vector<double> more = levelsAround(hole, box, y, std::min(box.y + box.height, y + kRowsAtOnce));
+      levels.insert(levels.end(), more.begin(), more.end());
     }
-    if (std::ssize(levels) < kFewestInkPixels) return 0.0;
+    if (std::ssize(levels) < kFewestInkPixels) return std::nullopt;
     const double middle = upperMedian(levels);
     for (double& level : levels) level -= middle;
     double brightest = 0.0;

@@ -12,13 +12,13 @@
 namespace batten {
 namespace {
 
-constexpr int kFewestOpen = 4;
-constexpr int kFewestGiven = 2;  // that the user may set
-constexpr int kFewestClosed = 6;
-constexpr int kMostStations = 2000;
-constexpr double kSmallestSpacingPx = 8.0;
-constexpr double kAdaptiveGrowth = 1.2;
-constexpr double kAveragedPx = 5.0;  // the tolerance speaks of the line, not of its noise
+constexpr int kFewestOpen = 4;              // both ends and two between
+constexpr int kFewestGiven = 2;             // that the user may set
+constexpr int kFewestClosed = 6;            // every sixth of a turn, on a circle
+constexpr int kMostStations = 2000;         // bounds the work of the fit, and what the user may set
+constexpr double kSmallestSpacingPx = 8.0;  // of adaptive stations, as of those that the user may set
+constexpr double kAdaptiveGrowth = 1.2;     // from try to try: a fifth more than are needed at most
+constexpr double kAveragedPx = 5.0;         // the tolerance speaks of the line, not of its noise
 
 void pinEnds(const PieceLine& piece, std::vector<FittedStation>& stations) {
   const auto pin = [](FittedStation& s, const Vec2& corner) {
@@ -157,10 +157,10 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params, const 
       return groupSegments(points, sturgesGroups(static_cast<int>(points.size())));
     }
     case SegmentMode::Count: {
-      const double wanted = std::min(measured.length() / params.spacingPx, static_cast<double>(kMostStations));
+      const double groups = std::min(measured.length() / params.spacingPx, static_cast<double>(kMostStations));
       return groupSegments(groupedPoints(piece), params.count > 0
                                                      ? params.count
-                                                     : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
+                                                     : std::max(kFewestOpen, static_cast<int>(std::lround(groups))));
     }
     case SegmentMode::Adaptive:
       return adaptiveSegments(measured, params, context);

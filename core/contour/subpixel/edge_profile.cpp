@@ -14,7 +14,8 @@
 namespace batten {
 namespace {
 
-constexpr int kSamplingGrain = 1024;  // points per block: about a millisecond
+constexpr double kAverageReach = 3.0;  // standard deviations: beyond, the weights are below 1 %
+constexpr int kSamplingGrain = 1024;   // points per block: about a millisecond
 // The part of the contrast by which the grey must turn back before another edge is believed in. Grain and noise of the
 // averaged profile stay well below it on anything that is a line at all.
 constexpr double kTurnBack = 0.2;
@@ -102,7 +103,7 @@ EdgeProfiles averageAlong(const EdgeProfiles& profiles, bool closed, double sigm
   EdgeProfiles out;
   out.grey.resize(profiles.grey.size());
   const int n = profiles.count();
-  const int half = std::max(1, static_cast<int>(std::ceil(3.0 * sigma)));
+  const int half = std::max(1, static_cast<int>(std::ceil(kAverageReach * sigma)));
   std::vector<float> weight(2 * half + 1);
   for (int d = -half; d <= half; ++d) {
     weight[d + half] = static_cast<float>(std::exp(-0.5 * (d / sigma) * (d / sigma)));

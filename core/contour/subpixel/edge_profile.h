@@ -15,12 +15,12 @@ namespace batten {
 
 // Profiles across a line: samples at u = -4..4 px, half a pixel apart, u positive towards the ink.
 inline constexpr int kProfileHalf = 8;
-inline constexpr int kProfileSamples = 2 * kProfileHalf + 1;
-inline constexpr double kProfileStepPx = 0.5;
-inline constexpr double kHalfStepPx = 0.5 * kProfileStepPx;
+inline constexpr int kProfileSamples = 2 * kProfileHalf + 1;  ///< The middle one, and those to both sides.
+inline constexpr double kProfileStepPx = 0.5;                 ///< Two samples a pixel.
+inline constexpr double kHalfStepPx = 0.5 * kProfileStepPx;   ///< A place nearer to a sample is at it.
 inline constexpr double kSideFromPx = 1.9;  ///< The levels of ink and paper are taken beyond this distance,
 inline constexpr double kSideShare = 0.6;   ///< or beyond this part of a side that is not as long.
-inline constexpr double profileU(int k) { return (k - kProfileHalf) * kProfileStepPx; }
+inline constexpr double profileU(int k) { return (k - kProfileHalf) * kProfileStepPx; }  ///< [px] Place of a sample.
 
 /// Grey level 0..255 at an image position, by cubic convolution (Catmull-Rom; reproduces parabolas, so it adds no blur
 /// of second order), page border replicated.
@@ -98,8 +98,8 @@ class NormalTable {
 
  private:
   NormalTable();
-  static constexpr int kPerUnit = 64;
-  static constexpr int kRange = 6;
+  static constexpr int kPerUnit = 64;  // entries a standard deviation: a line between two is wrong by less than 2e-5
+  static constexpr int kRange = 6;     // standard deviations: beyond, the tail is 1e-9
   std::array<float, 2 * kRange * kPerUnit + 2> cdf_{};
   std::array<float, 2 * kRange * kPerUnit + 2> pdf_{};
 };

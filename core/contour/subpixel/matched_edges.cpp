@@ -11,17 +11,17 @@
 namespace batten {
 namespace {
 
-constexpr double kLevelSigma = 6.0;  // points: ink and paper change slowly along an edge
-constexpr double kSpanSigma = 2.0;   // points
-constexpr int kProfileNewtonSteps = 4;
-constexpr int kBlurRounds = 4;
-constexpr int kTwinRounds = 4;
-constexpr int kBlurSamples = 1500;  // points that vote for the blur
+constexpr double kLevelSigma = 6.0;     // points: ink and paper change slowly along an edge
+constexpr double kSpanSigma = 2.0;      // points
+constexpr int kProfileNewtonSteps = 4;  // from the half level; fewer once settled
+constexpr int kBlurRounds = 4;          // of levels, positions and blur in turn; fewer once the blur is settled
+constexpr int kTwinRounds = 4;          // of positions and twins in turn; fewer once no twin moves
+constexpr int kBlurSamples = 1500;      // points that vote for the blur
 
 constexpr float kLeastModelSpread = 0.2f;  // of full contrast, between the two sides: less says nothing of the levels
 constexpr double kSlopeBlurs = 3.0;        // of blur: beyond, the slope is below 1 % of its peak
-constexpr double kLargestProfileStepPx = 0.5, kSettledProfilePx = 1e-3;
-constexpr double kLargestBlurStepPx = 0.4, kSettledBlurPx = 0.005;
+constexpr double kLargestProfileStepPx = 0.5, kSettledProfilePx = 1e-3;  // of one step; a smaller one changes nothing
+constexpr double kLargestBlurStepPx = 0.4, kSettledBlurPx = 0.005;       // the same of a round
 // [px] What profiles of 4 px to each side can tell: .45 is the blur of the pixels and of the sampling alone.
 constexpr double kLeastBlurOfEdgePx = 0.45, kMostBlurOfEdgePx = 2.5;
 constexpr double kLeastTwinPx = 0.5;  // of ink or paper that is seen at all

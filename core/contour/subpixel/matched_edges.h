@@ -20,7 +20,7 @@ struct MatchedEdge {
   EdgeSpan span;
   double position = 0.0;           ///< [px] along the normal from the base.
   float ink = 0.0f, paper = 0.0f;  ///< [grey] side levels, smoothed along the line.
-  /// What the pixels around it tell of its place; absent where they were not asked.
+  /// What the pixels around it tell of its place; absent where they were not read.
   std::optional<PointInformation> information = {};
   double contrast() const { return paper - ink; }
 };

@@ -18,8 +18,8 @@ namespace batten {
 class PixelResponse {
  public:
   static constexpr double kStepPx = 0.05;  ///< [px] of the blurs there are tables for.
-  static constexpr int kBlurs = 50;
-  /// The table for a blur of (index + 1) * kStepPx, made when first asked for. Thread safe. @pre 0 <= index < kBlurs.
+  static constexpr int kBlurs = 50;        ///< Up to 2.5 px, as far as profiles can tell a blur.
+  /// The table for a blur of (index + 1) * kStepPx, made at the first request. Thread safe. @pre 0 <= index < kBlurs.
   static const PixelResponse& forBlur(int index);
   /// [px] Standard deviation of the Gaussian.
   double blur() const { return blur_; }
@@ -37,7 +37,7 @@ class PixelResponse {
 
  private:
   explicit PixelResponse(double blur);
-  static constexpr int kPerPx = ResponseRow::kPerPx, kDirections = 33;
+  static constexpr int kPerPx = ResponseRow::kPerPx, kDirections = 33;  // rows over 45 degrees; the others by symmetry
   double blur_, range_;
   int columns_;
   std::vector<float> values_;  ///< By direction and distance: part, slope.

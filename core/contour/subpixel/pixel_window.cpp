@@ -21,7 +21,8 @@ struct WindowCut {
   int top;
 };
 
-/// Where a row enters and leaves, from its first pixel centre on and clipped to the page; -1 where it does not.
+/// Where a row enters and leaves, from its first pixel centre on and clipped to the page; it ends before the page where
+/// it does not, so that no pixel lies between.
 struct RowCut {
   double from, to;
 };
@@ -33,7 +34,7 @@ inline RowCut clippedCut(const WindowCut& c, double from, double to) {
 }
 
 BATTEN_HOT_LOOP void cutRows(const WindowCut& c, int rows, double* __restrict from, double* __restrict to) {
-  constexpr double kAlong = PixelWindow::kHalfPx;
+  constexpr double kAlong = PixelWindow::kHalfPx;  // [px] short for the formulas below
   for (int r = 0; r < rows; ++r) {
     const double dy = (c.top + r) + 0.5 - c.y;
     const double across = dy * c.normalY, along = dy * c.alongY;
@@ -48,7 +49,7 @@ BATTEN_HOT_LOOP void cutRows(const WindowCut& c, int rows, double* __restrict fr
 
 /// The same where the rows run along the oblong, or square to it.
 void cutParallelRows(const WindowCut& c, int rows, double* from, double* to) {
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  constexpr double kEndless = std::numeric_limits<double>::infinity();  // [px] a row that nothing cuts
   for (int r = 0; r < rows; ++r) {
     const double dy = (c.top + r) + 0.5 - c.y;
     double low = -kEndless, high = kEndless;

@@ -14,7 +14,7 @@ class PixelWindow {
  public:
   static constexpr double kHalfPx = 1.0;                        ///< [px] along the edge; weights fall to 0 there.
   static constexpr double kVariance = kHalfPx * kHalfPx / 6.0;  ///< [px^2] of the weights along the edge.
-  static constexpr int kLanes = 4;
+  static constexpr int kLanes = 4;                              ///< Values that a processor works on at once.
 
   /// Those with lo <= distance <= hi. Pixels beyond the page are left out.
   void read(const GreyImage& grey, const Vec2& base, const Vec2& normal, double lo, double hi);

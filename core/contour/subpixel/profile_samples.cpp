@@ -11,7 +11,7 @@
 namespace batten {
 namespace {
 
-constexpr int kCubicTaps = 4;
+constexpr int kCubicTaps = 4;  // pixels of a row that a cubic convolution reads
 
 // Where the samples of a profile lie: the pixel whose centre is next to the upper left of each, and how far from it.
 struct SamplePlaces {

@@ -5,9 +5,9 @@ namespace batten {
 
 /// What a pixel shows of an edge in one direction, as a table: see PixelResponse.
 struct ResponseRow {
-  static constexpr int kPerPx = 32;
-  const float* values = nullptr;  ///< Part and slope, part and slope ... at the distances k / kPerPx - range.
-  double range = 0.0;             ///< [px]
+  static constexpr int kPerPx = 32;  ///< Entries a pixel; linear between them.
+  const float* values = nullptr;     ///< Part and slope, part and slope ... at the distances k / kPerPx - range.
+  double range = 0.0;                ///< [px]
   int columns = 0;
 
   struct Value {

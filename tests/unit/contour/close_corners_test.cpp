@@ -17,9 +17,9 @@ ContourSet contourThrough(const std::vector<Vec2>& corners, bool closed) {
   contour.closed = closed;
   std::vector<Vec2> points;
   for (std::size_t i = 0; i + (closed ? 0 : 1) < corners.size(); ++i) {
-    const Vec2 way = corners[(i + 1) % corners.size()] - corners[i];
-    const int count = static_cast<int>(std::lround(way.norm()));
-    for (int k = 0; k < count; ++k) points.push_back(corners[i] + (static_cast<double>(k) / count) * way);
+    const Vec2 side = corners[(i + 1) % corners.size()] - corners[i];
+    const int count = static_cast<int>(std::lround(side.norm()));
+    for (int k = 0; k < count; ++k) points.push_back(corners[i] + (static_cast<double>(k) / count) * side);
   }
   if (!closed) points.push_back(corners.back());
   contour.points = contourPoints(points, true);

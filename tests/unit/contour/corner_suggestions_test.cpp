@@ -59,8 +59,8 @@ std::vector<Vec2> roughened(const std::vector<Vec2>& points, double rough, unsig
       sum += weight * white[(i + k + n) % n];
       square += weight * weight;
     }
-    const Vec2 way = points[(i + 1) % n] - points[(i + n - 1) % n];
-    out[i] += rough * sum / std::sqrt(square) * leftNormal(way.normalized());
+    const Vec2 chord = points[(i + 1) % n] - points[(i + n - 1) % n];
+    out[i] += rough * sum / std::sqrt(square) * leftNormal(chord.normalized());
   }
   return out;
 }

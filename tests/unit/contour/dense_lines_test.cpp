@@ -157,8 +157,8 @@ TEST(DenseLines, ABroadPencilStrokeAmongNarrowOnesHasOneLineInItsMiddle) {
     DenseLines narrow = above;
     narrow.insert(narrow.end(), below.begin(), below.end());
     std::vector<float> cover = test::coverageOf(narrow, kNarrowPx, kDenseWidth, kDenseHeight);
-    const std::vector<float> band = test::coverageOf(broad, kBroadPx, kDenseWidth, kDenseHeight);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], band[i]);
+    const std::vector<float> wide = test::coverageOf(broad, kBroadPx, kDenseWidth, kDenseHeight);
+    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], wide[i]);
     test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, seed);
     const DenseLines found = foundOn(densePage(std::move(cover), 165.0, seed));
     const test::DenseScore score = test::scoreDense(broad, found, 0.2 * kBroadPx, 0.1 * 300.0);

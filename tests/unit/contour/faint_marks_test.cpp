@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/faint_marks.h"
+#include "core/contour/ink/faint_marks.h"
 
 #include <gtest/gtest.h>
 

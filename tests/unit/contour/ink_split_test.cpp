@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pages of which it is known what is a stroke and what a shape, traced by default.
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/ink_split.h"
 
 #include <gtest/gtest.h>
 

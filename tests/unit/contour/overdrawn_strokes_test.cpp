@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pages of which it is known whether lines were drawn in several strokes, and which lines were meant.
+// Pages of which it is known whether lines were drawn in several strokes, and which lines were intended.
 #include "core/contour/merge/overdrawn_strokes.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace batten {
 namespace {
 
 using test::cubicLine;
+using test::IntendedLine;
 using test::kPi;
-using test::MeantLine;
 using test::PenPath;
 using test::straightLine;
 using test::traceOverdrawn;
@@ -45,10 +45,10 @@ double nearestTo(const Vec2& p, const std::vector<Vec2>& points) {
   return least;
 }
 
-// As many lines as were meant, each of them covered by one.
-bool areMeant(const std::vector<Contour>& found, const std::vector<MeantLine>& meant, double withinPx) {
-  if (found.size() != meant.size()) return false;
-  return std::all_of(meant.begin(), meant.end(), [&](const MeantLine& line) {
+// As many lines as were intended, each of them covered by one.
+bool areIntended(const std::vector<Contour>& found, const std::vector<IntendedLine>& intended, double withinPx) {
+  if (found.size() != intended.size()) return false;
+  return std::all_of(intended.begin(), intended.end(), [&](const IntendedLine& line) {
     return std::count_if(found.begin(), found.end(), [&](const Contour& c) {
              int near = 0;
              for (int i = 0; i <= 100; ++i)
@@ -58,15 +58,15 @@ bool areMeant(const std::vector<Contour>& found, const std::vector<MeantLine>& m
   });
 }
 
-MeantLine circleOf(double radius) {
+IntendedLine circleOf(double radius) {
   return [radius](double t) {
     return Vec2(320.0 + radius * std::cos(2.0 * kPi * t), 320.0 + radius * std::sin(2.0 * kPi * t));
   };
 }
 
-const MeantLine kSCurve = cubicLine({60, 500}, {420, 560}, {200, 80}, {580, 120});
+const IntendedLine kSCurve = cubicLine({60, 500}, {420, 560}, {200, 80}, {580, 120});
 
-std::vector<PenPath> bundle(const MeantLine& line, int count, double scatterPx, unsigned seed) {
+std::vector<PenPath> bundle(const IntendedLine& line, int count, double scatterPx, unsigned seed) {
   std::vector<PenPath> strokes;
   for (int k = 0; k < count; ++k)
     strokes.push_back(test::wanderAlong(line, 0.0, 1.0, scatterPx, 100 * seed + static_cast<unsigned>(k)));
@@ -92,7 +92,7 @@ TEST(OverdrawnStrokes, ABundleBecomesOneLine) {
       const std::vector<PenPath> strokes = bundle(kSCurve, 3, scatter, seed);
       const Suggested s = suggested(strokes);
       EXPECT_LE(s.widths, 20.0);
-      right += s.widths > 0.0 && areMeant(traceOverdrawn(strokes, s.widths).contours, {kSCurve}, 3.0 * scatter + 4.0)
+      right += s.widths > 0.0 && areIntended(traceOverdrawn(strokes, s.widths).contours, {kSCurve}, 3.0 * scatter + 4.0)
                    ? 1
                    : 0;
     }
@@ -119,20 +119,20 @@ TEST(OverdrawnStrokes, TwoBundlesStayTwoLines) {
   for (const double apart : {40.0, 70.0}) {
     for (const unsigned seed : {2u, 3u}) {
       SCOPED_TRACE(testing::Message() << apart << " px apart, seed " << seed);
-      const MeantLine one = cubicLine({60, 200}, {260, 120}, {380, 300}, {580, 200});
-      const MeantLine two = [one, apart](double t) { return Vec2(one(t) + Vec2(0.0, apart)); };
+      const IntendedLine one = cubicLine({60, 200}, {260, 120}, {380, 300}, {580, 200});
+      const IntendedLine two = [one, apart](double t) { return Vec2(one(t) + Vec2(0.0, apart)); };
       std::vector<PenPath> strokes = bundle(one, 3, 5.0, seed);
       for (PenPath& more : bundle(two, 3, 5.0, seed + 10)) strokes.push_back(std::move(more));
       const Suggested s = suggested(strokes);
       ASSERT_GT(s.widths, 0.0);
-      EXPECT_TRUE(areMeant(traceOverdrawn(strokes, s.widths).contours, {one, two}, 18.0));
+      EXPECT_TRUE(areIntended(traceOverdrawn(strokes, s.widths).contours, {one, two}, 18.0));
     }
   }
 }
 
-void expectNone(const std::vector<MeantLine>& lines) {
+void expectNone(const std::vector<IntendedLine>& lines) {
   std::vector<PenPath> strokes;
-  for (const MeantLine& line : lines) strokes.push_back(test::strokeAlong(line, 0.0, 1.0, 0.0, 0.0, 0.0));
+  for (const IntendedLine& line : lines) strokes.push_back(test::strokeAlong(line, 0.0, 1.0, 0.0, 0.0, 0.0));
   EXPECT_EQ(suggested(strokes).widths, 0.0);
 }
 
@@ -141,7 +141,7 @@ TEST(OverdrawnStrokes, NoneAmongSingleStrokes) {
               cubicLine({560, 60}, {470, 200}, {360, 290}, {225, 350}),
               cubicLine({320, 290}, {380, 420}, {440, 590}, {600, 560})});
   expectNone({circleOf(60.0), circleOf(80.0), circleOf(95.0), circleOf(140.0), circleOf(200.0), circleOf(212.0)});
-  std::vector<MeantLine> star, fan;
+  std::vector<IntendedLine> star, fan;
   for (int k = 0; k < 6; ++k) {
     const Vec2 d(std::cos(k * kPi / 6.0), std::sin(k * kPi / 6.0));
     star.push_back(straightLine(Vec2(320, 320) - 250.0 * d, Vec2(320, 320) + 250.0 * d));
@@ -159,7 +159,7 @@ TEST(OverdrawnStrokes, NoneAmongSingleStrokes) {
 TEST(OverdrawnStrokes, NoneInAHatching) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
-  std::vector<MeantLine> byHand, slanted, shifting, crossed;
+  std::vector<IntendedLine> byHand, slanted, shifting, crossed;
   for (int k = 0; k < 40; ++k) {
     const double a = 8.0 * normal(random), b = normal(random), c = 8.0 * normal(random), d = normal(random);
     byHand.push_back(straightLine({100.0 + a, 60.0 + 12 * k + b}, {540.0 + c, 80.0 + 12 * k + d}));

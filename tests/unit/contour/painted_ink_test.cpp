@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/painted_ink.h"
+#include "core/contour/ink/painted_ink.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/ink_split.h"
 #include "core/contour/trace_contours.h"
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/label_page.h"
@@ -72,7 +72,7 @@ TEST(PaintedInk, TheLastCountsAndThePageCanHaveItsInkBack) {
   };
   const InkSplit before = split({});
   ASSERT_TRUE(before.strokes.at(250, 80) && before.shapes.at(250, 200));
-  EXPECT_EQ(before.painted.width, 0);
+  EXPECT_FALSE(before.painted);
   const PaintedInk shape{{Vec2(200, 80), Vec2(300, 80)}, 10.0, EdgeMode::Outline};
   const InkSplit one = split({shape});
   EXPECT_TRUE(one.shapes.at(250, 80));
@@ -87,7 +87,8 @@ TEST(PaintedInk, TheLastCountsAndThePageCanHaveItsInkBack) {
   const InkSplit own = split({shape, page1});
   EXPECT_EQ(own.strokes, before.strokes);
   EXPECT_EQ(own.shapes, before.shapes);
-  EXPECT_EQ(own.painted.count(), 0);
+  ASSERT_TRUE(own.painted);
+  EXPECT_EQ(own.painted->count(), 0);
 }
 
 TEST(PaintedInk, APartOfAStrokeIsTracedByItsOutline) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contour/blots.h"
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/blots.h"
+#include "core/contour/ink/ink_split.h"
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/dense_page.h"
 #include "tests/unit/contour/traced_page.h"
@@ -39,7 +39,8 @@ TEST(PencilSolids, AreShapesAndTheLinesThatRunIntoThemAreStrokes) {
   const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
   const auto split = splitInk(ink, grey, {}, {});
   ASSERT_TRUE(split);
-  EXPECT_GT(split->pencil.count(), 0) << "else this is no pencil";
+  ASSERT_TRUE(split->pencil);
+  EXPECT_GT(split->pencil->ink.count(), 0) << "else this is no pencil";
   int tone = 0, found = 0, astray = 0;
   for (int y = 0; y < kSolidPageHeight; ++y) {
     for (int x = 0; x < kSolidPageWidth; ++x) {
@@ -149,9 +150,9 @@ TEST(PencilSolids, GoOnWhereNoLineExplainsTheInkBesideThem) {
   fill(split.shapes, 20, 30, 60, 70);
   split.strokes = tones;
   fill(split.strokes, 60, 24, 190, 30);
-  split.pencil = either(split.strokes, split.shapes);
-  split.pencilBody = split.pencil;
-  split.penPx = split.pencilPx = 6.0;
+  const BitImage all = either(split.strokes, split.shapes);
+  split.pencil = PencilInk{all, all, 6.0};
+  split.penPx = 6.0;
   ContourSet lines;
   lines.contours.push_back(lineAlong({54, 27}, {196, 27}, 6.0f));
   const BitImage found = findFillings(split, lines, {});
@@ -171,8 +172,8 @@ TEST(PencilSolids, TheMarginOfThePageIsNoMark) {
   split.strokes = BitImage(200, 100);
   fill(split.strokes, 120, 0, 196, 12);
   fill(split.strokes, 40, 40, 56, 56);
-  split.pencil = split.pencilBody = split.strokes;
-  split.penPx = split.pencilPx = 5.0;
+  split.pencil = PencilInk{split.strokes, split.strokes, 5.0};
+  split.penPx = 5.0;
   const BitImage found = findBlots(split, {}, 3.0, {});
   EXPECT_TRUE(found.at(48, 48));
   EXPECT_FALSE(found.at(160, 5));

@@ -11,11 +11,11 @@
 namespace batten {
 namespace {
 
-const test::MeantLine kMeant = test::cubicLine({60, 500}, {420, 560}, {200, 80}, {580, 120});
+const test::IntendedLine kIntended = test::cubicLine({60, 500}, {420, 560}, {200, 80}, {580, 120});
 
 Scan bundlePage() {
   std::vector<test::PenPath> strokes;
-  for (const unsigned seed : {101u, 102u, 103u}) strokes.push_back(test::wanderAlong(kMeant, 0.0, 1.0, 10.0, seed));
+  for (const unsigned seed : {101u, 102u, 103u}) strokes.push_back(test::wanderAlong(kIntended, 0.0, 1.0, 10.0, seed));
   return test::overdrawnScan(strokes);
 }
 
@@ -70,7 +70,7 @@ TEST(MergeAdvice, TheKeyIsOfWhatItDependsOn) {
 }
 
 TEST(MergeAdvice, NoneForSingleStrokesAndOutlines) {
-  const Scan scan = test::overdrawnScan({test::strokeAlong(kMeant, 0.0, 1.0, 0.0, 0.0, 0.0)});
+  const Scan scan = test::overdrawnScan({test::strokeAlong(kIntended, 0.0, 1.0, 0.0, 0.0, 0.0)});
   StageCache cache;
   Recipe recipe;
   const auto advice = adviseMerge(scan, recipe, cache, {});

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/contour/painted_ink.h"
+#include "core/contour/ink/painted_ink.h"
 
 namespace batten {
 

@@ -14,7 +14,7 @@
 namespace batten {
 
 /// Notes on every line which choice of the user its ink follows (Contour::traceMode), and in the report which choices
-/// lie near no ink or asked for the middle of ink that has none.
+/// lie near no ink or requested the middle of ink that has none.
 /// @param regions what a choice holds for. @param blots ink that has no middle and is followed along its border.
 /// @param pixelsPerPx of these pictures, along a pixel of the page.
 void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const EdgeChoice> choices, const BitImage& blots,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/blots.h"
+#include "core/contour/ink/blots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ int stepsOfWide(double penPx) {
 }
 
 // What a pencil drew along a middle, its grain closed.
-BitImage pencilStrokes(const InkSplit& split) { return without(split.pencilBody, split.shapes); }
+BitImage pencilStrokes(const PencilInk& pencil, const BitImage& shapes) { return without(pencil.body, shapes); }
 
 // Places of ink wider than its strokes that the lines with their widths leave out, up to the strokes.
 BitImage leftBeside(const BitImage& ink, std::optional<double> penPx, const ContourSet& lines,
@@ -78,12 +78,13 @@ BitImage penFillings(const BitImage& ink, std::optional<double> penPx, const Con
 }  // namespace
 
 BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
-  constexpr double kBlotWidths = 3.0;  // [stroke widths] shorter ink has no direction
-  constexpr double kBesideLinePx = 1.5;
-  BitImage ink = split.strokes, grainy;
-  if (split.pencil.width > 0) {
-    const BitImage body = pencilStrokes(split);
-    const BitImage wide = shrunken(body, stepsOfWide(split.pencilPx.value_or(0.0)), context);
+  constexpr double kBlotWidths = 3.0;    // [stroke widths] shorter ink has no direction
+  constexpr double kBesideLinePx = 1.5;  // the pixel of a place and its eight neighbours
+  BitImage ink = split.strokes;
+  std::optional<BitImage> grainy;
+  if (split.pencil) {
+    const BitImage body = pencilStrokes(*split.pencil, split.shapes);
+    const BitImage wide = shrunken(body, stepsOfWide(split.pencil->widthPx), context);
     grainy = without(body, mostlyInk(keepPieces(body, {.seeds = &wide}, context), split.strokes, kInkShare, context));
     ink = either(std::move(ink), body);
   }
@@ -99,7 +100,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
   std::vector<InkRun> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const InkRun& run = pieces.runs[i];
-    if (countBits(beside, run) > 0 || (grainy.width > 0 && countBits(grainy, run) > 0)) hasLine[pieces.piece[i]] = true;
+    if (countBits(beside, run) > 0 || (grainy && countBits(*grainy, run) > 0)) hasLine[pieces.piece[i]] = true;
     InkRun& b = box[pieces.piece[i]];
     b = pieces.piece[i] == static_cast<int>(i) ? run : InkRun{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
     const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);
@@ -112,13 +113,14 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
 }
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
-  if (split.pencil.width == 0) return penFillings(split.strokes, split.penPx, lines, context);
+  if (!split.pencil) return penFillings(split.strokes, split.penPx, lines, context);
   // Tones of a pencil have no border; solids have, which lies where the strokes beside them do.
   const BitImage besideSolid = grown(split.shapes, 1, context);
   BitImage tones =
-      mostlyInk(leftBeside(pencilStrokes(split), split.pencilPx, lines, context), split.strokes, kInkShare, context);
+      mostlyInk(leftBeside(pencilStrokes(*split.pencil, split.shapes), split.pencil->widthPx, lines, context),
+                split.strokes, kInkShare, context);
   tones = withoutMargins(keepPieces(tones, {.seeds = &besideSolid}, context), context);
-  return either(penFillings(without(split.strokes, split.pencil), split.penPx, lines, context), tones);
+  return either(penFillings(without(split.strokes, split.pencil->ink), split.penPx, lines, context), tones);
 }
 
 }  // namespace batten

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/faint_marks.h"
+#include "core/contour/ink/faint_marks.h"
 
 #include <algorithm>
 #include <array>
@@ -15,11 +15,11 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastOfStrokes =
-    0.4;                              // of their contrast: half of it parts ink from paper, and a small dot is blurred
-constexpr double kMostPens = 3.0;     // of a mark across its box: longer ink has a direction, and is judged as a line
-constexpr double kAroundPens = 40.0;  // [pen widths] strokes that near lie in the same light
-constexpr double kStepPens = 4.0;     // from one place on a line to the next
+// Of their contrast: half of it parts ink from paper, and a small dot is blurred.
+constexpr double kLeastOfStrokes = 0.4;
+constexpr double kMostPens = 3.0;       // of a mark across its box: longer ink has a direction, and is judged as a line
+constexpr double kAroundPens = 40.0;    // [pen widths] strokes that near lie in the same light
+constexpr double kStepPens = 4.0;       // from one place on a line to the next
 constexpr double kLeastBesidePx = 3.0;  // from ink to the paper beside it: its blurred edge
 constexpr double kDarkShare = 0.25;     // of the pixels of a mark: its middle, without its blurred edge
 constexpr int kFewestSamples = 20;      // of strokes, around a mark
@@ -123,11 +123,11 @@ class LineContrasts {
 }  // namespace
 
 FaintMarks faintMarks(const BitImage& marks, const BitImage& ink, const ContourSet& lines, const GreyImage& grey,
-                      double penPx, const RunContext& context) {
+                      std::optional<double> penPx, const RunContext& context) {
   FaintMarks faint{BitImage(marks.width, marks.height)};
-  if (!(penPx > 0.0) || lines.contours.empty() || marks.count() == 0) return faint;
-  const Contrasts contrasts(ink, grey, penPx);
-  const LineContrasts ofLines(lines, contrasts, penPx, context);
+  if (!penPx || !(*penPx > 0.0) || lines.contours.empty() || marks.count() == 0) return faint;
+  const Contrasts contrasts(ink, grey, *penPx);
+  const LineContrasts ofLines(lines, contrasts, *penPx, context);
   const RunPieces pieces = findPieces(marks, Connectivity::Eight, context);
   std::map<int, std::vector<InkRun>> runs;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) runs[pieces.piece[i]].push_back(pieces.runs[i]);
@@ -138,7 +138,7 @@ FaintMarks faintMarks(const BitImage& marks, const BitImage& ink, const ContourS
       box.x0 = std::min(box.x0, run.x0);
       box.x1 = std::max(box.x1, run.x1);
     }
-    if (std::hypot(box.x1 - box.x0, box.y1 - box.y0) > kMostPens * penPx) continue;
+    if (std::hypot(box.x1 - box.x0, box.y1 - box.y0) > kMostPens * *penPx) continue;
     std::vector<float> levels;
     for (const InkRun& run : ofPiece) {
       for (int x = run.x0; x < run.x1; ++x) levels.push_back(static_cast<float>(grey.row(run.y)[x]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/ink_split.h"
 
 #include <algorithm>
 #include <map>
@@ -12,8 +12,8 @@
 #include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/chosen_ink.h"
+#include "core/contour/ink/painted_ink.h"
 #include "core/contour/label/ink_labels.h"
-#include "core/contour/painted_ink.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/fine_page.h"
 
@@ -78,11 +78,11 @@ RunPieces regionsOf(const InkSplit& split, const RunContext& context) {
   };
   for (const BitImage* ink : {&split.strokes, &split.shapes}) {
     if (context.isCancelled()) return {};
-    if (split.painted.width == 0) {
+    if (!split.painted) {
       mark(*ink);
     } else {
-      mark(without(BitImage(*ink), split.painted));
-      mark(both(*ink, split.painted));
+      mark(without(BitImage(*ink), *split.painted));
+      mark(both(*ink, *split.painted));
     }
   }
   std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {
@@ -124,46 +124,49 @@ Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double merge
   return solids;
 }
 
-Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, const GreyImage* page,
-                          InkSplit& split, const RunContext& context) {
+Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
+                              const GreyImage* page, const RunContext& context) {
   const double pixelsPerPx = page != nullptr ? kFineFactor : 1.0;
   Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths, pixelsPerPx);
   if (!labels) return fail(labels.error());
+  InkSplit split;
   split.strokes = std::move(labels->strokes);
   split.shapes = std::move(labels->shapes);
   split.penPx = labels->penPx;
-  auto [paths, junctions] = findStrokeNet(labels->skeleton, ink, params, context);
+  auto [paths, junctions] = findPathsAndJunctions(labels->skeleton, ink, params, context);
   if (context.isCancelled()) return cancelled();
   GraininessMap grain = page != nullptr ? grainOnFinePage(paths, *page, context) : GraininessMap(paths, grey, context);
   const PencilPieces pencil(ink, paths, grain, context);
   if (context.isCancelled()) return cancelled();
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
-  if (!pencil.any()) return {};
+  if (!pencil.any()) return split;
   EdgeParams whole = params;
   whole.choices.clear();
   whole.strokeWidth = EdgeParams{}.strokeWidth;
   Result<StrokeSplit> byPiece = splitStrokes(ink, whole, context);
   if (!byPiece) return fail(byPiece.error());
   const RunPieces& pieces = pencil.pieces();
-  split.pencil = BitImage(ink.width, ink.height);
+  PencilInk drawn;
+  drawn.ink = BitImage(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!pencil.isPencil(pieces.piece[i])) continue;
-    setBits(split.pencil, pieces.runs[i]);
+    setBits(drawn.ink, pieces.runs[i]);
     move(ink, pieces.runs[i], byPiece->shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
   }
   const StrokesOfInk& known = *split.known;
   const double widthPx = medianWidth(known.paths, [&](int i) { return known.grain.isPencil(i); });
-  Result<BitImage> body = withGrainClosed(both(split.strokes, split.pencil), widthPx, context);
+  Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
   Result<BitImage> solids = pencilSolids(*body, widthPx, params.mergeWidths, pixelsPerPx, context);
   if (!solids) return fail(solids.error());
   split.strokes = without(std::move(split.strokes), *solids);
   split.shapes = either(std::move(split.shapes), *solids);
-  split.pencilPx = std::max(split.penPx.value_or(0.0), widthPx);
-  split.pencilBody = std::move(*body);
-  return {};
+  drawn.widthPx = std::max(split.penPx.value_or(0.0), widthPx);
+  drawn.body = std::move(*body);
+  split.pencil = std::move(drawn);
+  return split;
 }
 
 }  // namespace
@@ -171,13 +174,13 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
                           const RunContext& context, const GreyImage* page) {
   InkSplit split;
-  split.strokes = split.shapes = BitImage(ink.width, ink.height);
-  if (params.mode == EdgeMode::Outline) {
-    split.shapes = ink;
-  } else if (params.mode == EdgeMode::Centreline) {
-    split.strokes = ink;
-  } else if (auto done = splitByLabel(ink, grey, params, page, split, context); !done) {
-    return fail(done.error());
+  if (params.mode == EdgeMode::Automatic) {
+    Result<InkSplit> labelled = splitByLabel(ink, grey, params, page, context);
+    if (!labelled) return fail(labelled.error());
+    split = std::move(*labelled);
+  } else {
+    split.strokes = split.shapes = BitImage(ink.width, ink.height);
+    (params.mode == EdgeMode::Outline ? split.shapes : split.strokes) = ink;
   }
   if (!params.painted.empty()) split.painted = applyPaint(params.painted, split.strokes, split.shapes, context);
   if (params.choices.empty()) return split;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/line_choices.h"
+#include "core/contour/ink/line_choices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ struct LongestLine {
 // there is no other.
 void noteLines(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices,
                const RunContext& context) {
-  constexpr int kFewestInside = 3;
+  constexpr int kFewestInside = 3;  // points: with fewer a line only touches the ink
   std::vector<LongestLine> longest(choices.size());
   std::vector<bool> hasLine(choices.size(), false);
   for (Contour& contour : set.contours) {

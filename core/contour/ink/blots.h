@@ -3,7 +3,7 @@
 
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
-#include "core/contour/ink_split.h"
+#include "core/contour/ink/ink_split.h"
 #include "core/image/bits/bit_image.h"
 
 namespace batten {

@@ -14,14 +14,19 @@
 
 namespace batten {
 
+/// What a pencil drew of a page.
+struct PencilInk {
+  BitImage ink;          ///< As it was thresholded.
+  BitImage body;         ///< All of it but its shapes, with the grain closed.
+  double widthPx = 1.0;  ///< [px] Of its strokes.
+};
+
 /// The ink of a page by trace mode. Both pictures have the size of the ink and share no pixel.
 struct InkSplit {
-  BitImage strokes;     ///< Along their middle.
-  BitImage shapes;      ///< Along their border.
-  BitImage pencil;      ///< Ink that was drawn with a pencil; no pixels at all where there is none.
-  BitImage pencilBody;  ///< What a pencil drew but its shapes, with the grain closed; no pixels where there is none.
-  std::optional<double> pencilPx = {};  ///< [px] width of the strokes of a pencil; absent: there are none.
-  BitImage painted;                     ///< Ink whose kind the user has painted; no pixels at all where there is none.
+  BitImage strokes;                      ///< Along their middle.
+  BitImage shapes;                       ///< Along their border.
+  std::optional<PencilInk> pencil = {};  ///< Absent: nothing was drawn with a pencil.
+  std::optional<BitImage> painted = {};  ///< Ink whose kind the user has painted; absent: he painted nothing.
   RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.
                       ///< What was painted is apart from what was not.
   std::unique_ptr<StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
@@ -30,8 +35,8 @@ struct InkSplit {
 
 /// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one
 /// way (EdgeParams::mode); ink that the user painted is what he painted it as, and regions that he chose for follow his
-/// choice. Ink drawn with a pencil is split piece by
-/// piece (splitStrokes), and of its tones only solids far wider than its strokes are shapes.
+/// choice. Ink drawn with a pencil is split piece by piece (splitStrokes), and of its tones only solids far wider than
+/// its strokes are shapes.
 /// @param page what an enlarged ink and grey were made of (fine_page.h), else absent.
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const RunContext&,
                           const GreyImage* page = nullptr);

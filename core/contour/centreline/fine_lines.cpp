@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/fine_lines.h"
+#include "core/contour/centreline/fine_lines.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,7 +13,7 @@ namespace {
 
 // Centre lines have a point a pixel of the page already. Of a few points none may be spared.
 void thinOut(Contour& outline) {
-  constexpr int kFewestPoints = 8;
+  constexpr int kFewestPoints = 8;  // half as many still make a shape
   if (std::ssize(outline.points) < kFewestPoints) return;
   std::vector<ContourPoint> kept;
   for (std::size_t i = 0; i < outline.points.size(); i += kFineFactor) kept.push_back(outline.points[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/painted_ink.h"
+#include "core/contour/ink/painted_ink.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastRadiusPx = 0.5, kMostRadiusPx = 1000.0;
-constexpr std::size_t kMostPlaces = 100'000;  // of one course, as of a pen stroke
+constexpr double kLeastRadiusPx = 0.5, kMostRadiusPx = 1000.0;  // a brush of one pixel; limits of input
+constexpr std::size_t kMostPlaces = 100'000;                    // of one course, as of a pen stroke
 
 struct Interval {
   double from = 0.0, to = 0.0;
@@ -117,10 +117,10 @@ BitImage applyPaint(std::span<const PaintedInk> painted, BitImage& strokes, BitI
       for (int i = 0; i < brush.wordsPerRow; ++i) {
         std::uint64_t &stroke = strokes.row(y)[i], &shape = shapes.row(y)[i], &under = brush.row(y)[i];
         const std::uint64_t ink = under & (stroke | shape), rest = (stroke | shape) & ~under;
-        std::uint64_t wanted = one.mode == EdgeMode::Outline ? ink : 0;
-        if (one.mode == EdgeMode::Automatic) wanted = ink & ownShapes.row(y)[i];
-        shape = (shape & rest) | wanted;
-        stroke = (stroke & rest) | (ink & ~wanted);
+        std::uint64_t toShape = one.mode == EdgeMode::Outline ? ink : 0;
+        if (one.mode == EdgeMode::Automatic) toShape = ink & ownShapes.row(y)[i];
+        shape = (shape & rest) | toShape;
+        stroke = (stroke & rest) | (ink & ~toShape);
         all.row(y)[i] = one.mode == EdgeMode::Automatic ? all.row(y)[i] & ~under : all.row(y)[i] | ink;
         under = 0;
       }
