@@ -13,7 +13,6 @@
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/fine_lines.h"
 #include "core/contour/centreline/junction_choices.h"
-#include "core/contour/chosen_ink.h"
 #include "core/contour/ink/blots.h"
 #include "core/contour/ink/faint_marks.h"
 #include "core/contour/ink/ink_split.h"
@@ -194,25 +193,15 @@ struct FoundLines {
   BitImage blots;     ///< Ink to be followed along its middle that has none.
 };
 
-// Where the page is followed along its middles, blots are what the user chose to be.
-BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgeParams& edges) {
-  BitImage chosenBlots(blots.width, blots.height);
-  const ChosenInk chosen(regions, edges.choices);
-  for (std::size_t i = 0; i < regions.runs.size(); ++i) {
-    if (chosen.choiceOf(regions.piece[i])) copyBits(blots, regions.runs[i], chosenBlots);
-  }
-  return chosenBlots;
-}
-
-// What the user turned over or painted to be followed along its middle is.
-BitImage notChosen(BitImage fillings, const RunPieces& regions, const std::optional<BitImage>& painted,
-                   const EdgeParams& edges) {
-  if (painted) fillings = without(std::move(fillings), *painted);
-  const ChosenInk chosen(regions, edges.choices);
-  for (std::size_t i = 0; i < regions.runs.size(); ++i) {
-    if (chosen.choiceOf(regions.piece[i])) clearBits(fillings, regions.runs[i]);
-  }
-  return fillings;
+// Drops marks much fainter than the strokes around them. @return how many.
+int dropFaint(FoundLines& found, InkSplit& split, const ContourSet& lines, const BitImage& ink, const GreyImage& grey,
+              const EdgeParams& edges, const RunContext& context) {
+  const BitImage marks = notChosen(either(found.blots, split.shapes), found.regions, split.painted, edges);
+  const FaintMarks dropped = faintMarks(marks, ink, lines, grey, split.penPx, context);
+  found.blots = without(std::move(found.blots), dropped.ink);
+  split.shapes = without(std::move(split.shapes), dropped.ink);
+  split.strokes = without(std::move(split.strokes), dropped.ink);
+  return dropped.count;
 }
 
 // `page`: what an enlarged `grey` was made of, else absent.
@@ -236,15 +225,8 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   split->known.reset();
   context.report(0.3);
   found.blots = findBlots(*split, *lines, params.minWidths, context);
-  int faint = 0;
-  if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
-    const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
-    const FaintMarks dropped = faintMarks(marks, ink, *lines, grey, split->penPx, context);
-    found.blots = without(std::move(found.blots), dropped.ink);
-    split->shapes = without(std::move(split->shapes), dropped.ink);
-    split->strokes = without(std::move(split->strokes), dropped.ink);
-    faint = dropped.count;
-  }
+  const bool dropsFaint = edges.mode == EdgeMode::Automatic && !hasOwnLengths(params);
+  const int faint = dropsFaint ? dropFaint(found, *split, *lines, ink, grey, edges, context) : 0;
   if (edges.mode == EdgeMode::Centreline) {
     found.blots = chosenOf(found.blots, found.regions, edges);
   } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {

@@ -16,6 +16,7 @@ namespace {
 constexpr double kTrimRadii = 1.1;           // [radii of the junction] beyond its disc a stroke has its own middle
 constexpr double kTangentRadii = 8.0;        // [half stroke widths] over which the direction of an end is taken,
 constexpr double kLeastTangentPx = 8.0;      // and of thin strokes
+constexpr double kCurvedTangent = 0.5;       // of that: over less, a parabola follows the noise
 constexpr double kForkCos = 0.64;            // 50 degrees: two ends side by side
 constexpr double kFatRadius = 1.15;          // of the usual half-width of the edge,
 constexpr double kFatSlackPx = 0.25;         // and [px] what the grid of pixels changes of a half-width
@@ -113,7 +114,7 @@ MeetingEnd measureFrom(int first, const EdgeFromEnd& points, const SkeletonNode&
     radii.push_back(points[k].radius);
   }
   if (!radii.empty()) e.radius = std::max(0.5, static_cast<double>(upperMedian(radii)));
-  const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, arc >= 0.5 * reach ? 2 : 1);
+  const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, arc >= kCurvedTangent * reach ? 2 : 1);
   Vec2 out = fit.order >= 1 ? fit.r1 : Vec2(points[e.first].at - node.centre);
   if (!(out.norm() > 0.0)) out = Vec2::UnitX();
   e.out = out / out.norm();

@@ -8,6 +8,11 @@
 #include "core/contour/centreline/skeleton_nodes.h"
 
 namespace batten {
+namespace {
+
+constexpr double kSamePointPx = 0.5;  // pixels of a skeleton lie a pixel apart or more
+
+}  // namespace
 
 double strokePathLength(const std::vector<StrokePathPoint>& points, bool closed) {
   double sum = 0.0;
@@ -83,7 +88,8 @@ void SkeletonGraph::reverse(int edge) {
 void SkeletonGraph::appendEdge(int into, int from) {
   SkeletonEdge& a = edges_[into];
   SkeletonEdge& b = edges_[from];
-  const bool twice = !a.points.empty() && !b.points.empty() && (a.points.back().at - b.points.front().at).norm() < 0.5;
+  const bool twice =
+      !a.points.empty() && !b.points.empty() && (a.points.back().at - b.points.front().at).norm() < kSamePointPx;
   a.points.insert(a.points.end(), b.points.begin() + (twice ? 1 : 0), b.points.end());
   a.node[1] = b.node[1];
   for (int& end : nodes_[*a.node[1]].ends) {
@@ -102,7 +108,8 @@ void SkeletonGraph::splice(int node) {
     SkeletonEdge& edge = edges_[a];
     edge.ring = true;
     edge.node = {};
-    if (edge.points.size() > 1 && (edge.points.front().at - edge.points.back().at).norm() < 0.5) edge.points.pop_back();
+    if (edge.points.size() > 1 && (edge.points.front().at - edge.points.back().at).norm() < kSamePointPx)
+      edge.points.pop_back();
     edge.length = strokePathLength(edge.points, true);
     n.ends.clear();
     return;

@@ -21,6 +21,7 @@ constexpr double kFarthestEatenPx = 30.0;  // what the mask may have lost of a t
 constexpr double kCertain = 50.0;          // [nats]
 constexpr double kSameContrast = 0.6;      // of the stroke's contrast: less is another stroke, or paper
 constexpr double kSameWider = 1.4, kSameNarrower = 0.6;  // of its width
+constexpr double kEndSteering = 0.5;                     // of the step aside: the noise of a pixel counts half
 constexpr double kLargestSidestepPx = 0.75;              // from one pixel to the next
 constexpr double kLargestTurnRad = 0.5;                  // 30 degrees
 constexpr double kRoundEndWidths = 0.06;  // [stroke widths] the half level over the middle half of a round end lies
@@ -64,7 +65,7 @@ void followInk(StrokeCourse& c, const GreyImage& grey) {
                       next->width < kSameWider * here->width + 0.5 && next->width > kSameNarrower * here->width &&
                       std::abs(next->centre) < kLargestSidestepPx;
     if (!same) break;
-    path.push_back(at + 0.5 * next->centre * leftNormal(d));
+    path.push_back(at + kEndSteering * next->centre * leftNormal(d));
   }
   if (static_cast<double>(std::ssize(path) - known) < hook + 1.0) return;
   replaceTail(c, n - hook, {path.begin() + known, path.end()});

@@ -25,6 +25,7 @@ constexpr double kUnseenWidthPx = 0.45, kFarthestUnseenPx = 3.5;  // the line it
 constexpr double kUncertainTipPx = 2.0;                           // standard deviation of a tip that is not known
 constexpr double kGone = 0.05;                                    // share below which nothing is seen
 constexpr double kSteersFrom = 0.2;                               // share from which on the middle of the ink is known
+constexpr double kTaperSteering = 0.5;                            // of the step aside: the noise of a pixel counts half
 constexpr double kWider = 1.5;                // times the width so far: no ink is looked for beside it
 constexpr double kLargestTaperStepPx = 0.75;  // [px] aside, from one pixel to the next
 constexpr double kTipJoinPx = 0.3;            // [px] nearer to the tip no point of its own is made
@@ -107,7 +108,7 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
     const bool steers = share > kSteersFrom;
     const double centre = ink.centre.value_or(0.0);  // without ink it goes straight on
     if (steers && std::abs(centre) > kLargestTaperStepPx) break;
-    const Vec2 at = last + d + (steers ? 0.5 * centre : 0.0) * leftNormal(d);
+    const Vec2 at = last + d + (steers ? kTaperSteering * centre : 0.0) * leftNormal(d);
     track.stations.push_back({at, share, ink.middle / contrast});
     least = std::min(least, share);
     if (share < kGone) break;

@@ -26,6 +26,7 @@ constexpr double kSteepest = 0.8;         // slope against the axis up to which 
 constexpr double kPriorDensity = 0.01;    // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
 constexpr double kPriorBlocks = 3.0;      // how much it counts beside the noise that is measured
 constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
+constexpr int kShorterTenths = 7;         // of the blocks: the next shorter stretch that is tried
 constexpr int kFewestBlocks = 3;          // two say nothing of a bend
 constexpr int kMostGuessed = 40, kFewestKnown = 12;  // points
 constexpr int kAxisPoints = 12;                      // nearest to the corner: over more a side may bend
@@ -280,7 +281,7 @@ Extension extend(const std::vector<SideBlock>& blocks, double density) {
     int count;
   };
   std::vector<Choice> all;
-  for (int count = static_cast<int>(blocks.size()); count >= kFewestBlocks; count = count * 7 / 10) {  // by ratios
+  for (int count = static_cast<int>(blocks.size()); count >= kFewestBlocks; count = count * kShorterTenths / 10) {
     const bool whole = count == std::ssize(blocks);
     for (const Model& model : models) {
       const Followed f = follow(std::span(blocks).first(count), model, start, perBlock, whole ? &beyond : nullptr);
@@ -314,7 +315,7 @@ void continueSide(const Followed& f, double from, double to, CornerSide& side) {
   const double half = 0.5 * (side.to - side.from);  // x - from = half (z + 1)
   const double w[4] = {f.mean[0], -f.mean[1] * half, f.mean[2] / 2.0 * half * half,
                        -f.mean[3] / 6.0 * half * half * half};
-  side.coefficient = {w[0] + w[1] + w[2] + w[3], w[1] + 2.0 * w[2] + 3.0 * w[3], w[2] + 3.0 * w[3], w[3], 0.0};
+  side.coefficient = {w[0] + w[1] + w[2] + w[3], w[1] + 2.0 * w[2] + 3.0 * w[3], w[2] + 3.0 * w[3], w[3]};
   const State reversed(1.0, -1.0, 1.0, -1.0);
   Eigen::Map<Spread>(side.spread.data()) = reversed.asDiagonal() * f.spread * reversed.asDiagonal();
   const State row(1.0, from, from * from / 2.0, from * from * from / 6.0);

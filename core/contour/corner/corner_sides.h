@@ -11,7 +11,7 @@ namespace batten {
 /// One side of a corner as a polynomial over a straight axis, to be extended to the corner and beyond. Beyond `from`,
 /// away from the corner, it need not follow the points.
 struct CornerSide {
-  static constexpr int kMostDegree = 4;               ///< Sides are cubics so far: the last coefficient is 0.
+  static constexpr int kMostDegree = 3;               ///< What a value and three derivatives give.
   Vec2 origin = Vec2::Zero();                         ///< [px] the contour point that the fit started from.
   Vec2 along = Vec2::Zero();                          ///< Unit axis, pointing away from the corner.
   Vec2 across = Vec2::Zero();                         ///< Unit, along rotated by 90 degrees.

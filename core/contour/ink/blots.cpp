@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contour/centreline/stroke_mask.h"
+#include "core/contour/chosen_ink.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/page_margins.h"
@@ -121,6 +122,25 @@ BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunC
                 split.strokes, kInkShare, context);
   tones = withoutMargins(keepPieces(tones, {.seeds = &besideSolid}, context), context);
   return either(penFillings(without(split.strokes, split.pencil->ink), split.penPx, lines, context), tones);
+}
+
+BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgeParams& edges) {
+  BitImage chosenBlots(blots.width, blots.height);
+  const ChosenInk chosen(regions, edges.choices);
+  for (std::size_t i = 0; i < regions.runs.size(); ++i) {
+    if (chosen.choiceOf(regions.piece[i])) copyBits(blots, regions.runs[i], chosenBlots);
+  }
+  return chosenBlots;
+}
+
+BitImage notChosen(BitImage fillings, const RunPieces& regions, const std::optional<BitImage>& painted,
+                   const EdgeParams& edges) {
+  if (painted) fillings = without(std::move(fillings), *painted);
+  const ChosenInk chosen(regions, edges.choices);
+  for (std::size_t i = 0; i < regions.runs.size(); ++i) {
+    if (chosen.choiceOf(regions.piece[i])) clearBits(fillings, regions.runs[i]);
+  }
+  return fillings;
 }
 
 }  // namespace batten

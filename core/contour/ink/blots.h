@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
+#include "core/contour/edge_params.h"
 #include "core/contour/ink/ink_split.h"
 #include "core/image/bits/bit_image.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 
@@ -17,5 +21,11 @@ BitImage findBlots(const InkSplit&, const ContourSet& lines, double minWidths, c
 /// enclose and fill, knots, scribbles. Ink that two strokes across each other could hold is none. Up to the strokes,
 /// which stay strokes. Of what a pencil drew, only places where a solid goes on.
 BitImage findFillings(const InkSplit&, const ContourSet& lines, const RunContext&);
+
+/// Of blots, those in regions that the user chose for: where the page is followed along its middles, no others are.
+BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgeParams&);
+/// Of fillings, those that the user neither painted nor chose to be followed along their middle.
+BitImage notChosen(BitImage fillings, const RunPieces& regions, const std::optional<BitImage>& painted,
+                   const EdgeParams&);
 
 }  // namespace batten

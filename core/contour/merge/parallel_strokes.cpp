@@ -98,7 +98,8 @@ class SideFinder {
       if (context.isCancelled()) return {};
       for (int l = 0; l + 1 < std::ssize(first); ++l) {
         if (context.isCancelled()) return {};
-        addStretches(l, {nearest.begin() + first[l], nearest.begin() + first[l + 1]}, found);
+        for (ParallelStretch& s : stretchesOf(l, {nearest.begin() + first[l], nearest.begin() + first[l + 1]}))
+          found.push_back(std::move(s));
       }
     }
     std::stable_sort(found.begin(), found.end(),
@@ -197,7 +198,8 @@ class SideFinder {
   }
 
   // The stretches on one side of a line.
-  void addStretches(int l, const Neighbours& at, std::vector<ParallelStretch>& found) const {
+  std::vector<ParallelStretch> stretchesOf(int l, const Neighbours& at) const {
+    std::vector<ParallelStretch> found;
     const int count = static_cast<int>(at.size());
     const bool closed = lines_[l].closed;
     int start = 0;
@@ -232,6 +234,7 @@ class SideFinder {
       found.push_back(std::move(s));
       k = last + 1;
     }
+    return found;
   }
 
   // Another line comes between within a short gap.

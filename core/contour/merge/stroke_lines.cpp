@@ -15,6 +15,7 @@ constexpr double kLook = 1.5;                    // distances over which an end 
 constexpr double kLeastLookPx = 12.0;            // over less, the steps of pixels give the direction
 constexpr double kSeamSmoothing = 3.0;           // points
 constexpr int kSeamReach = 12;                   // points on either side
+constexpr double kCurvedEnd = 0.5;               // of that: over less, a parabola follows the noise
 constexpr double kBentEnd = 0.5;                 // distances: means are bent so far from their ends,
 constexpr double kBentShare = 0.25;              // or for this part of a short one
 constexpr int kLongEnough = 8, kBeforeBend = 5;  // points: of a line with so many the direction is read before its end
@@ -97,7 +98,7 @@ EndTangent endTangent(const MeanLine& line, int side, double distancePx) {
     s.push_back(k);
     at.push_back(point(k).at);
   }
-  const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, static_cast<double>(at.size()) >= 0.5 * reach ? 2 : 1);
+  const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, static_cast<double>(at.size()) >= kCurvedEnd * reach ? 2 : 1);
   if (fit.order >= 1 && fit.r1.norm() > 0.0) return {fit.r0, fit.r1.normalized()};
   const MeanPoint& end = point(0);
   return {end.at, side == 0 ? end.tangent : Vec2(-end.tangent)};

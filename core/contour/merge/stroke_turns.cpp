@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kSharpTurnRad = 0.87;    // 50 degrees
 constexpr double kTurnWidths = 1.5;       // stroke widths over which a turn is seen
+constexpr int kFewestReaches = 4;         // of a turn: a shorter line has none beside its ends
 constexpr int kLeastTurnReach = 4;        // points
 constexpr double kContinuesWidths = 4.0;  // stroke widths to the next line
 constexpr double kContinuesCos = 0.8;     // 37 degrees
@@ -92,7 +93,7 @@ HandStrokes strokesOf(const std::vector<Contour>& lines, double distancePx) {
     width = std::max(width, widthOf(line));
     const int reach = std::clamp(static_cast<int>(kTurnWidths * widthOf(line)), kLeastTurnReach,
                                  std::max(kLeastTurnReach, static_cast<int>(0.5 * distancePx)));
-    std::vector<int> cuts = n > 4 * reach ? sharpTurnsOf(line, reach) : std::vector<int>{};
+    std::vector<int> cuts = n > kFewestReaches * reach ? sharpTurnsOf(line, reach) : std::vector<int>{};
     // Where no other stroke is near, it was the hand that turned.
     std::erase_if(cuts, [&](int c) { return !others.isNear(line.points[c].at, l, c); });
     for (const int c : cuts) found.turns.push_back(line.points[c].at);

@@ -142,9 +142,9 @@ double fitPosition(const float* profile, const MatchedEdge& edge, double start, 
   return position;
 }
 
-// One step for the blur common to the contour from a spread sample of its points. `left`: what the model leaves of
-// them, without sign; as it was where there is none.
-void updateBlur(const EdgeProfiles& profiles, MatchedEdges& m, std::vector<float>& left) {
+// One step for the blur common to the contour from a spread sample of its points. @return what the model leaves of
+// them, without sign; nothing where none of them shows an edge.
+std::vector<float> updateBlur(const EdgeProfiles& profiles, MatchedEdges& m) {
   const NormalTable& table = NormalTable::instance();
   const int stride = std::max(1, m.count() / kBlurSamples);
   constexpr double kStep = 0.02;  // relative, for the derivative with respect to the blur
@@ -172,11 +172,11 @@ void updateBlur(const EdgeProfiles& profiles, MatchedEdges& m, std::vector<float
       residuals.push_back(static_cast<float>(std::abs(residual)));
     }
   }
-  if (residuals.empty()) return;
+  if (residuals.empty()) return residuals;
   if (bottom > 0.0)
     m.blur = std::clamp(m.blur + std::clamp(top / bottom, -kLargestBlurStepPx, kLargestBlurStepPx), kLeastBlurOfEdgePx,
                         kMostBlurOfEdgePx);
-  left = std::move(residuals);
+  return residuals;
 }
 
 // Which points a round fits.
@@ -236,7 +236,7 @@ MatchedEdges matchEdges(const EdgeProfiles& profiles, bool closed, const RunCont
     fitAll(profiles, start, m, {.stride = stride}, context);
     if (stride == 1) updateTwins(closed, m);
     const double before = m.blur;
-    updateBlur(profiles, m, left);
+    if (std::vector<float> residuals = updateBlur(profiles, m); !residuals.empty()) left = std::move(residuals);
     if (std::abs(m.blur - before) < kSettledBlurPx) break;
   }
   m.noise = robustSigma(std::move(left));
