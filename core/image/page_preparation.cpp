@@ -17,6 +17,7 @@
 #include "core/image/ruling/remove_rulings.h"
 #include "core/image/sheet_cells.h"
 #include "core/image/threshold/region_values.h"
+#include "core/image/tone_areas.h"
 
 namespace batten {
 namespace {
@@ -149,6 +150,15 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
   page.sheet = std::move(sheet);
 }
 
+void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& context) {
+  const std::optional<ToneAreas> areas = findToneAreas(greyOf(scan, page), context);
+  if (!areas || context.isCancelled()) return;
+  page.grey = withoutTones(greyOf(scan, page), *areas, context);
+  page.shadedShare = areas->share;
+  page.notes.push_back("Shading on " + roundedText(100.0 * areas->share, areas->share < 0.01 ? 1 : 0) +
+                       " % of the page was left out, so that the lines on it are found; paper.shading=keep traces it.");
+}
+
 void addRectifyNotes(const Scan& scan, PreparedPage& page) {
   constexpr double kDoubtfulAspect = 0.01, kNotableBendPx = 3.0;  // share and [px] above which a note says so
   if (!scan.rectifyNote.empty()) page.notes.push_back(scan.rectifyNote);
@@ -198,6 +208,8 @@ Result<PreparedPage> preparePage(const Scan& scan, const PreparationParams& para
     if (params.sheet == SheetUse::CutOff) cutOffTable(scan, page, context);
     if (context.isCancelled()) return cancelled();
     if (params.rulings == RulingUse::LeaveOut) leaveOutRulings(scan, page, context);
+    if (context.isCancelled()) return cancelled();
+    if (params.shading == ShadingUse::LeaveOut) leaveOutShading(scan, page, context);
     if (context.isCancelled()) return cancelled();
     return page;
   } catch (const std::bad_alloc&) {

@@ -34,11 +34,18 @@ enum class SheetUse {
   Off,     ///< The whole picture is the page.
 };
 
+/// What becomes of areas of even tone that lines are drawn on and around (tone_areas.h).
+enum class ShadingUse {
+  LeaveOut,  ///< They are paper to the lines.
+  Keep,      ///< They are ink as any other.
+};
+
 /// What is done to a scan before its thresholds.
 struct PreparationParams {
   ColourUse colour = ColourUse::Darkest;
   RulingUse rulings = RulingUse::LeaveOut;
   SheetUse sheet = SheetUse::CutOff;
+  ShadingUse shading = ShadingUse::LeaveOut;
   RectifyParams rectify;  ///< Has been applied to the scan before (rectified_scan.h).
   InkChoice inks;
   bool operator==(const PreparationParams&) const = default;
@@ -54,6 +61,7 @@ struct PreparedPage {
   std::optional<SheetView> view;      ///< How the sheet lies on a picture that is not rectified, where it is angled.
   std::vector<FoundInk> inks;         ///< Of a colour scan: all of them, also those that were dropped.
   double droppedShare = 0.0;          ///< 0..1 of the page: inks painted over.
+  double shadedShare = 0.0;           ///< 0..1 of the page: tones whose ground was made paper.
   std::vector<std::string> notes;     ///< What the user should know, one line each.
   bool isUntouched() const { return !grey; }
 };

@@ -167,9 +167,8 @@ TEST(RasterLayer, AColourScanIsShownInItsColoursAtEveryZoom) {
   content.showsPicture = true;
   content.pageWidth = 1600, content.pageHeight = 900;
   const auto colourAt = [&](double zoom, int x) {
-    QImage out(static_cast<int>(1600 * zoom), 4, QImage::Format_RGB32);
-    renderRaster(content, zoom, QRect(0, 0, out.width(), out.height()), out);
-    return out.pixel(static_cast<int>(x * zoom), 2);
+    return renderRaster(content, zoom, QRect(0, 0, static_cast<int>(1600 * zoom), 4))
+        .pixel(static_cast<int>(x * zoom), 2);
   };
   for (const auto& pyramid : {coarsePyramid(scan), buildPyramid(scan, RunContext{})}) {
     content.pyramid = pyramid;

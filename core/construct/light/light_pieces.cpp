@@ -25,7 +25,7 @@ constexpr double kSmoothShare = 0.01;  // of the samples' distance: what a curve
 // tolerances: the removal deviation that keeps an extremum, by detail
 constexpr double kLeastSignificance = 0.1, kMostSignificance = 0.25;
 constexpr double kDetailStep = 0.1;          // of `detail`: the steps of which the smaller ones are compared
-constexpr int kFewestPoints = 2;             // of any curve
+constexpr int kFewestControlPoints = 2;      // of any curve
 constexpr int kMostCompared = 40;            // control points
 constexpr int kFarMore = 2 * kMostCompared;  // what no smaller detail has so many fewer than
 constexpr double kRaggedLength = 12.0;       // tolerances of length for each extremum: ragged where there is less
@@ -72,7 +72,7 @@ Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOpti
   if (light->report.kind != LightKind::Dense && light->report.sectionsDense == 0) return light;
   LightOptions fewer = options;
   if (light->report.kind != LightKind::Dense)
-    fewer.mostPoints = std::min(fewer.mostPoints, std::max(kFewestPoints, light->report.points - 1));
+    fewer.mostPoints = std::min(fewer.mostPoints, std::max(kFewestControlPoints, light->report.points - 1));
   auto simple = simplifiedCurve(dense, closed, fewer, context);
   return simple && simple->report.points < light->report.points ? Result<LightCurve>(std::move(*simple)) : light;
 }
@@ -106,7 +106,7 @@ Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool cl
     const bool isAny = best && best->light.report.kind != LightKind::Dense;
     if (best && best->light.report.points > kFarMore) break;
     if (best) one.options.mostPoints = std::min(kMostCompared, isAny ? best->light.report.points - 1 : kMostCompared);
-    if (one.options.mostPoints < kFewestPoints) break;
+    if (one.options.mostPoints < kFewestControlPoints) break;
     auto light = lightOf(dense, closed, one.options, step > 0, context);
     if (!light && best && !context.isCancelled()) break;
     if (!light) return fail(light.error());

@@ -185,8 +185,9 @@ class CircleBase {
   }
   // Height and its derivatives 1 to 3 with respect to x; all 0 where the blocks lie on a line.
   State at(double x) const {
-    if (!radius_) return State::Zero();
-    const double dx = x - centreX_, root = std::sqrt(*radius_ * *radius_ - dx * dx), sign = *radius_ > 0.0 ? 1.0 : -1.0;
+    const double radius = radius_.value_or(0.0);
+    if (radius == 0.0) return State::Zero();
+    const double dx = x - centreX_, root = std::sqrt(radius * radius - dx * dx), sign = radius > 0.0 ? 1.0 : -1.0;
     const double p = -dx / root, q = -(1.0 + p * p) / root, r = -3.0 * p * q / root;
     return {centreY_ + sign * root, sign * p, sign * q, sign * r};
   }

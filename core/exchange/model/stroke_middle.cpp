@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
@@ -39,9 +38,8 @@ bool isJump(const MiddlePlace& before, const MiddlePlace& behind) {
   return (before.along - behind.along).norm() > kSameRad || std::abs(before.growth - behind.growth) > kSameRad;
 }
 
-/// @param before the last place of the piece that this one goes on from
-std::vector<MiddlePlace> middlePlaces(const ExportPiece& piece, const std::optional<MiddlePlace>& before,
-                                      CancelCheck check) {
+/// @param before the last place of the piece that this one goes on from; null: it goes on from none
+std::vector<MiddlePlace> middlePlaces(const ExportPiece& piece, const MiddlePlace* before, CancelCheck check) {
   std::vector<MiddlePlace> places;
   const NurbsCurve& curve = piece.curve;
   const ArcLength length(curve);
@@ -63,7 +61,7 @@ std::vector<MiddlePlace> middlePlaces(const ExportPiece& piece, const std::optio
       const auto d = curve.derivatives(inside, 1);
       MiddlePlace place{curve.point(u), Vec2::UnitX(), 0.0, piece.width->at(s * ratio), growth, i == 0};
       const double speed = d[1].norm();
-      const std::optional<MiddlePlace> last = places.empty() ? before : places.back();
+      const MiddlePlace* last = places.empty() ? before : &places.back();
       if (speed > 0.0)
         place.along = d[1] / speed;
       else if (last)
@@ -88,7 +86,7 @@ std::vector<StrokeMiddle> strokeMiddles(const ExportCurve& line, CancelCheck che
     }
     if (!hasWidthBefore || !doMeet(line.pieces[i - 1].curve, piece.curve)) middles.emplace_back();
     std::vector<MiddlePlace>& places = middles.back().places;
-    const auto more = middlePlaces(piece, places.empty() ? std::nullopt : std::optional(places.back()), check);
+    const auto more = middlePlaces(piece, places.empty() ? nullptr : &places.back(), check);
     places.insert(places.end(), more.begin(), more.end());
     hasWidthBefore = true;
   }

@@ -254,6 +254,13 @@ void appendPage(std::vector<Parameter>& table) {
        "spiral binding."},
       {{"cut-off", "Cut off", SheetUse::CutOff}, {"off", "Keep", SheetUse::Off}},
       [](auto& r) -> auto& { return r.preparation.sheet; }));
+  table.push_back(choice<ShadingUse>(
+      kThresholds,
+      {"paper.shading", "Drawn shading", "",
+       "Areas of even tone, as the shading of marker or airbrush, count as paper where lines are drawn on and around "
+       "them, so that the lines are found. Keep: they are ink, and their borders are traced."},
+      {{"leave-out", "Remove", ShadingUse::LeaveOut}, {"keep", "Keep", ShadingUse::Keep}},
+      [](auto& r) -> auto& { return r.preparation.shading; }));
   table.push_back(rectifyParameter());
   table.push_back(formatParameter());
   appendInks(table);

@@ -153,7 +153,7 @@ class PipelineRun {
   bool thresholds() {
     const Clock::time_point begin = begin_ = Clock::now();
     const bool isPrepared = fill(StageId::Thresholds, keys_.page, out_.page, [&]() -> Result<PreparedPage> {
-      return isBlank(scan_) ? PreparedPage{} : preparePage(scan_, recipe_.preparation, context_);
+      return isBlank(scan_) ? PreparedPage{} : preparePage(scan_, preparationOf(recipe_), context_);
     });
     if (!isPrepared) return false;
     const bool isDone = step(StageId::Thresholds, out_.thresholds, [&] {

@@ -87,7 +87,8 @@ ContentHash preparedKey(const ContentHash& scan, const PreparationParams& params
       .hash(scan)
       .integer(static_cast<int>(params.colour))
       .integer(static_cast<int>(params.rulings))
-      .integer(static_cast<int>(params.sheet));
+      .integer(static_cast<int>(params.sheet))
+      .integer(static_cast<int>(params.shading));
   for (const auto* list : {&params.inks.keep, &params.inks.drop}) {
     addCount(h, *list);
     for (const InkColour& ink : *list) add(h, ink.hueDeg);
@@ -208,11 +209,17 @@ ContentHash withStrokes(const ContentHash& traced, const Recipe& recipe) {
 
 }  // namespace
 
+PreparationParams preparationOf(const Recipe& recipe) {
+  PreparationParams params = recipe.preparation;
+  if (!recipe.paper.flatten) params.shading = ShadingUse::Keep;
+  return params;
+}
+
 StageKeys stageKeys(const Scan& scan, const Recipe& recipe, const PageFrame& frame) {
   StageKeys result;
   const ContentHash first = scanKey(scan);
   const ContentHash* input = &first;
-  result.page = preparedKey(first, recipe.preparation);
+  result.page = preparedKey(first, preparationOf(recipe));
   for (std::size_t i = 0; i < kStages.size(); ++i) {
     HashBuilder h;
     h.text(name(kStages[i])).hash(*input);

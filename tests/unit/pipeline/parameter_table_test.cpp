@@ -54,6 +54,7 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "fairing.tolerance",
                            "paper.colour",
                            "paper.rulings",
+                           "paper.shading",
                            "paper.sheet",
                            "inks.keep",
                            "inks.drop",

@@ -161,7 +161,8 @@ void ScanPanel::buildScale(ViewSettings& view) {
 void ScanPanel::buildPaper(ViewSettings& view) {
   column()->addWidget(caption(tr("Paper"), this));
   column()->addWidget(new ParameterEditor(
-      session_, {"paper.colour", "paper.rulings", "paper.sheet", "paper.flatten", "paper.folds"}, this));
+      session_, {"paper.colour", "paper.rulings", "paper.sheet", "paper.shading", "paper.flatten", "paper.folds"},
+      this));
   paperNote_->setObjectName(QStringLiteral("scan.paperNote"));
   column()->addWidget(paperNote_);
   new QGridLayout(inkBox_);
@@ -219,6 +220,9 @@ void ScanPanel::refreshPaper() {
                   .arg(count);
   }
   if (page && page->bindingHoles > 0) said << tr("%1 binding holes were removed.").arg(page->bindingHoles);
+  if (page && page->shadedShare > 0.0)
+    said << tr("Shading on %1 % of the page was left out.")
+                .arg(100.0 * page->shadedShare, 0, 'f', page->shadedShare < 0.01 ? 1 : 0);
   if (page && page->sheet && !session_.scan()->rectification)
     said << tr("%1 % of the picture is outside the sheet and was cut off.")
                 .arg(100.0 * page->sheet->outsideShare, 0, 'f', 0);

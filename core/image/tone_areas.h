@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// Where a page is shaded, and how bright it is there without its lines.
+struct ToneAreas {
+  int pixelsPerPx = 1;        ///< Pixels of the page along one of `ground`.
+  int columns = 0, rows = 0;  ///< Of `ground`.
+  /// [0..255 of the paper's brightness] What lines are drawn on, row by row: 255 where nothing is shaded.
+  std::vector<std::uint8_t> ground;
+  double share = 0.0;  ///< 0..1 of the page.
+  int groundAt(int column, int row) const { return ground[std::ptrdiff_t{row} * columns + column]; }
+};
+
+/// Finds areas of even tone that lines are drawn on and around, as the shading of marker or airbrush: wider than any
+/// line, lighter than the lines on them, smooth inside, and bounded by lines or by a gradual fade for the most part. An
+/// area that ends in a sharp edge without a line is a shape and stays ink; so do areas of hatching and of grain.
+/// @return Absent: there are none, or the search was cancelled.
+std::optional<ToneAreas> findToneAreas(const GreyImage&, const RunContext&);
+
+/// The page with the ground of its tones as bright as paper: lines on them stand out as on paper.
+GreyImage withoutTones(const GreyImage&, const ToneAreas&, const RunContext&);
+
+}  // namespace batten

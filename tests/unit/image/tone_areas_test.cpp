@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shading that lines are drawn on and around is paper to them; shapes, solids and hatching are not.
+#include "core/image/tone_areas.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "core/image/page_preparation.h"
+#include "tests/support/stress_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kPageWidth = 640, kPageHeight = 480;
+constexpr double kPaperGrey = 235.0, kToneGrey = 150.0;
+
+/// How far a place lies inside the drum, px: a box with elliptic lid and bottom, as a designer draws a seat.
+double insideDrum(double x, double y) {
+  const double u = (x - 320.0) / 180.0, bulge = 30.0 * std::sqrt(std::max(0.0, 1.0 - u * u));
+  return std::min({180.0 - std::abs(x - 320.0), y - 180.0 + bulge, 340.0 + bulge - y});
+}
+/// Distance from the lower edge of the lid, drawn on the tone.
+double fromLid(double x, double y) {
+  const double u = (x - 320.0) / 180.0;
+  return std::abs(u) > 1.0 ? 100.0 : std::abs(y - 180.0 - 30.0 * std::sqrt(1.0 - u * u));
+}
+
+using Distance = std::function<double(double x, double y)>;
+
+struct Drawing {
+  std::function<double(double x, double y)> paper = [](double, double) { return kPaperGrey; };
+  Distance line = [](double, double) { return 100.0; };  ///< From the nearest line, px.
+  double lineWidthPx = 3.0, noise = 2.0;
+};
+
+Scan pageOf(const Drawing& d) {
+  std::vector<float> coverage;
+  for (int y = 0; y < kPageHeight; ++y)
+    for (int x = 0; x < kPageWidth; ++x) {
+      const double from = std::min(d.line(x + 0.5, y + 0.5), std::hypot(x - 60.0, y - 240.0) > 40.0
+                                                                 ? std::abs(std::hypot(x - 60.0, y - 240.0) - 45.0)
+                                                                 : 100.0);  // a circle of line on bare paper
+      coverage.push_back(static_cast<float>(std::clamp(0.5 * d.lineWidthPx + 0.5 - from, 0.0, 1.0)));
+    }
+  return test::renderStress(std::move(coverage), kPageWidth, kPageHeight, d.paper, {110.0, d.noise, 0.8}, 3);
+}
+
+Drawing drum() {
+  Drawing d;
+  d.paper = [](double x, double y) { return insideDrum(x, y) > 0.0 ? kToneGrey : kPaperGrey; };
+  d.line = [](double x, double y) { return std::min(std::abs(insideDrum(x, y)), fromLid(x, y)); };
+  return d;
+}
+
+TEST(ToneAreas, LinesOnAndAroundShadingStandOutAsOnPaper) {
+  const Scan scan = pageOf(drum());
+  const auto areas = findToneAreas(scan.grey, {});
+  ASSERT_TRUE(areas);
+  EXPECT_NEAR(areas->share, 360.0 * 160.0 / (kPageWidth * kPageHeight), 0.06);
+  const GreyImage page = withoutTones(scan.grey, *areas, {});
+  double tone = 0.0, before = 0.0;
+  for (int x = 240; x < 400; ++x) {
+    tone += page.level(x, 280) / 160.0;
+    before += scan.grey.level(x, 280) / 160.0;
+  }
+  EXPECT_NEAR(before, kToneGrey, 3.0);
+  EXPECT_NEAR(tone, kPaperGrey, 12.0);
+  EXPECT_LT(page.level(320, 210), 0.6 * kPaperGrey) << "the lid's lower edge";
+  EXPECT_LT(page.level(320, 370), 0.6 * kPaperGrey) << "the outline";
+  EXPECT_EQ(page.row(20)[600], scan.grey.row(20)[600]) << "paper is untouched";
+  EXPECT_EQ(page.row(240)[105], scan.grey.row(240)[105]) << "lines elsewhere are untouched";
+}
+
+TEST(ToneAreas, AFadeNeedsNoLine) {
+  Drawing d = drum();  // the tone fades towards the bottom, which has no line
+  d.paper = [](double x, double y) {
+    const double deep = std::clamp((y - 180.0) / 190.0, 0.0, 1.0);
+    return insideDrum(x, y) > 0.0 || (std::abs(x - 320.0) < 180.0 && y > 300.0 && y < 400.0)
+               ? kPaperGrey - (kPaperGrey - kToneGrey) * std::max(0.0, 1.0 - deep)
+               : kPaperGrey;
+  };
+  d.line = [](double x, double y) { return y < 300.0 ? std::min(std::abs(insideDrum(x, y)), fromLid(x, y)) : 100.0; };
+  EXPECT_TRUE(findToneAreas(pageOf(d).grey, {}));
+}
+
+TEST(ToneAreas, ShapesSolidsAndHatchingStayInk) {
+  std::vector<std::pair<const char*, Drawing>> drawings;
+  Drawing bare = drum();
+  bare.line = [](double, double) { return 100.0; };
+  drawings.emplace_back("a grey shape without lines", bare);
+  Drawing inner = drum();
+  inner.line = fromLid;
+  drawings.emplace_back("a grey shape with a line inside, but none around", inner);
+  Drawing solid = drum();
+  solid.paper = [](double x, double y) { return insideDrum(x, y) > 0.0 ? 25.0 : kPaperGrey; };
+  drawings.emplace_back("a solid", solid);
+  Drawing hatched;
+  hatched.line = [](double x, double y) {
+    const double along = std::fmod(x + y, 7.0);
+    return insideDrum(x, y) > 0.0 ? std::min(std::abs(insideDrum(x, y)), std::min(along, 7.0 - along))
+                                  : std::abs(insideDrum(x, y));
+  };
+  drawings.emplace_back("hatching", hatched);
+  Drawing lines;
+  lines.line = [](double x, double y) { return std::min(std::abs(insideDrum(x, y)), fromLid(x, y)); };
+  drawings.emplace_back("lines alone", lines);
+  for (const auto& [name, drawing] : drawings) EXPECT_FALSE(findToneAreas(pageOf(drawing).grey, {})) << name;
+}
+
+TEST(ToneAreas, AreFoundOnALargePageToo) {
+  const Scan small = pageOf(drum());
+  Scan large = small;
+  const int times = 4;
+  large.grey = GreyImage(times * kPageWidth, times * kPageHeight);
+  for (int y = 0; y < large.grey.height; ++y)
+    for (int x = 0; x < large.grey.width; ++x) large.grey.row(y)[x] = small.grey.row(y / times)[x / times];
+  const auto areas = findToneAreas(large.grey, {});
+  ASSERT_TRUE(areas);
+  EXPECT_EQ(areas->pixelsPerPx, 2);
+  const GreyImage page = withoutTones(large.grey, *areas, {});
+  EXPECT_NEAR(page.level(times * 320, times * 280), kPaperGrey, 20.0);
+  EXPECT_LT(page.level(times * 320 + 2, times * 210 + 2), 0.6 * kPaperGrey);
+}
+
+TEST(ToneAreas, TinyAndUniformPagesHaveNone) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 7}, {16, 16}, {40, 3}})
+    EXPECT_FALSE(findToneAreas(GreyImage(width, height, 20000), {})) << width << " x " << height;
+  EXPECT_FALSE(findToneAreas(GreyImage::uniform(900, 700, 20000), {}));
+}
+
+TEST(ToneAreas, AreLeftOutOfThePageUnlessKept) {
+  const Scan scan = pageOf(drum());
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page);
+  EXPECT_GT(page->shadedShare, 0.1);
+  ASSERT_EQ(page->notes.size(), 1u);
+  EXPECT_NE(page->notes[0].find("paper.shading=keep"), std::string::npos);
+  PreparationParams keep;
+  keep.shading = ShadingUse::Keep;
+  const auto kept = preparePage(scan, keep, {});
+  ASSERT_TRUE(kept);
+  EXPECT_TRUE(kept->isUntouched());
+}
+
+}  // namespace
+}  // namespace batten
