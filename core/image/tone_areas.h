@@ -17,7 +17,7 @@ struct ToneAreas {
   int columns = 0, rows = 0;  ///< Of `ground`.
   /// [0..255 of the paper's brightness] What lines are drawn on, row by row: 255 where nothing is shaded.
   std::vector<std::uint8_t> ground;
-  double share = 0.0;  ///< 0..1 of the page.
+  double share = 0.0;  ///< 0..1 of the page is clearly shaded.
   int groundAt(int column, int row) const { return ground[std::ptrdiff_t{row} * columns + column]; }
 };
 

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/tone_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/binarize.h"
+#include "core/image/threshold/region_thresholds.h"
+
+namespace batten {
+namespace {
+
+constexpr double kDarkCell = 0.93;        // of the paper: a cell that is darker all over
+constexpr double kWiderThanLines = 1.25;  // [line widths] half the width of a brush that no line holds
+constexpr int kWidestBrush = 30;          // [px] a drawing of broader strokes has no lines that tones lie between
+constexpr int kLeastLines = 50;           // [px] of middle lines, to tell how dark lines are
+constexpr double kLinesDark = 0.6;        // quantile of the darkness of lines: the ends are faint
+constexpr double kLineDepth = 0.25;       // of that: what is darker than its ground by so much is line
+constexpr double kLongLine = 5.0;         // [line widths] shorter ones are grain
+
+cv::Mat1b square(int radius) { return cv::Mat1b::ones(2 * radius + 1, 2 * radius + 1); }
+
+/// A brush: an octagon of nearly `radius`, made of a square and a diamond, which are fast.
+struct Brush {
+  int square, diamond;
+  explicit Brush(int radius)
+      : square(static_cast<int>(std::lround(radius / (1.0 + 1.0 / std::sqrt(2.0))))), diamond(radius - square) {}
+  cv::Mat1b raise(const cv::Mat1b& grey) const { return passed(grey, true); }
+  cv::Mat1b lower(const cv::Mat1b& grey) const { return passed(grey, false); }
+
+ private:
+  cv::Mat1b passed(const cv::Mat1b& grey, bool isRaised) const {
+    const cv::Mat box = cv::getStructuringElement(cv::MORPH_RECT, {2 * square + 1, 2 * square + 1});
+    const cv::Mat cross = cv::getStructuringElement(cv::MORPH_CROSS, {3, 3});
+    const auto pass = isRaised ? static_cast<void (*)(cv::InputArray, cv::OutputArray, cv::InputArray, cv::Point, int,
+                                                      int, const cv::Scalar&)>(&cv::dilate)
+                               : &cv::erode;
+    cv::Mat1b out;
+    pass(grey, out, box, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::morphologyDefaultBorderValue());
+    pass(out, out, cross, {-1, -1}, diamond, cv::BORDER_CONSTANT, cv::morphologyDefaultBorderValue());
+    return out;
+  }
+};
+
+/// The ink's middle lines: where the distance to paper is largest.
+cv::Mat1b middleLines(const cv::Mat1f& distance) {
+  cv::Mat1f around;
+  cv::dilate(distance, around, cv::Mat());
+  return (distance >= around - 1e-3f) & (distance > 0.0f);
+}
+
+/// Pieces of `mask` that are at least `lengthPx` long.
+cv::Mat1b longPieces(const cv::Mat1b& mask, double lengthPx) {
+  cv::Mat1i labels;
+  cv::Mat stats, centres;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8, CV_32S);
+  std::vector<std::uint8_t> isLong(count, 0);
+  for (int k = 1; k < count; ++k)
+    if (std::max(stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT)) >= lengthPx)
+      isLong[k] = 255;
+  cv::Mat1b out(mask.size());
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) out(y, x) = isLong[labels(y, x)];
+  return out;
+}
+
+}  // namespace
+
+cv::Mat1b grownMask(const cv::Mat1b& mask, int radius) {
+  cv::Mat1b out;
+  cv::dilate(mask, out, square(radius));
+  return out;
+}
+cv::Mat1b shrunkMask(const cv::Mat1b& mask, int radius) {
+  cv::Mat1b out;
+  cv::erode(mask, out, square(radius));
+  return out;
+}
+
+cv::Mat1w paperOver(const cv::Mat1w& brightest, int windowCells) {
+  const int window = std::max(1, windowCells) | 1;
+  cv::Mat1w paper;
+  cv::morphologyEx(brightest, paper, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {window, window}));
+  return paper;
+}
+TonePaper tonePaperOf(const GreyImage& page) {
+  const int columns = page.width / kToneCellPx, rows = page.height / kToneCellPx;
+  TonePaper cells;
+  if (columns < 2 || rows < 2) return cells;
+  cells.brightest = cv::Mat1w::zeros(rows, columns);
+  for (int y = 0; y < rows * kToneCellPx; ++y) {
+    const std::uint16_t* row = page.row(y);
+    std::uint16_t* cell = cells.brightest[y / kToneCellPx];
+    for (int i = 0; i < columns; ++i)
+      cell[i] = std::max(cell[i], *std::max_element(row + i * kToneCellPx, row + (i + 1) * kToneCellPx));
+  }
+  cells.paper = paperOver(cells.brightest, static_cast<int>(kMostPaperWindow * std::max(columns, rows)));
+  return cells;
+}
+
+bool mayBeShaded(const TonePaper& cells) {
+  if (cells.paper.empty()) return false;
+  const cv::Mat dark = cells.brightest < kDarkCell * cells.paper;
+  cv::Mat solid;
+  cv::erode(dark, solid, cv::getStructuringElement(cv::MORPH_RECT, {2, 2}));
+  return cv::countNonZero(solid) > 0;
+}
+
+void flattenTo(cv::Mat1b& flat, const GreyImage& page, const std::function<double(int x, int y)>& paperAt,
+               const RunContext& context) {
+  flat.create(page.height, page.width);
+  parallelFor(context, page.height, 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < page.width; ++x)
+        flat(y, x) =
+            static_cast<std::uint8_t>(std::min(255.0, 255.0 * page.level(x, y) / std::max(1.0, paperAt(x, y)) + 0.5));
+  });
+}
+
+std::optional<ToneLook> inkOfPage(const GreyImage& page, const RunContext& context) {
+  const auto thresholds = findThresholds(page, {}, {}, context);
+  if (!thresholds || !thresholds->foundLine) return std::nullopt;
+  const auto ink = binarize(page, *thresholds, {}, context);
+  if (!ink) return std::nullopt;
+  ToneLook look;
+  look.ink.create(page.height, page.width);
+  for (int y = 0; y < page.height; ++y)
+    for (int x = 0; x < page.width; ++x) look.ink(y, x) = ink->at(x, y) ? 255 : 0;
+  const PaperBackground& paper = thresholds->paper;
+  flattenTo(
+      look.flat, page, [&paper](int x, int y) { return paper.at(x + 0.5, y + 0.5); }, context);
+  return context.isCancelled() ? std::nullopt : std::optional(std::move(look));
+}
+
+double darknessQuantile(const cv::Mat1b& flat, const cv::Mat1b& where, double share) {
+  std::vector<double> values;
+  for (int y = 0; y < flat.rows; ++y)
+    for (int x = 0; x < flat.cols; ++x)
+      if (where(y, x) != 0) values.push_back(255.0 - flat(y, x));
+  return values.empty() ? 0.0 : lowerQuantile(values, share);
+}
+
+bool lookAtLines(ToneLook& look, const RunContext& context) {
+  cv::Mat1f distance;
+  cv::distanceTransform(look.ink, distance, cv::DIST_L2, cv::DIST_MASK_5);
+  const cv::Mat1b middle = middleLines(distance);
+  std::vector<double> halfWidths;
+  for (int y = 0; y < middle.rows; ++y)
+    for (int x = 0; x < middle.cols; ++x)
+      if (middle(y, x) != 0) halfWidths.push_back(distance(y, x));
+  if (halfWidths.empty()) return false;
+  look.lineWidthPx = 2.0 * upperMedian(halfWidths);
+  look.brush = static_cast<int>(std::ceil(kWiderThanLines * look.lineWidthPx + 1.0));
+  if (look.brush > kWidestBrush) return false;
+  const Brush brush(look.brush);
+  look.wide = brush.raise(brush.lower(look.ink));
+  if (cv::countNonZero(look.wide) == 0 || context.isCancelled()) return false;
+  const cv::Mat1b thin = middle & (grownMask(look.wide, 2) == 0);
+  const double dark = darknessQuantile(look.flat, cv::countNonZero(thin) >= kLeastLines ? thin : look.ink, kLinesDark);
+  look.ground = brush.lower(brush.raise(look.flat));
+  // What the brush cut off the corners of an area comes back, as far as the brush reaches.
+  for (int i = 0; i < look.brush && !context.isCancelled(); ++i) {
+    cv::Mat1b lower;
+    cv::erode(look.ground, lower, cv::Mat());
+    look.ground = cv::max(lower, look.flat);
+  }
+  const cv::Mat1b depth = look.ground - look.flat;
+  look.lines = depth >= std::max(1.0, kLineDepth * dark);
+  look.nearLine = grownMask(longPieces(look.lines, kLongLine * look.lineWidthPx),
+                            static_cast<int>(std::ceil(0.5 * look.lineWidthPx + 2.0)));
+  look.range = brush.raise(look.ground) - brush.lower(look.ground);
+  return !context.isCancelled();
+}
+
+}  // namespace batten

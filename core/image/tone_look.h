@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "core/base/run_context.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+inline constexpr int kToneCellPx = 8;            // side of the cells of the first look: wider than a line
+inline constexpr double kMostPaperWindow = 0.5;  // of the page: in so wide a window some paper is seen
+
+/// The paper behind all tones, cell by cell.
+struct TonePaper {
+  cv::Mat1w brightest;  ///< Grey of the brightest pixel of each cell. Empty: the page has no two cells a side.
+  cv::Mat1w paper;      ///< Slow changes of its brightness stay, areas narrower than kMostPaperWindow do not.
+};
+TonePaper tonePaperOf(const GreyImage&);
+/// The paper that a window of so many cells a side sees: areas narrower than it are bridged.
+cv::Mat1w paperOver(const cv::Mat1w& brightest, int windowCells);
+/// Whether cells lie side by side in which no pixel is as bright as the paper: lines leave some.
+bool mayBeShaded(const TonePaper&);
+
+/// A page as its search sees it.
+struct ToneLook {
+  cv::Mat1b flat, ink;      ///< Brightness of the paper's; ink not 0.
+  cv::Mat1b ground, lines;  ///< Without what is narrower than the brush; what is clearly darker, not 0.
+  cv::Mat1b nearLine;       ///< Not 0 on long lines and beside them.
+  cv::Mat1b wide;           ///< Ink that holds the brush.
+  cv::Mat1b range;          ///< Of the ground, within a brush.
+  int brush = 0;            ///< [px] Its radius.
+  double lineWidthPx = 0.0;
+};
+
+/// The ink of a page by automatic thresholds, and its brightness. Absent: there is none, or cancelled.
+std::optional<ToneLook> inkOfPage(const GreyImage&, const RunContext&);
+/// The brightness of a page where the paper is of another: @param paperAt grey 0..255 of the paper at a place in px.
+void flattenTo(cv::Mat1b& flat, const GreyImage& page, const std::function<double(int x, int y)>& paperAt,
+               const RunContext&);
+/// Adds what is known of lines and of the ground below them. False: no ink is wider than the lines, or cancelled.
+bool lookAtLines(ToneLook&, const RunContext&);
+
+cv::Mat1b grownMask(const cv::Mat1b& mask, int radiusPx);
+cv::Mat1b shrunkMask(const cv::Mat1b& mask, int radiusPx);
+/// Of 255 - flat where the mask is not 0; 0 where it is nowhere. @param share 0..1
+double darknessQuantile(const cv::Mat1b& flat, const cv::Mat1b& where, double share);
+
+}  // namespace batten
