@@ -153,7 +153,7 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
 void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& context) {
   const std::optional<ToneAreas> areas = findToneAreas(greyOf(scan, page), context);
   if (!areas || context.isCancelled()) return;
-  page.grey = withoutTones(greyOf(scan, page), *areas, context);
+  page.grey = withoutTones(page.grey ? std::move(*page.grey) : scan.grey, *areas, context);
   page.shadedShare = areas->share;
   page.notes.push_back("Shading on " + roundedText(100.0 * areas->share, areas->share < 0.01 ? 1 : 0) +
                        " % of the page was left out, so that the lines on it are found; paper.shading=keep traces it.");

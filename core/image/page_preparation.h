@@ -61,14 +61,14 @@ struct PreparedPage {
   std::optional<SheetView> view;      ///< How the sheet lies on a picture that is not rectified, where it is angled.
   std::vector<FoundInk> inks;         ///< Of a colour scan: all of them, also those that were dropped.
   double droppedShare = 0.0;          ///< 0..1 of the page: inks painted over.
-  double shadedShare = 0.0;           ///< 0..1 of the page: tones whose ground was made paper.
+  double shadedShare = 0.0;           ///< 0..1 of the page, clearly shaded: its ground was made paper.
   std::vector<std::string> notes;     ///< What the user should know, one line each.
   bool isUntouched() const { return !grey; }
 };
 
 std::optional<Error> validate(const PreparationParams&);
 
-/// Makes the grey page that all later stages read. A grey scan stays bit by bit as it is.
+/// Makes the grey page that all later stages read. A grey scan of which nothing is left out stays bit by bit as it is.
 /// @return Cancelled or OutOfMemory.
 Result<PreparedPage> preparePage(const Scan&, const PreparationParams&, const RunContext&);
 

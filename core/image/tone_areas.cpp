@@ -13,18 +13,20 @@
 namespace batten {
 namespace {
 
-constexpr int kLongestSidePx = 1750;         // of the copy that is searched: lines are still two or three px wide on it
-constexpr double kAroundTone = 1.2;          // of the longest tone: the window in which its paper is seen
-constexpr double kDarkestTone = 190.0;       // [of 255] darkness on which nothing darker could be drawn
-constexpr double kMostOfLines = 0.85;        // of the darkness of the lines on it: what is as dark is a solid
-constexpr double kDarkLines = 0.75;          // quantile of the darkness of the lines on an area
-constexpr double kSharp = 0.6;               // of the tone's darkness, within a brush: more gradual is a fade
-constexpr double kMostBare = 0.4;            // of the border sharp and without a line: more is a shape
-constexpr double kMostGrain = 0.35;          // of the area inside darker than its ground: more is hatching or grain
-constexpr double kLeastRadius = 2.0;         // [brushes] of the largest circle inside
-constexpr int kBlurPx = 1;                   // that a line is blurred over its border, on the copy
-constexpr std::uint8_t kFaintestTone = 247;  // [of 255] ground up to which an area fades
-constexpr std::uint8_t kClearTone = 217;     // [of 255] ground that is seen to be shaded
+constexpr int kLongestSidePx = 1750;    // of the copy that is searched, which has half of that at least
+constexpr double kAroundTone = 1.2;     // of the longest tone: the window in which its paper is seen
+constexpr double kDarkestTone = 190.0;  // [of 255] darkness on which nothing darker could be drawn
+constexpr double kMostOfLines = 0.85;   // of the darkness of the lines on it: what is as dark is a solid
+constexpr double kDarkLines = 0.75;     // quantile of the darkness of the lines on an area
+constexpr double kSharp = 0.6;          // of the tone's darkness, within a brush: more gradual is a fade
+constexpr double kMostBare = 0.4;       // of the border sharp and without a line: more is a shape
+constexpr double kMostGrain = 0.35;     // of the area inside darker than its ground: more is hatching or grain
+constexpr double kLeastLined = 0.3;     // of the border along lines: less is no area that somebody drew lines around
+constexpr double kLeastRadius = 2.0;    // [brushes] of the largest circle inside
+constexpr int kBlurPx = 1;              // that a line is blurred over its border, on the copy
+constexpr int kEdgePx = 2;              // beyond a solid: its blurred edge
+constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
+constexpr std::uint8_t kClearGround = 217;     // [of 255] seen to be shaded
 
 GreyImage reduced(const GreyImage& page, int factor) {
   GreyImage out(std::max(1, page.width / factor), std::max(1, page.height / factor));
@@ -40,16 +42,17 @@ enum class AreaKind {
   Unclear,  ///< Narrow: it goes with the tone that it is part of, if any.
 };
 
-/// What an area of ink is. @param area not 0 inside; the pictures are cut to a box around it.
+/// What an area of ink is that is nowhere darker than kDarkestTone. @param area not 0 inside; the pictures are cut to a
+/// box around it.
 AreaKind kindOf(const cv::Mat1b& area, const ToneLook& look) {
-  const double tone = darknessQuantile(look.ground, area, 0.5);
-  if (tone > kDarkestTone) return AreaKind::Solid;
+  const double darkness = darknessQuantile(look.ground, area, 0.5);
   const cv::Mat1b inner = shrunkMask(area, 2), border = area & (shrunkMask(area, 1) == 0);
-  const cv::Mat1b bare = border & (look.nearLine == 0) & (look.range >= kSharp * tone);
-  if (cv::countNonZero(bare) > kMostBare * cv::countNonZero(border)) return AreaKind::Solid;
+  const int borderPx = cv::countNonZero(border);
+  if (cv::countNonZero(border & look.nearLine) < kLeastLined * borderPx) return AreaKind::Solid;
+  const cv::Mat1b bare = border & (look.nearLine == 0) & (look.range >= kSharp * darkness);
+  if (cv::countNonZero(bare) > kMostBare * borderPx) return AreaKind::Solid;
   const cv::Mat1b linesOn = look.lines & look.nearLine & grownMask(area, look.brush);
-  const bool hasLines = cv::countNonZero(linesOn) > 0;  // without any it fades on all sides
-  if (hasLines && tone > kMostOfLines * darknessQuantile(look.flat, linesOn, kDarkLines)) return AreaKind::Solid;
+  if (darkness > kMostOfLines * darknessQuantile(look.flat, linesOn, kDarkLines)) return AreaKind::Solid;
   if (cv::countNonZero(inner & look.lines) > kMostGrain * cv::countNonZero(inner)) return AreaKind::Solid;
   double radius = 0.0;
   cv::Mat1f distance;
@@ -71,10 +74,13 @@ struct Parted {
   int longestPx = 0;  ///< Of the tones.
 };
 Parted partedAreas(const ToneLook& look, const RunContext& context) {
-  Parted parted{cv::Mat1b::zeros(look.wide.size()), cv::Mat1b::zeros(look.wide.size()), 0};
+  // Black that touches a tone is no part of it.
+  Parted parted{cv::Mat1b::zeros(look.wide.size()), look.wide & (look.ground < 255.0 - kDarkestTone), 0};
+  const double mostPx = kMostPaperWindow * std::max(look.wide.rows, look.wide.cols);  // behind wider ones is no paper
   cv::Mat1i labels;
   cv::Mat stats, centres;
-  const int count = cv::connectedComponentsWithStats(look.wide, labels, stats, centres, 8, CV_32S);
+  const int count =
+      cv::connectedComponentsWithStats(look.wide & (parted.solids == 0), labels, stats, centres, 8, CV_32S);
   for (int k = 1; k < count && !context.isCancelled(); ++k) {
     cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP),
                  stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
@@ -82,7 +88,7 @@ Parted partedAreas(const ToneLook& look, const RunContext& context) {
     box = cv::Rect(box.x - rim, box.y - rim, box.width + 2 * rim, box.height + 2 * rim) &
           cv::Rect({0, 0}, look.wide.size());
     const cv::Mat1b area = labels(box) == k;
-    const AreaKind kind = kindOf(area, cutTo(look, box));
+    const AreaKind kind = std::min(box.width, box.height) > mostPx ? AreaKind::Solid : kindOf(area, cutTo(look, box));
     if (kind == AreaKind::Unclear) continue;
     cv::Mat1b to = kind == AreaKind::Tone ? parted.tones(box) : parted.solids(box);
     to |= area;
@@ -93,7 +99,7 @@ Parted partedAreas(const ToneLook& look, const RunContext& context) {
 
 /// Tones with their fades: what is connected with them and darker than paper, but for solids.
 cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
-  const cv::Mat1b faded = ((look.ground < kFaintestTone) & (grownMask(parted.solids, look.brush) == 0)) | parted.tones;
+  const cv::Mat1b faded = ((look.ground < kFaintestGround) & (grownMask(parted.solids, kEdgePx) == 0)) | parted.tones;
   cv::Mat1i labels;
   const int count = cv::connectedComponents(faded, labels, 8, CV_32S);
   std::vector<std::uint8_t> isTone(count, 0);
@@ -103,7 +109,9 @@ cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
   cv::Mat1b out(faded.size());
   for (int y = 0; y < labels.rows; ++y)
     for (int x = 0; x < labels.cols; ++x) out(y, x) = labels(y, x) == 0 ? 0 : isTone[labels(y, x)];
-  return grownMask(out, look.brush) & (grownMask(parted.solids, 2) == 0);
+  // What is not shaded around them is paper already, or belongs to something else.
+  return (out | (grownMask(out, look.brush) & (look.ground >= kFaintestGround))) &
+         (grownMask(parted.solids, kEdgePx) == 0);
 }
 
 /// The ground, below lines that of the nearest place beside them: a line along the border of a tone has tone on one
@@ -132,6 +140,8 @@ std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& 
   if (page.isUniform) return std::nullopt;
   ToneAreas areas;
   areas.pixelsPerPx = (std::max(page.width, page.height) + kLongestSidePx - 1) / kLongestSidePx;
+  // A narrow strip has no shading, and its copy no pixels.
+  if (std::min(page.width, page.height) < 2 * kToneCellPx * areas.pixelsPerPx) return std::nullopt;
   std::optional<GreyImage> small;
   if (areas.pixelsPerPx > 1) small = reduced(page, areas.pixelsPerPx);
   const GreyImage& searched = small ? *small : page;
@@ -145,22 +155,23 @@ std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& 
   const double windowPx =
       std::min(kAroundTone * parted.longestPx, kMostPaperWindow * std::max(searched.width, searched.height));
   cv::Mat1w paper;
-  cv::resize(paperOver(cells.brightest, static_cast<int>(windowPx / kToneCellPx) + 1), paper, look->flat.size(), 0, 0,
+  cv::resize(paperOver(cells.mean, static_cast<int>(windowPx / kToneCellPx) + 1), paper, look->flat.size(), 0, 0,
              cv::INTER_LINEAR);
   flattenTo(
       look->flat, searched, [&paper](int x, int y) { return paper(y, x) / GreyImage::kGreyUnit; }, context);
-  if (context.isCancelled() || !lookAtLines(*look, context)) return std::nullopt;
+  if (context.isCancelled() || !lookAtGround(*look, context)) return std::nullopt;
   const cv::Mat1b shaded = withFades(parted, *look);
+  if (context.isCancelled()) return std::nullopt;
   cv::Mat1b ground = groundBesideLines(*look);
   ground.setTo(255, shaded == 0);
+  if (context.isCancelled() || cv::countNonZero(ground < 255) == 0) return std::nullopt;
   areas.columns = ground.cols, areas.rows = ground.rows;
   areas.ground.assign(ground.begin(), ground.end());
-  areas.share = static_cast<double>(cv::countNonZero(ground < kClearTone)) / static_cast<double>(ground.total());
+  areas.share = static_cast<double>(cv::countNonZero(ground < kClearGround)) / static_cast<double>(ground.total());
   return areas;
 }
 
-GreyImage withoutTones(const GreyImage& page, const ToneAreas& areas, const RunContext& context) {
-  GreyImage out = page;
+GreyImage withoutTones(GreyImage page, const ToneAreas& areas, const RunContext& context) {
   const double perPx = areas.pixelsPerPx;
   parallelFor(context, page.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
@@ -173,13 +184,12 @@ GreyImage withoutTones(const GreyImage& page, const ToneAreas& areas, const RunC
         const int c = areas.groundAt(i, below), d = areas.groundAt(right, below);
         if ((a & b & c & d) == 255) continue;
         const double upper = a + (u - i) * (b - a), lower = c + (u - i) * (d - c);
-        const double tone = std::max(1.0, upper + (v - j) * (lower - upper));
-        // No brighter than white: the page's paper may be darker, but not by much more than its tones.
-        out.row(y)[x] = static_cast<std::uint16_t>(std::min(65535.0, 255.0 * page.row(y)[x] / tone + 0.5));
+        const double ground = std::max(1.0, upper + (v - j) * (lower - upper));
+        page.row(y)[x] = static_cast<std::uint16_t>(std::min(65535.0, 255.0 * page.row(y)[x] / ground + 0.5));
       }
     }
   });
-  return out;
+  return page;
 }
 
 }  // namespace batten

@@ -22,12 +22,13 @@ struct ToneAreas {
 };
 
 /// Finds areas of even tone that lines are drawn on and around, as the shading of marker or airbrush: wider than any
-/// line, lighter than the lines on them, smooth inside, and bounded by lines or by a gradual fade for the most part. An
-/// area that ends in a sharp edge without a line is a shape and stays ink; so do areas of hatching and of grain.
+/// line, lighter than the lines on them, smooth inside, and bounded by lines, or by a gradual fade where it has
+/// none. An area that ends in a sharp edge without a line, or has no lines, is a shape and stays ink; so do black, and
+/// areas of hatching and of grain.
 /// @return Absent: there are none, or the search was cancelled.
 std::optional<ToneAreas> findToneAreas(const GreyImage&, const RunContext&);
 
 /// The page with the ground of its tones as bright as paper: lines on them stand out as on paper.
-GreyImage withoutTones(const GreyImage&, const ToneAreas&, const RunContext&);
+GreyImage withoutTones(GreyImage, const ToneAreas&, const RunContext&);
 
 }  // namespace batten

@@ -2,6 +2,7 @@
 #include "core/image/tone_look.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
@@ -100,6 +101,9 @@ TonePaper tonePaperOf(const GreyImage& page) {
     for (int i = 0; i < columns; ++i)
       cell[i] = std::max(cell[i], *std::max_element(row + i * kToneCellPx, row + (i + 1) * kToneCellPx));
   }
+  const cv::Mat whole(page.height, page.width, CV_16U, const_cast<std::uint16_t*>(page.pixels.data()));
+  cv::resize(whole(cv::Rect(0, 0, columns * kToneCellPx, rows * kToneCellPx)), cells.mean, {columns, rows}, 0, 0,
+             cv::INTER_AREA);
   cells.paper = paperOver(cells.brightest, static_cast<int>(kMostPaperWindow * std::max(columns, rows)));
   return cells;
 }
@@ -139,11 +143,15 @@ std::optional<ToneLook> inkOfPage(const GreyImage& page, const RunContext& conte
 }
 
 double darknessQuantile(const cv::Mat1b& flat, const cv::Mat1b& where, double share) {
-  std::vector<double> values;
+  std::array<std::int64_t, 256> counts{};
+  std::int64_t all = 0;
   for (int y = 0; y < flat.rows; ++y)
     for (int x = 0; x < flat.cols; ++x)
-      if (where(y, x) != 0) values.push_back(255.0 - flat(y, x));
-  return values.empty() ? 0.0 : lowerQuantile(values, share);
+      if (where(y, x) != 0) ++counts[255 - flat(y, x)], ++all;
+  std::int64_t below = 0;
+  for (int darkness = 0; darkness < 256; ++darkness)
+    if (static_cast<double>(below += counts[darkness]) > share * static_cast<double>(all)) return darkness;
+  return 0.0;
 }
 
 bool lookAtLines(ToneLook& look, const RunContext& context) {
@@ -162,7 +170,12 @@ bool lookAtLines(ToneLook& look, const RunContext& context) {
   look.wide = brush.raise(brush.lower(look.ink));
   if (cv::countNonZero(look.wide) == 0 || context.isCancelled()) return false;
   const cv::Mat1b thin = middle & (grownMask(look.wide, 2) == 0);
-  const double dark = darknessQuantile(look.flat, cv::countNonZero(thin) >= kLeastLines ? thin : look.ink, kLinesDark);
+  look.lineDarkness = darknessQuantile(look.flat, cv::countNonZero(thin) >= kLeastLines ? thin : look.ink, kLinesDark);
+  return !context.isCancelled() && lookAtGround(look, context);
+}
+
+bool lookAtGround(ToneLook& look, const RunContext& context) {
+  const Brush brush(look.brush);
   look.ground = brush.lower(brush.raise(look.flat));
   // What the brush cut off the corners of an area comes back, as far as the brush reaches.
   for (int i = 0; i < look.brush && !context.isCancelled(); ++i) {
@@ -171,7 +184,7 @@ bool lookAtLines(ToneLook& look, const RunContext& context) {
     look.ground = cv::max(lower, look.flat);
   }
   const cv::Mat1b depth = look.ground - look.flat;
-  look.lines = depth >= std::max(1.0, kLineDepth * dark);
+  look.lines = depth >= std::max(1.0, kLineDepth * look.lineDarkness);
   look.nearLine = grownMask(longPieces(look.lines, kLongLine * look.lineWidthPx),
                             static_cast<int>(std::ceil(0.5 * look.lineWidthPx + 2.0)));
   look.range = brush.raise(look.ground) - brush.lower(look.ground);

@@ -16,6 +16,7 @@ inline constexpr double kMostPaperWindow = 0.5;  // of the page: in so wide a wi
 /// The paper behind all tones, cell by cell.
 struct TonePaper {
   cv::Mat1w brightest;  ///< Grey of the brightest pixel of each cell. Empty: the page has no two cells a side.
+  cv::Mat1w mean;       ///< Of each cell: without the bias of noise.
   cv::Mat1w paper;      ///< Slow changes of its brightness stay, areas narrower than kMostPaperWindow do not.
 };
 TonePaper tonePaperOf(const GreyImage&);
@@ -33,6 +34,7 @@ struct ToneLook {
   cv::Mat1b range;          ///< Of the ground, within a brush.
   int brush = 0;            ///< [px] Its radius.
   double lineWidthPx = 0.0;
+  double lineDarkness = 0.0;  ///< [of 255]
 };
 
 /// The ink of a page by automatic thresholds, and its brightness. Absent: there is none, or cancelled.
@@ -42,6 +44,8 @@ void flattenTo(cv::Mat1b& flat, const GreyImage& page, const std::function<doubl
                const RunContext&);
 /// Adds what is known of lines and of the ground below them. False: no ink is wider than the lines, or cancelled.
 bool lookAtLines(ToneLook&, const RunContext&);
+/// The same of the ground and its lines alone, where the brightness is another. False: cancelled.
+bool lookAtGround(ToneLook&, const RunContext&);
 
 cv::Mat1b grownMask(const cv::Mat1b& mask, int radiusPx);
 cv::Mat1b shrunkMask(const cv::Mat1b& mask, int radiusPx);

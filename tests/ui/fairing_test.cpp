@@ -263,6 +263,11 @@ TEST_F(FairingWindow, ShapesAreComparedAndTheTableShowsAllSixProfiles) {
                   .match(view->accessibleDescription())
                   .hasMatch())
       << view->accessibleDescription().toStdString();
+  const QImage picture = shapes->findChild<ShapeView*>()->grab().toImage();
+  int coloured = 0;
+  for (int x = 0; x < picture.width(); ++x)
+    for (int y = 0; y < picture.height(); ++y) coloured += picture.pixelColor(x, y).hsvSaturation() > 120 ? 1 : 0;
+  EXPECT_GT(coloured, picture.width() / 2) << "the curves are drawn";
   shapes->findChild<QAbstractButton*>(QStringLiteral("shapes.quantity.curvature"))->click();
   EXPECT_EQ(view->accessibleName(), QStringLiteral("Curvature over arc length"));
   shapes->close();

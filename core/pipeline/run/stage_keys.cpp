@@ -211,7 +211,7 @@ ContentHash withStrokes(const ContentHash& traced, const Recipe& recipe) {
 
 PreparationParams preparationOf(const Recipe& recipe) {
   PreparationParams params = recipe.preparation;
-  if (!recipe.paper.flatten) params.shading = ShadingUse::Keep;
+  if (!recipe.paper.flatten || recipe.threshold.mode == ThresholdMode::Manual) params.shading = ShadingUse::Keep;
   return params;
 }
 

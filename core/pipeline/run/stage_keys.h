@@ -22,8 +22,8 @@ struct StageKeys {
   ContentHash traced;  ///< The lines of the scan alone, before the pen strokes: drawing one does not trace again.
   const ContentHash& operator[](StageId stage) const { return keys[indexOf(stage)]; }
 };
-/// What is done to the scan first. Shading is left out only where the paper is flattened: without that thresholds mean
-/// the scan's own grey.
+/// What is done to the scan first. Shading is left out only where the paper is flattened and thresholds are automatic:
+/// else they mean the scan's own grey.
 PreparationParams preparationOf(const Recipe&);
 
 StageKeys stageKeys(const Scan&, const Recipe&, const PageFrame&);

@@ -39,7 +39,7 @@ double cover(double inside) { return 0.5 * std::erfc(-inside / (std::sqrt(2.0) *
 struct Drawing {
   Distance tone = [](double, double) { return 0.0; };    ///< 0..1 of shading at a place.
   Distance line = [](double, double) { return 100.0; };  ///< From the nearest line, px.
-  double toneGrey = kToneGrey, lineWidthPx = 3.0;
+  double toneGrey = kToneGrey, lineWidthPx = 3.0, noise = 2.0;
 };
 
 /// With a circle of line on bare paper beside it.
@@ -50,7 +50,7 @@ Scan pageOf(const Drawing& d) {
     return ground + (kInkGrey - ground) * cover(0.5 * d.lineWidthPx - from);
   };
   const std::vector<float> noInk(std::ptrdiff_t{kPageWidth} * kPageHeight, 0.0f);
-  return test::renderStress(noInk, kPageWidth, kPageHeight, grey, {1.0, 2.0, 0.0}, 3);
+  return test::renderStress(noInk, kPageWidth, kPageHeight, grey, {1.0, d.noise, 0.0}, 3);
 }
 
 Drawing drum() {
@@ -88,7 +88,52 @@ TEST(ToneAreas, AFadeNeedsNoLine) {
   d.line = [](double x, double y) {
     return y < 320.0 ? std::min(std::abs(insideDrum(x, std::min(y, 250.0))), fromLid(x, y)) : 100.0;
   };
-  EXPECT_TRUE(findToneAreas(pageOf(d).grey, {}));
+  const Scan scan = pageOf(d);
+  const auto areas = findToneAreas(scan.grey, {});
+  ASSERT_TRUE(areas);
+  const GreyImage page = withoutTones(scan.grey, *areas, {});
+  for (int y = 250; y <= 390; y += 20) EXPECT_GT(page.level(320, y), 0.9 * kPaperGrey) << "at " << y;
+}
+
+TEST(ToneAreas, BlackThatTouchesATonePersists) {
+  Drawing d = drum();
+  d.line = [](double x, double y) {
+    const double black = std::hypot(x - 320.0, y - 330.0) - 45.0;  // a wheel
+    return std::min({std::abs(insideDrum(x, y)), fromLid(x, y), std::max(0.0, black)});
+  };
+  const Scan scan = pageOf(d);
+  const auto areas = findToneAreas(scan.grey, {});
+  ASSERT_TRUE(areas);
+  const GreyImage page = withoutTones(scan.grey, *areas, {});
+  EXPECT_LT(page.level(320, 330), 70.0);
+  EXPECT_LT(page.level(320, 295), 70.0);
+  EXPECT_GT(page.level(250, 260), 0.9 * kPaperGrey) << "the tone beside it";
+}
+
+TEST(ToneAreas, NoiseOfThePaperIsNoShading) {
+  Drawing d = drum();
+  d.noise = 6.0;
+  const Scan scan = pageOf(d);
+  const auto areas = findToneAreas(scan.grey, {});
+  ASSERT_TRUE(areas);
+  const GreyImage page = withoutTones(scan.grey, *areas, {});
+  for (int x = 10; x < kPageWidth; x += 7) ASSERT_EQ(page.row(20)[x], scan.grey.row(20)[x]) << x;
+}
+
+TEST(ToneAreas, AreTheSameWithAnyNumberOfThreads) {
+  const Scan scan = pageOf(drum());
+  RunContext one, eight;
+  one.threads = 1, eight.threads = 8;
+  const auto a = findToneAreas(scan.grey, one), b = findToneAreas(scan.grey, eight);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->ground, b->ground);
+  EXPECT_EQ(withoutTones(scan.grey, *a, one), withoutTones(scan.grey, *b, eight));
+}
+
+TEST(ToneAreas, AreNotLookedForAfterACancel) {
+  RunContext context;
+  context.cancel.cancel();
+  EXPECT_FALSE(findToneAreas(pageOf(drum()).grey, context));
 }
 
 TEST(ToneAreas, ShapesSolidsAndHatchingStayInk) {
@@ -99,6 +144,12 @@ TEST(ToneAreas, ShapesSolidsAndHatchingStayInk) {
   Drawing inner = drum();
   inner.line = fromLid;
   drawings.emplace_back("a grey shape with a line inside, but none around", inner);
+  Drawing soft;
+  soft.tone = [](double x, double y) {
+    return std::exp(-0.5 * std::pow(std::hypot(x - 340.0, y - 240.0) / 60.0, 4.0));
+  };
+  soft.toneGrey = 60.0;
+  drawings.emplace_back("an airbrushed spot without lines", soft);
   Drawing solid = drum();
   solid.toneGrey = 35.0;
   drawings.emplace_back("a solid", solid);
@@ -131,7 +182,7 @@ TEST(ToneAreas, AreFoundOnALargePageToo) {
 }
 
 TEST(ToneAreas, TinyAndUniformPagesHaveNone) {
-  for (const auto& [width, height] : {std::pair{1, 1}, {2, 7}, {16, 16}, {40, 3}})
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 7}, {16, 16}, {40, 3}, {1, 4000}, {4000, 2}, {1751, 30}})
     EXPECT_FALSE(findToneAreas(GreyImage(width, height, 20000), {})) << width << " x " << height;
   EXPECT_FALSE(findToneAreas(GreyImage::uniform(900, 700, 20000), {}));
 }

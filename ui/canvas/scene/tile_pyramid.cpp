@@ -24,7 +24,7 @@ TileLevel emptyLevel(int shift, const Scan& scan) {
   return level;
 }
 
-/// Number of levels after which the shorter side is small enough to paint from at any smaller zoom.
+/// Number of levels after which the longer side is small enough to paint from at any smaller zoom.
 int levelCount(const GreyImage& grey) {
   int count = 0;
   while (std::max(grey.width, grey.height) >> (count + 1) >= kSmallestSide) ++count;

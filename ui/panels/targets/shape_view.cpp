@@ -3,7 +3,7 @@
 
 #include <QFontMetricsF>
 #include <QPainter>
-#include <QPainterPath>
+#include <QPolygonF>
 #include <algorithm>
 #include <cmath>
 
@@ -86,7 +86,7 @@ void ShapeView::paintEvent(QPaintEvent*) {
   painter.drawLine(box.bottomLeft(), box.bottomRight());
   painter.setPen(theme.mute);
   painter.drawText(QRectF(rect().left(), 0, rect().width(), linePx), Qt::AlignLeft | Qt::AlignVCenter,
-                   isRadius_ ? tr("radius ÷ its mean") : tr("curvature ÷ its mean"));
+                   isRadius_ ? tr("radius ÷ its mean (rms)") : tr("curvature ÷ its mean (rms)"));
   for (const double level : levels)
     painter.drawText(QRectF(0, yOf(level) - 0.5 * linePx, numbersPx, linePx), Qt::AlignRight | Qt::AlignVCenter,
                      plain(level));
@@ -100,16 +100,15 @@ void ShapeView::paintEvent(QPaintEvent*) {
   }
   if (isEmpty()) return;
   const auto draw = [&](const std::vector<double>& values, const QPen& pen) {
-    QPainterPath path;
+    QPolygonF line;
     const double step = box.width() / static_cast<double>(values.size() - 1);
     double x = box.left();
     for (const double value : values) {
-      const QPointF at(x, yOf(value));
-      path.isEmpty() ? path.moveTo(at) : path.lineTo(at);
+      line << QPointF(x, yOf(value));
       x += step;
     }
     painter.setPen(pen);
-    painter.drawPath(path);
+    painter.drawPolyline(line);
   };
   draw(first_, QPen(theme.accent, 2));
   draw(second_, QPen(theme.amber, 1.6, Qt::DashLine));
