@@ -145,7 +145,7 @@ std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& 
   std::optional<GreyImage> small;
   if (areas.pixelsPerPx > 1) small = reduced(page, areas.pixelsPerPx);
   const GreyImage& searched = small ? *small : page;
-  const TonePaper cells = tonePaperOf(searched);
+  const ToneCells cells = toneCellsOf(searched);
   if (context.isCancelled() || !mayBeShaded(cells)) return std::nullopt;
   std::optional<ToneLook> look = inkOfPage(searched, context);
   if (!look || !lookAtLines(*look, context)) return std::nullopt;

@@ -17,7 +17,8 @@
 namespace batten {
 namespace {
 
-constexpr double kDarkCell = 0.93;        // of the paper: a cell that is darker all over
+constexpr double kDarkCell = 0.9;         // of the paper near by: a cell that is darker all over
+constexpr int kNearCells = 4;             // within which tones end somewhere, and slow changes of the paper are small
 constexpr double kWiderThanLines = 1.25;  // [line widths] half the width of a brush that no line holds
 constexpr int kWidestBrush = 30;          // [px] a drawing of broader strokes has no lines that tones lie between
 constexpr int kLeastLines = 50;           // [px] of middle lines, to tell how dark lines are
@@ -90,9 +91,9 @@ cv::Mat1w paperOver(const cv::Mat1w& brightest, int windowCells) {
   cv::morphologyEx(brightest, paper, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {window, window}));
   return paper;
 }
-TonePaper tonePaperOf(const GreyImage& page) {
+ToneCells toneCellsOf(const GreyImage& page) {
   const int columns = page.width / kToneCellPx, rows = page.height / kToneCellPx;
-  TonePaper cells;
+  ToneCells cells;
   if (columns < 2 || rows < 2) return cells;
   cells.brightest = cv::Mat1w::zeros(rows, columns);
   for (int y = 0; y < rows * kToneCellPx; ++y) {
@@ -104,13 +105,15 @@ TonePaper tonePaperOf(const GreyImage& page) {
   const cv::Mat whole(page.height, page.width, CV_16U, const_cast<std::uint16_t*>(page.pixels.data()));
   cv::resize(whole(cv::Rect(0, 0, columns * kToneCellPx, rows * kToneCellPx)), cells.mean, {columns, rows}, 0, 0,
              cv::INTER_AREA);
-  cells.paper = paperOver(cells.brightest, static_cast<int>(kMostPaperWindow * std::max(columns, rows)));
   return cells;
 }
 
-bool mayBeShaded(const TonePaper& cells) {
-  if (cells.paper.empty()) return false;
-  const cv::Mat dark = cells.brightest < kDarkCell * cells.paper;
+bool mayBeShaded(const ToneCells& cells) {
+  if (cells.brightest.empty()) return false;
+  const int window = 2 * kNearCells + 1;
+  cv::Mat1w around;
+  cv::dilate(cells.brightest, around, cv::getStructuringElement(cv::MORPH_RECT, {window, window}));
+  const cv::Mat dark = cells.brightest < kDarkCell * around;
   cv::Mat solid;
   cv::erode(dark, solid, cv::getStructuringElement(cv::MORPH_RECT, {2, 2}));
   return cv::countNonZero(solid) > 0;

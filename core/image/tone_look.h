@@ -13,17 +13,16 @@ namespace batten {
 inline constexpr int kToneCellPx = 8;            // side of the cells of the first look: wider than a line
 inline constexpr double kMostPaperWindow = 0.5;  // of the page: in so wide a window some paper is seen
 
-/// The paper behind all tones, cell by cell.
-struct TonePaper {
+/// The brightness of a page, cell by cell.
+struct ToneCells {
   cv::Mat1w brightest;  ///< Grey of the brightest pixel of each cell. Empty: the page has no two cells a side.
   cv::Mat1w mean;       ///< Of each cell: without the bias of noise.
-  cv::Mat1w paper;      ///< Slow changes of its brightness stay, areas narrower than kMostPaperWindow do not.
 };
-TonePaper tonePaperOf(const GreyImage&);
+ToneCells toneCellsOf(const GreyImage&);
 /// The paper that a window of so many cells a side sees: areas narrower than it are bridged.
 cv::Mat1w paperOver(const cv::Mat1w& brightest, int windowCells);
-/// Whether cells lie side by side in which no pixel is as bright as the paper: lines leave some.
-bool mayBeShaded(const TonePaper&);
+/// Whether cells lie side by side in which no pixel is as bright as the paper near by: lines leave some.
+bool mayBeShaded(const ToneCells&);
 
 /// A page as its search sees it.
 struct ToneLook {
