@@ -12,6 +12,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/image/grown_mask.h"
 #include "core/image/sheet_levels.h"
 
 namespace batten {
@@ -27,10 +28,7 @@ constexpr double kDarkestBesideGutter = 0.6, kDarkestFlat = 0.9;  // of the flat
 constexpr double kBrightest = 1.1;                                // of the flat paper: no level is higher
 
 cv::Mat1b grown(const cv::Mat1b& mask, double shareOfDiagonal) {
-  const int size = 2 * static_cast<int>(std::ceil(shareOfDiagonal * std::hypot(mask.cols, mask.rows))) + 1;
-  cv::Mat1b out;
-  cv::dilate(mask, out, cv::getStructuringElement(cv::MORPH_RECT, {size, size}));
-  return out;
+  return grownMask(mask, static_cast<int>(std::ceil(shareOfDiagonal * std::hypot(mask.cols, mask.rows))));
 }
 
 struct TwoPages {

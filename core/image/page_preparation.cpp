@@ -15,6 +15,7 @@
 #include "core/image/colour/coloured_ink.h"
 #include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/remove_rulings.h"
+#include "core/image/ruling/ruling_count.h"
 #include "core/image/sheet_cells.h"
 #include "core/image/threshold/region_values.h"
 #include "core/image/tone_areas.h"
@@ -32,9 +33,7 @@ void takeColouredInk(const Scan& scan, PreparedPage& page, const RunContext& con
 std::string rulingNote(const std::vector<RulingFamily>& families) {
   std::string counts;
   for (const bool runsDown : {false, true}) {
-    int lines = 0;
-    for (const RulingFamily& family : families)
-      lines += family.runsDown == runsDown ? static_cast<int>(family.lines.size()) : 0;
+    const int lines = ruledLines(families, runsDown);
     if (lines == 0) continue;
     counts += (counts.empty() ? "" : " and ") + (runsDown ? counted(lines, "ruled line down", "ruled lines down")
                                                           : counted(lines, "ruled line across", "ruled lines across"));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/image/grown_mask.h"
 #include "core/image/shaded_paper.h"
 
 namespace batten {
@@ -18,12 +19,6 @@ constexpr double kLeastOfBorder = 0.5;  // of the places of a border
 constexpr int kGrowCells = 3;           // at a time
 constexpr int kLookCells = 5;           // of which a cell's look is the mean: one by itself is noisy
 constexpr double kLeastGrown = 2e-4;    // of the picture, in one round
-
-cv::Mat1b grownBy(const cv::Mat1b& mask, int cells) {
-  cv::Mat1b out;
-  cv::dilate(mask, out, cv::getStructuringElement(cv::MORPH_RECT, {2 * cells + 1, 2 * cells + 1}));
-  return out;
-}
 
 /// Means of what lies in a strip, within half of `across` cells of every place.
 struct StripMeans {
@@ -47,7 +42,7 @@ struct StripMeans {
 
 /// On one side of a border, near it but not at it.
 StripMeans besideBorder(const cv::Mat1b& side, const cv::Mat1b& other, const SheetCells& cells) {
-  return {side & grownBy(other, kFarCells) & (grownBy(other, kNearCells) == 0), kAlongCells, cells};
+  return {side & grownMask(other, kFarCells) & (grownMask(other, kNearCells) == 0), kAlongCells, cells};
 }
 
 bool isStep(const StripMeans& a, const StripMeans& b, const cv::Point& p) {
@@ -62,7 +57,7 @@ bool isStep(const StripMeans& a, const StripMeans& b, const cv::Point& p) {
 
 bool isStepBetween(const cv::Mat1b& sheet, const cv::Mat1b& patch, const SheetCells& cells) {
   const StripMeans ofSheet = besideBorder(sheet, patch, cells), ofPatch = besideBorder(patch, sheet, cells);
-  const cv::Mat1b border = patch & grownBy(sheet, 1);
+  const cv::Mat1b border = patch & grownMask(sheet, 1);
   int seen = 0, steps = 0, all = 0;
   for (int j = 0; j < border.rows; ++j) {
     for (int i = 0; i < border.cols; ++i) {
@@ -86,7 +81,7 @@ cv::Mat1b slowlyContinued(const cv::Mat1b& sheet, const SheetCells& cells) {
   const int mostRounds = std::max(sheet.rows, sheet.cols) / kGrowCells;
   for (int added = least + 1, round = 0; added > least && round < mostRounds; ++round) {
     const StripMeans beside(grown, kAlongCells, cells);
-    const cv::Mat1b next = grownBy(grown, kGrowCells) & (grown == 0);
+    const cv::Mat1b next = grownMask(grown, kGrowCells) & (grown == 0);
     added = 0;
     for (int j = 0; j < next.rows; ++j) {
       for (int i = 0; i < next.cols; ++i) {

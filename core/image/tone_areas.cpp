@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/image/grown_mask.h"
 #include "core/image/tone_look.h"
 
 namespace batten {
@@ -29,7 +30,7 @@ constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area f
 constexpr std::uint8_t kClearGround = 217;     // [of 255] seen to be shaded
 
 GreyImage reduced(const GreyImage& page, int factor) {
-  GreyImage out(std::max(1, page.width / factor), std::max(1, page.height / factor));
+  GreyImage out(page.width / factor, page.height / factor);
   const cv::Mat from(page.height, page.width, CV_16U, const_cast<std::uint16_t*>(page.pixels.data()));
   cv::Mat to(out.height, out.width, CV_16U, out.pixels.data());
   cv::resize(from(cv::Rect(0, 0, out.width * factor, out.height * factor)), to, to.size(), 0, 0, cv::INTER_AREA);
@@ -61,9 +62,10 @@ AreaKind kindOf(const cv::Mat1b& area, const ToneLook& look) {
   return radius < kLeastRadius * look.brush ? AreaKind::Unclear : AreaKind::Tone;
 }
 
+/// What kindOf() reads of it.
 ToneLook cutTo(const ToneLook& look, const cv::Rect& box) {
   ToneLook part = look;
-  for (cv::Mat1b* picture : {&part.flat, &part.ink, &part.ground, &part.lines, &part.nearLine, &part.wide, &part.range})
+  for (cv::Mat1b* picture : {&part.flat, &part.ground, &part.lines, &part.nearLine, &part.range})
     *picture = (*picture)(box);
   return part;
 }
@@ -106,9 +108,7 @@ cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
   for (int y = 0; y < labels.rows; ++y)
     for (int x = 0; x < labels.cols; ++x)
       if (parted.tones(y, x) != 0) isTone[labels(y, x)] = 255;
-  cv::Mat1b out(faded.size());
-  for (int y = 0; y < labels.rows; ++y)
-    for (int x = 0; x < labels.cols; ++x) out(y, x) = labels(y, x) == 0 ? 0 : isTone[labels(y, x)];
+  const cv::Mat1b out = labelled(labels, isTone);
   // What is not shaded around them is paper already, or belongs to something else.
   return (out | (grownMask(out, look.brush) & (look.ground >= kFaintestGround))) &
          (grownMask(parted.solids, kEdgePx) == 0);
@@ -128,10 +128,7 @@ cv::Mat1b groundBesideLines(const ToneLook& look) {
   for (int y = 0; y < ground.rows; ++y)
     for (int x = 0; x < ground.cols; ++x)
       if (covered(y, x) == 0) groundOf[labels(y, x)] = ground(y, x);
-  cv::Mat1b out(ground.size());
-  for (int y = 0; y < ground.rows; ++y)
-    for (int x = 0; x < ground.cols; ++x) out(y, x) = groundOf[labels(y, x)];
-  return out;
+  return labelled(labels, groundOf);
 }
 
 }  // namespace

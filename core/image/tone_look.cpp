@@ -12,6 +12,7 @@
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/binarize.h"
+#include "core/image/grown_mask.h"
 #include "core/image/threshold/region_thresholds.h"
 
 namespace batten {
@@ -25,8 +26,6 @@ constexpr int kLeastLines = 50;           // [px] of middle lines, to tell how d
 constexpr double kLinesDark = 0.6;        // quantile of the darkness of lines: the ends are faint
 constexpr double kLineDepth = 0.25;       // of that: what is darker than its ground by so much is line
 constexpr double kLongLine = 5.0;         // [line widths] shorter ones are grain
-
-cv::Mat1b square(int radius) { return cv::Mat1b::ones(2 * radius + 1, 2 * radius + 1); }
 
 /// A brush: an octagon of nearly `radius`, made of a square and a diamond, which are fast.
 struct Brush {
@@ -66,35 +65,27 @@ cv::Mat1b longPieces(const cv::Mat1b& mask, double lengthPx) {
   for (int k = 1; k < count; ++k)
     if (std::max(stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT)) >= lengthPx)
       isLong[k] = 255;
-  cv::Mat1b out(mask.size());
-  for (int y = 0; y < mask.rows; ++y)
-    for (int x = 0; x < mask.cols; ++x) out(y, x) = isLong[labels(y, x)];
-  return out;
+  return labelled(labels, isLong);
 }
 
 }  // namespace
 
-cv::Mat1b grownMask(const cv::Mat1b& mask, int radius) {
-  cv::Mat1b out;
-  cv::dilate(mask, out, square(radius));
-  return out;
-}
-cv::Mat1b shrunkMask(const cv::Mat1b& mask, int radius) {
-  cv::Mat1b out;
-  cv::erode(mask, out, square(radius));
+cv::Mat1b labelled(const cv::Mat1i& labels, const std::vector<std::uint8_t>& values) {
+  cv::Mat1b out(labels.size());
+  for (int y = 0; y < labels.rows; ++y)
+    for (int x = 0; x < labels.cols; ++x) out(y, x) = values[labels(y, x)];
   return out;
 }
 
-cv::Mat1w paperOver(const cv::Mat1w& brightest, int windowCells) {
+cv::Mat1w paperOver(const cv::Mat1w& cells, int windowCells) {
   const int window = std::max(1, windowCells) | 1;
   cv::Mat1w paper;
-  cv::morphologyEx(brightest, paper, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {window, window}));
+  cv::morphologyEx(cells, paper, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {window, window}));
   return paper;
 }
 ToneCells toneCellsOf(const GreyImage& page) {
   const int columns = page.width / kToneCellPx, rows = page.height / kToneCellPx;
   ToneCells cells;
-  if (columns < 2 || rows < 2) return cells;
   cells.brightest = cv::Mat1w::zeros(rows, columns);
   for (int y = 0; y < rows * kToneCellPx; ++y) {
     const std::uint16_t* row = page.row(y);
@@ -109,7 +100,6 @@ ToneCells toneCellsOf(const GreyImage& page) {
 }
 
 bool mayBeShaded(const ToneCells& cells) {
-  if (cells.brightest.empty()) return false;
   const int window = 2 * kNearCells + 1;
   cv::Mat1w around;
   cv::dilate(cells.brightest, around, cv::getStructuringElement(cv::MORPH_RECT, {window, window}));
@@ -174,7 +164,11 @@ bool lookAtLines(ToneLook& look, const RunContext& context) {
   if (cv::countNonZero(look.wide) == 0 || context.isCancelled()) return false;
   const cv::Mat1b thin = middle & (grownMask(look.wide, 2) == 0);
   look.lineDarkness = darknessQuantile(look.flat, cv::countNonZero(thin) >= kLeastLines ? thin : look.ink, kLinesDark);
-  return !context.isCancelled() && lookAtGround(look, context);
+  if (context.isCancelled() || !lookAtGround(look, context)) return false;
+  look.nearLine = grownMask(longPieces(look.lines, kLongLine * look.lineWidthPx),
+                            static_cast<int>(std::ceil(0.5 * look.lineWidthPx + 2.0)));
+  look.range = brush.raise(look.ground) - brush.lower(look.ground);
+  return !context.isCancelled();
 }
 
 bool lookAtGround(ToneLook& look, const RunContext& context) {
@@ -188,9 +182,6 @@ bool lookAtGround(ToneLook& look, const RunContext& context) {
   }
   const cv::Mat1b depth = look.ground - look.flat;
   look.lines = depth >= std::max(1.0, kLineDepth * look.lineDarkness);
-  look.nearLine = grownMask(longPieces(look.lines, kLongLine * look.lineWidthPx),
-                            static_cast<int>(std::ceil(0.5 * look.lineWidthPx + 2.0)));
-  look.range = brush.raise(look.ground) - brush.lower(look.ground);
   return !context.isCancelled();
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "core/base/run_context.h"
 #include "core/image/grey_image.h"
@@ -15,12 +17,13 @@ inline constexpr double kMostPaperWindow = 0.5;  // of the page: in so wide a wi
 
 /// The brightness of a page, cell by cell.
 struct ToneCells {
-  cv::Mat1w brightest;  ///< Grey of the brightest pixel of each cell. Empty: the page has no two cells a side.
+  cv::Mat1w brightest;  ///< Grey of the brightest pixel of each cell.
   cv::Mat1w mean;       ///< Of each cell: without the bias of noise.
 };
+/// @pre at least one cell a side
 ToneCells toneCellsOf(const GreyImage&);
 /// The paper that a window of so many cells a side sees: areas narrower than it are bridged.
-cv::Mat1w paperOver(const cv::Mat1w& brightest, int windowCells);
+cv::Mat1w paperOver(const cv::Mat1w& cells, int windowCells);
 /// Whether cells lie side by side in which no pixel is as bright as the paper near by: lines leave some.
 bool mayBeShaded(const ToneCells&);
 
@@ -43,11 +46,11 @@ void flattenTo(cv::Mat1b& flat, const GreyImage& page, const std::function<doubl
                const RunContext&);
 /// Adds what is known of lines and of the ground below them. False: no ink is wider than the lines, or cancelled.
 bool lookAtLines(ToneLook&, const RunContext&);
-/// The same of the ground and its lines alone, where the brightness is another. False: cancelled.
+/// The ground and its lines alone, where the brightness is another; what is near lines stays. False: cancelled.
 bool lookAtGround(ToneLook&, const RunContext&);
 
-cv::Mat1b grownMask(const cv::Mat1b& mask, int radiusPx);
-cv::Mat1b shrunkMask(const cv::Mat1b& mask, int radiusPx);
+/// Each pixel by the value of its label.
+cv::Mat1b labelled(const cv::Mat1i& labels, const std::vector<std::uint8_t>& values);
 /// Of 255 - flat where the mask is not 0; 0 where it is nowhere. @param share 0..1
 double darknessQuantile(const cv::Mat1b& flat, const cv::Mat1b& where, double share);
 

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "core/image/ruling/ruling_count.h"
 #include "core/pipeline/run/pipeline.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
@@ -210,9 +211,7 @@ void ScanPanel::refreshPaper() {
     said << tr("Coloured ink was made darker on %1 % of the page.").arg(100.0 * page->colouredShare, 0, 'f', 1);
   // Families of one direction, as lines and their margin, are counted together.
   for (const bool runsDown : {false, true}) {
-    int count = 0;
-    for (const RulingFamily& family : page ? page->rulings : std::vector<RulingFamily>{})
-      if (family.runsDown == runsDown) count += static_cast<int>(std::ssize(family.lines));
+    const int count = page ? ruledLines(page->rulings, runsDown) : 0;
     if (count == 1)
       said << (runsDown ? tr("A vertical ruled line was removed.") : tr("A horizontal ruled line was removed."));
     else if (count > 1)

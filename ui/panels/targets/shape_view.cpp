@@ -44,13 +44,14 @@ void ShapeView::show(const ShapeComparison& comparison, bool isRadius) {
   second_ = isRadius ? comparison.second.radius : comparison.second.curvature;
   divideByMeanSize(first_);
   divideByMeanSize(second_);
-  const auto [low, high] = range();
+  range_ = rangeOfBoth();
   setAccessibleName(isRadius ? tr("Radius over arc length") : tr("Curvature over arc length"));
-  setAccessibleDescription(isEmpty() ? QString() : tr("From %1 to %2 times the mean.").arg(plain(low), plain(high)));
+  setAccessibleDescription(isEmpty() ? QString()
+                                     : tr("From %1 to %2 times the mean.").arg(plain(range_.low), plain(range_.high)));
   update();
 }
 
-ShapeView::Range ShapeView::range() const {
+ShapeView::Range ShapeView::rangeOfBoth() const {
   Range found{0.0, 0.0};
   for (const auto* values : {&first_, &second_}) {
     if (values->empty()) continue;
@@ -70,7 +71,7 @@ void ShapeView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const QFontMetricsF metrics(painter.font());
-  const auto [low, high] = range();
+  const auto [low, high] = range_;
   const std::vector<double> levels = ticksBetween(low, high);
   double numbersPx = 0.0;
   for (const double level : levels) numbersPx = std::max(numbersPx, metrics.horizontalAdvance(plain(level)));

@@ -25,8 +25,9 @@ class ShapeView : public QWidget {
     double low = 0.0, high = 1.0;
   };
   bool isEmpty() const { return first_.size() < 2 || second_.size() != first_.size(); }
-  Range range() const;
+  Range rangeOfBoth() const;
   std::vector<double> first_, second_;
+  Range range_;
   bool isRadius_ = true;
 };
 
