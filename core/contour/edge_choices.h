@@ -10,7 +10,7 @@
 namespace batten {
 
 enum class EdgeMode {
-  Automatic,   ///< Per component: strokes give centre lines, filled shapes give outlines.
+  Automatic,   ///< Region by region: strokes give centre lines, filled shapes give outlines.
   Outline,     ///< The borders between ink and paper (000).
   Centreline,  ///< The middle of every stroke.
 };

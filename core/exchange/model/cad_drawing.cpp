@@ -85,8 +85,8 @@ double distanceFrom(const CadShape& shape, const NurbsCurve& curve) {
   return most;
 }
 
-/// Whether a simple shape starts where the curve does and runs its way. Arcs of DXF, IGES and 3DM run counter-clockwise
-/// and circles begin at the right, whatever the curve does.
+/// Whether a simple shape starts where the curve does and runs its way. Arcs run counter-clockwise and circles begin at
+/// the right, whatever the curve does.
 bool runsAs(const CadShape& shape, const NurbsCurve& curve) {
   const double near = kMeeting * extent(curve);
   const auto at = [&](double fraction) {
