@@ -27,9 +27,8 @@ using namespace batten::cli;
 
 std::string footer() {
   return "Exit codes: " + exitCodeHelp() +
-         ".\nAn error is one line on stderr. stdout holds only what programs can read. In its names a byte that is no "
-         "UTF-8 "
-         "is \\xHH, and a backslash before such a form is \\x5c.";
+         ".\nAn error is one line on stderr. stdout holds only what programs can read. In its names a byte that is "
+         "not valid UTF-8 is \\xHH, and a backslash before such a form is \\x5c.";
 }
 
 std::string dumpHelp() {
@@ -63,7 +62,7 @@ struct DrawingHelp {
   std::string scan, recipe, page, pages;
 };
 
-constexpr const char* kScanKinds = "PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP, PGM or PBM";  // words of the help
+constexpr const char* kScanKinds = "PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP, PGM, PBM or PPM";  // words of the help
 
 /// What the drawing is and what is followed on it.
 void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
@@ -295,7 +294,7 @@ int run(int argc, char** argv) {
   CLI::App* compare =
       app.add_subcommand("compare", "Similarity of the curves of two files, independent of size and position");
   compare->footer(
-      "Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
+      "Prints one line of JSON: similarity S and Pearson's r of the radii over arc length for every pair.");
   compare->add_option("first", first, "Curves: JSON or SVG written by Batten, DXF, IGES or STEP")
       ->type_name("A")
       ->required();
