@@ -293,8 +293,7 @@ int run(int argc, char** argv) {
   std::string first, second;
   CLI::App* compare =
       app.add_subcommand("compare", "Similarity of the curves of two files, independent of size and position");
-  compare->footer(
-      "Prints one line of JSON: similarity S and Pearson's r of the radii over arc length for every pair.");
+  compare->footer("Prints one line of JSON: similarity S and Pearson's r of the radii over arc length for every pair.");
   compare->add_option("first", first, "Curves: JSON or SVG written by Batten, DXF, IGES or STEP")
       ->type_name("A")
       ->required();

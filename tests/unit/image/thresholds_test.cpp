@@ -198,6 +198,17 @@ TEST(Thresholds, FindNetsWhoseLinesAreWiderThanThePaperBetweenThem) {
   }
 }
 
+TEST(Thresholds, FindHairlinesFourPixelsApartBothWays) { expectLines(netPage(4.0, 1.25, 0.0), 5, "net"); }
+
+TEST(Thresholds, FindHatchingWhosePixelsAreMoreOftenDarkThanBright) {
+  // Lines of 1.25 px every 3 px, seen by pixels that they cover in part.
+  constexpr std::array<int, 3> kRows = {255, 114, 86};
+  GreyImage page(600, 400);
+  for (int y = 0; y < page.height; ++y)
+    for (int x = 0; x < page.width; ++x) page.row(y)[x] = static_cast<std::uint16_t>(kRows[y % 3] * 257);
+  expectLines(page, 50, "rows");
+}
+
 constexpr int kLetterPx = 7, kRowPx = 12;
 
 /// Bowls of 1.6 px with stems beside them, in rows over the whole page: the middle of bowl (i, j) lies in the middle of
