@@ -36,7 +36,7 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
       session_(session),
       setScale_(linkButton(tr("no scale: set it"), QStringLiteral("status.setScale"), this)),
       progress_(new QProgressBar(this)),
-      cancel_(linkButton(tr("Cancel"), QStringLiteral("status.cancel"), this)),
+      cancel_(linkButton(tr("Stop"), QStringLiteral("status.cancel"), this)),
       again_(linkButton(tr("Compute again"), QStringLiteral("status.again"), this)),
       act_(linkButton({}, QStringLiteral("status.act"), this)) {
   setObjectName(QStringLiteral("statusLine"));

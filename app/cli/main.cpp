@@ -257,9 +257,9 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
       ->type_name("S");
   addNumber(
       *batch, "--max-failures", [&a](double share) { a.maxFailures = share; },
-      {0.0, 1.0, "a share of the pages from 0 to 1"},
+      {0.0, 1.0, "a fraction of the pages from 0 to 1"},
       "Stop starting pages once this fraction of all pages has failed, 0 to 1")
-      ->type_name("RATE");
+      ->type_name("FRACTION");
   batch
       ->add_option("--results", a.results,
                    "Append the lines to this file instead of stdout, one per page; several runs may share "

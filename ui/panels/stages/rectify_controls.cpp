@@ -120,7 +120,7 @@ QString RectifyControls::state() const {
       text +=
           tr(" A rim of %1 px along its border was cut off, too.").arg(page->sheet->outlinePx.front().x(), 0, 'f', 0);
     if (made->aspectError > kDoubtfulAspect)
-      text += tr(" The aspect ratio is uncertain by %1 %: choose the paper if you know it.")
+      text += tr(" The aspect ratio is uncertain by %1 %: choose the sheet if you know it.")
                   .arg(100.0 * made->aspectError, 0, 'f', 1);
     return text;
   }

@@ -93,9 +93,11 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (faired.report.similarityAfter)
-      tip += tr("\nS of the faired curve against the sketch: %1.").arg(similarityText(*faired.report.similarityAfter));
+      tip += tr("\nS of the faired curve against the sketched curve: %1.")
+                 .arg(similarityText(*faired.report.similarityAfter));
     if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
-      tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
+      tip += counted(more, tr("\nThat is 1 more than the sketched curve has."),
+                     tr("\nThat is %1 more than the sketched curve has."));
     if (const double needed = faired.report.neededMm.value_or(0.0);
         !faired.report.withinTolerance && needed > toleranceMm)
       tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(needed));
