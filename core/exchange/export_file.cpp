@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/base/partial_context.h"
 #include "core/base/regular_file.h"
@@ -167,6 +168,12 @@ Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
 Result<Check> jsonFile(const ExportDocument& document, const RunContext& context, ExportReport& report) {
   auto json = writeCurveJson(document, whileWriting(context));
   if (!json) return fail(json.error());
+  if (json->size() > JsonLimits{}.bytes)
+    return fail(ErrorCode::CannotWrite,
+                "The curves would fill " + std::to_string(json->size() >> 20) + " MB of JSON, and no more than " +
+                    std::to_string(JsonLimits{}.bytes >> 20) +
+                    " MB can be read back: write SVG or DXF, trace a part of the page, or drop short lines "
+                    "(contours.min_widths).");
   const auto back = readCurveJson(*json, whileReading(context));
   if (!back) return fail(back.error());
   const auto largest = difference(document, *back);

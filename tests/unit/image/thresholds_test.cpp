@@ -164,6 +164,13 @@ TEST(Thresholds, FindRulingsGridsAndHatchingAFewPixelsApart) {
       grid.row(y)[x] = static_cast<std::uint16_t>((x % 8 == 3 || y % 8 == 3 ? 20 : 235) * 257);
   }
   expectLines(grid, 12, "grid");  // four corners of every crossing are rounded
+  // Of a grid this fine, the paper at the page's corner is the brightest that smoothing leaves.
+  GreyImage fine(600, 400);
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 0; x < 600; ++x)
+      fine.row(y)[x] = static_cast<std::uint16_t>((x % 4 == 0 || y % 4 == 0 ? 20 : 235) * 257);
+  }
+  expectLines(fine, 6, "fine grid");
   // Black and white pixels at random are no lines.
   std::mt19937 random(3);
   for (const double share : {0.1, 0.3, 0.5, 0.7}) {
