@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/theme/minus_sign.h"
+
 namespace batten {
 namespace {
 
@@ -99,11 +101,10 @@ QString PlainTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
   // What would be all zeros is written with its power.
   if (decimals > 4 || std::abs(tick) >= 1e6) {
     const int digits = 1 + static_cast<int>(std::ceil(std::log10(std::abs(tick) / step_) - 1e-9));
-    return QString::number(tick, 'e', std::clamp(digits - 1, 0, 4))
-        .replace(QStringLiteral("e-0"), QStringLiteral("e-"))
-        .replace(QLatin1Char('-'), QChar(0x2212));
+    return withMinusSign(
+        QString::number(tick, 'e', std::clamp(digits - 1, 0, 4)).replace(QStringLiteral("e-0"), QStringLiteral("e-")));
   }
-  return QString::number(tick, 'f', std::max(0, decimals)).replace(QLatin1Char('-'), QChar(0x2212));
+  return withMinusSign(QString::number(tick, 'f', std::max(0, decimals)));
 }
 
 QVector<double> LengthTicker::createTickVector(double, const QCPRange& range) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/document/report_pages/figure.h"
+#include "ui/theme/minus_sign.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -17,7 +18,7 @@ constexpr int kMostTicks = 5;     // of an axis
 constexpr double kApartPx = 6.0;  // between numbers and axis
 constexpr double kTickPx = 3.0;
 
-QString plain(double value) { return QString::number(value, 'g', 3).replace(QLatin1Char('-'), QChar(0x2212)); }
+QString plain(double value) { return withMinusSign(QString::number(value, 'g', 3)); }
 
 void divideByMeanSize(std::vector<double>& values) {
   double sum = 0.0;

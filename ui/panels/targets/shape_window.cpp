@@ -18,14 +18,13 @@
 #include "ui/panels/targets/shape_view.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"
+#include "ui/theme/minus_sign.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
 namespace {
 
-QString number(double value, int decimals) {
-  return QString::number(value, 'f', decimals).replace(QLatin1Char('-'), QChar(0x2212));
-}
+QString number(double value, int decimals) { return withMinusSign(QString::number(value, 'f', decimals)); }
 
 }  // namespace
 
