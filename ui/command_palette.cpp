@@ -68,8 +68,8 @@ CommandPalette::CommandPalette(QWidget* parent)
   layout->setContentsMargins(8, 8, 8, 8);
   layout->setSpacing(6);
   edit_->setObjectName(QStringLiteral("palette.edit"));
-  edit_->setAccessibleName(tr("Find an action"));
-  edit_->setPlaceholderText(tr("Find an action"));
+  edit_->setAccessibleName(tr("Find an action or setting"));
+  edit_->setPlaceholderText(tr("Find an action or setting"));
   edit_->installEventFilter(this);
   list_->setObjectName(QStringLiteral("palette.list"));
   list_->setAccessibleName(tr("Actions found"));

@@ -252,7 +252,8 @@ void MainWindow::enterStage(PanelStage stage) {
   view_.setShowsMaskUncleaned(stage == PanelStage::Threshold);
   switch (stage) {
     case PanelStage::Scan:
-      turn(true, {Layer::LogImage});
+      parts_->log = session_.recipe().log;
+      if (parts_->log.enabled) turn(true, {Layer::LogImage});
       turn(false, {Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners});
       break;
     case PanelStage::Threshold:

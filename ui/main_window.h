@@ -69,6 +69,8 @@ class MainWindow : public QMainWindow {
   void connectActions();
   void connectLayers();
   void showStrokes(bool isEntering);
+  void showHere(Layer, bool on);
+  void showLog();
   void showRoundings();
   void trigger(ActionId id);
   void applyTarget(int degree);

@@ -226,15 +226,26 @@ void MainWindow::showStrokes(bool isEntering) {
                                                                                               : For::Nothing;
   const For before = std::exchange(parts_->strokesFor, now);
   if (stage() != PanelStage::Edges || (now == before && !isEntering)) return;
-  const auto is = [](const Parts::StageLayer& one) { return one.layer == Layer::Strokes; };
+  showHere(Layer::Strokes, now != For::Nothing);
+}
+
+// What the user has switched on himself is not switched off.
+void MainWindow::showHere(Layer layer, bool on) {
+  const auto is = [layer](const Parts::StageLayer& one) { return one.layer == layer; };
   const bool switched = std::any_of(parts_->stageLayers.begin(), parts_->stageLayers.end(), is);
-  if (now != For::Nothing && !view_.isVisible(Layer::Strokes)) {
-    parts_->stageLayers.push_back({Layer::Strokes, false, true});
-    view_.setVisible(Layer::Strokes, true);
-  } else if (now == For::Nothing && switched) {
+  if (on && !view_.isVisible(layer)) {
+    parts_->stageLayers.push_back({layer, false, true});
+    view_.setVisible(layer, true);
+  } else if (!on && switched) {
     std::erase_if(parts_->stageLayers, is);
-    view_.setVisible(Layer::Strokes, false);
+    view_.setVisible(layer, false);
   }
+}
+
+// A factor that is moved shows what it does, with or without the tick.
+void MainWindow::showLog() {
+  const LogParams now = session_.recipe().log, before = std::exchange(parts_->log, now);
+  if (!(now == before)) showHere(Layer::LogImage, now.enabled || now.factor != before.factor);
 }
 
 // A rounding is seen on the curve as it will be exported; without one that would only hide the sketched one.
@@ -254,6 +265,7 @@ void MainWindow::connectLayers() {
   connect(&session_, &EditorSession::recipeChanged, this, [this] {
     showStrokes(false);
     if (stage() == PanelStage::Corners) showRoundings();
+    if (stage() == PanelStage::Scan) showLog();
   });
   connect(&session_, &EditorSession::stageReady, this, [this](StageId ready) {
     if (ready == StageId::Contours) showStrokes(false);

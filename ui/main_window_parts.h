@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/image/log_transform.h"
 #include "ui/command_palette.h"
 #include "ui/error_strip.h"
 #include "ui/help_window.h"
@@ -67,6 +68,7 @@ struct MainWindow::Parts {
   QString recipePath;  ///< Where the recipe was read from or saved last; empty: nowhere yet.
   QString pageRecipe;  ///< The file of the drawing that is being opened, when it is one without a scan.
   std::vector<StageLayer> stageLayers;  ///< Switched by the present stage, switched back when it is left.
+  LogParams log;                        ///< Of the log picture in stage Scan.
   enum class StrokesFor { Nothing, Bridges, Merges };
   StrokesFor strokesFor = StrokesFor::Nothing;  ///< Why the layer of strokes was shown by itself last.
   bool hidesBridges = false;                    ///< The user has hidden that layer: bridges do not show it any more.

@@ -69,9 +69,8 @@ void TopBar::buildViewButtons(ViewSettings& view, QMenu* layersMenu) {
   layout()->addWidget(layers);
   auto* compare = new QToolButton(this);
   compare->setObjectName(QStringLiteral("compareButton"));
-  compare->setText(tr("Compare \\"));
-  compare->setAccessibleName(tr("Compare"));
-  compare->setToolTip(tr("Hold to see the scan alone."));
+  compare->setText(tr("Scan only"));
+  compare->setToolTip(tr("Hold to see the scan alone, or hold \\."));
   compare->setFocusPolicy(Qt::TabFocus);
   connect(compare, &QToolButton::pressed, &view, [&view] { view.setScanOnly(true); });
   connect(compare, &QToolButton::released, &view, [&view] { view.setScanOnly(false); });

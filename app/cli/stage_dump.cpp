@@ -142,7 +142,10 @@ std::vector<std::string> dumpNames() {
 Result<Picture> dumpStage(std::string_view dumpName, const Scan& scan, const Recipe& recipe,
                           const PipelineOutput& out) {
   const GreyImage& grey = scan.grey;
-  if (dumpName == "log") return greyPicture(grey, [&](int x, int y) { return logTone(grey.level(x, y), recipe.log); });
+  if (dumpName == "log") {
+    const LogParams log{true, recipe.log.factor};
+    return greyPicture(grey, [&](int x, int y) { return logTone(grey.level(x, y), log); });
+  }
   if (dumpName == "page") {
     if (!out.page) return notThere(dumpName);
     const GreyImage& page = tracedGrey(scan, out);

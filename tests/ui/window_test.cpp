@@ -87,6 +87,7 @@ class WholeWalk : public Window {
   void setScan() {
     const Recipe start = session().recipe();
     window_->setStage(PanelStage::Scan);
+    EXPECT_FALSE(window_->view().isVisible(Layer::LogImage)) << "the scan is shown as it is";
     auto* factor = find<QSlider>("log.factor");
     QTest::mousePress(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2, factor->height() / 2));
     QTest::mouseMove(factor, QPoint(factor->width() / 2 + 12, factor->height() / 2));
@@ -94,6 +95,7 @@ class WholeWalk : public Window {
     QTest::mouseRelease(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2 + 30, factor->height() / 2));
     EXPECT_NE(session().recipe().log.factor, start.log.factor);
     EXPECT_EQ(session().undoStack()->count(), 1) << "a drag is one step";
+    EXPECT_TRUE(window_->view().isVisible(Layer::LogImage)) << "what is dragged is seen";
   }
 
   void setThreshold() {

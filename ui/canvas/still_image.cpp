@@ -27,7 +27,7 @@ RasterContent rasterContent(const CanvasScene& scene) {
   content.pageHeight = scan->grey.height;
   const bool isLog = scene.view.isVisible(Layer::LogImage) && !scene.view.isScanOnly();
   content.showsPicture = scene.view.isVisible(Layer::Scan) || isLog || scene.view.isScanOnly();
-  if (isLog) content.tones = toneTable(scene.session.recipe().log);
+  if (isLog) content.tones = toneTable({true, scene.session.recipe().log.factor});
   if (scene.view.isScanOnly()) return content;
   const PipelineOutput& output = scene.session.output();
   if (scene.view.isVisible(Layer::Paper) && output.thresholds && !output.thresholds->paper.isEmpty())

@@ -12,6 +12,7 @@ namespace {
 
 /// Fewer labels than this do not touch at the smallest height of the plot.
 constexpr int kMostTicks = 5;
+constexpr double kFewestDecades = 4.0;  // on an axis whose labels are powers of ten alone
 
 }  // namespace
 
@@ -70,10 +71,11 @@ QVector<double> RoundLogTicker::createTickVector(double, const QCPRange& range) 
     const double step = ten * (share <= 1.0 ? 1.0 : share <= 2.0 ? 2.0 : share <= 5.0 ? 5.0 : 10.0);
     for (double tick = std::ceil(range.lower / step) * step; tick <= range.upper; tick += step) round.append(tick);
   } else {
+    const bool areDecadesEnough = whole >= kFewestDecades * std::log(10.0);
     for (int e = static_cast<int>(std::floor(std::log10(range.lower))); std::pow(10.0, e) <= range.upper; ++e)
       for (const double m : {1.0, 2.0, 5.0}) {
         const double tick = m * std::pow(10.0, e);
-        if (tick >= range.lower && tick <= range.upper && (m == 1.0 || whole < std::log(50.0))) round.append(tick);
+        if (tick >= range.lower && tick <= range.upper && (m == 1.0 || !areDecadesEnough)) round.append(tick);
       }
   }
   QVector<double> apart;

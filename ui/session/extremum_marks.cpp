@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
 constexpr double kSamePlacePx = 1.0;    // nearer marks are one
+constexpr double kMostShift = 0.02;     // of the curve's length, by which fewer control points move an extremum
 QString extremumText(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
 
 /// The choice in the recipe that a note stands for. While a new run is on its way the numbers in the report are those
@@ -76,6 +77,20 @@ std::vector<ExtremumMark> marksOf(const EditorSession& session, const NurbsCurve
   return marks;
 }
 
+/// The extremum of the curve as it is shown that a kept one became: its place was judged on the dense curve.
+std::optional<CurvatureExtremumPoint> shownExtremum(const std::vector<CurvatureExtremumPoint>& shown,
+                                                    const ExtremumNote& note, double lengthMm) {
+  std::optional<CurvatureExtremumPoint> nearest;
+  double leastMm = kMostShift * lengthMm;
+  for (const CurvatureExtremumPoint& one : shown) {
+    const double apartMm = std::abs(one.s - note.s);
+    if (one.maximum != note.maximum || (one.kappa > 0.0) != (note.kappa > 0.0) || apartMm > leastMm) continue;
+    leastMm = apartMm;
+    nearest = one;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optional<int> curve, Judged judged) {
@@ -84,6 +99,11 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optio
   if (judged == Judged::Result && isChanged(*traced)) return marksOf(session, traced->faired, traced->closed, true);
   // Only the fair fit judges extrema; of all other curves they are shown as they are.
   if (traced->construct.extrema.empty()) return marksOf(session, traced->sketched, traced->closed, false);
+  const NurbsCurve& sketched = traced->sketched;
+  const double size = extent(sketched);
+  const std::vector<CurvatureExtremumPoint> shown =
+      size > 0.0 ? curvatureExtrema(sketched, kExtremumProminence / size, traced->closed)
+                 : std::vector<CurvatureExtremumPoint>();
   std::vector<ExtremumMark> marks;
   for (std::size_t i = 0; i < traced->construct.extrema.size(); ++i) {
     const ExtremumNote& note = traced->construct.extrema[i];
@@ -93,6 +113,12 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optio
     mark.px = session.output().frame.pointToImage(note.point);
     mark.s = note.s;
     mark.kappa = note.kappa;
+    const auto seen = note.kept ? shownExtremum(shown, note, traced->sketchedFigures.lengthMm) : std::nullopt;
+    if (seen) {
+      mark.px = session.output().frame.pointToImage(sketched.point(seen->u));
+      mark.s = seen->s;
+      mark.kappa = seen->kappa;
+    }
     mark.isKept = note.kept;
     mark.isCertain = note.kept && note.removalCost >= kCertainFactor * note.askedCost;
     if (const auto choice = choiceOf(session, note)) mark.wantedToKeep = session.recipe().extremumChoices[*choice].keep;

@@ -7,7 +7,7 @@
 namespace batten {
 
 GreyScale::GreyScale(const EditorSession& session, const ViewSettings& view) : log_(session.recipe().log) {
-  log_.enabled = log_.enabled && view.isVisible(Layer::LogImage);
+  log_.enabled = view.isVisible(Layer::LogImage);
 }
 
 }  // namespace batten

@@ -79,7 +79,7 @@ QString sheetOf(const Theme& t) {
 
 const Theme& lightTheme() {
   static const Theme theme{false,     "#f4f4f2", "#ffffff", "#dcdcd8", "#1d1f21", "#6b6f74", "#0b6bcb",
-                           "#ffffff", "#e6f0fa", "#f0f0ed", "#1a7f4b", "#b96a00", "#c0321c"};
+                           "#ffffff", "#e6f0fa", "#f0f0ed", "#1a7f4b", "#9c5a00", "#c0321c"};
   return theme;
 }
 

@@ -25,7 +25,7 @@ class PathEdit : public QLineEdit {
     style()->drawPrimitive(QStyle::PE_PanelLineEdit, &option, &painter, this);
     painter.setPen(palette().color(isEnabled() ? QPalette::Normal : QPalette::Disabled, QPalette::Text));
     painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(text(), Qt::ElideMiddle, box.width()));
+                     fontMetrics().elidedText(text(), Qt::ElideLeft, box.width()));
   }
 };
 

@@ -160,8 +160,11 @@ void CornersPanel::addSlider(const QString& title, const QString& help, const Sl
   row->addWidget(name);
   row->addStretch();
   row->addWidget(field);
-  column()->addLayout(row);
-  column()->addWidget(track);
+  auto* rows = new QVBoxLayout;
+  rows->setSpacing(2);  // as in the rows of other parameters
+  rows->addLayout(row);
+  rows->addWidget(track);
+  column()->addLayout(rows);
 }
 
 void CornersPanel::buildSuggestions() {

@@ -104,12 +104,18 @@ void ShapeView::paintEvent(QPaintEvent*) {
   const auto draw = [&](const std::vector<double>& values, const QPen& pen) {
     QPolygonF line;
     const double step = box.width() / static_cast<double>(values.size() - 1);
-    double x = box.left();
+    double x = box.left(), before = 0.0;
+    painter.setPen(pen);
     for (const double value : values) {
+      // At an inflection the radius leaves on one side of infinity and comes back on the other.
+      if (isRadius_ && before * value < 0.0) {
+        painter.drawPolyline(line);
+        line.clear();
+      }
       line << QPointF(x, yOf(value));
       x += step;
+      before = value;
     }
-    painter.setPen(pen);
     painter.drawPolyline(line);
   };
   draw(first_, QPen(theme.accent, 2));

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QScreen>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -152,6 +153,15 @@ void ShapeWindow::refill() {
   fill(second_, second, recommended);
   compare();
   refreshTable();
+  fitHeight();
+}
+
+// Notes that wrap ask for more height than the layout's smallest size, which counts them as one line.
+void ShapeWindow::fitHeight() {
+  constexpr int kFramePx = 48;  // of title bar and frame, on any desktop
+  const int room = screen()->availableGeometry().height() - kFramePx;
+  const int needed = std::min(layout()->totalHeightForWidth(width()), room);
+  if (height() < needed) resize(width(), needed);
 }
 
 void ShapeWindow::compare() {

@@ -41,6 +41,7 @@ class ShapeWindow : public QDialog {
   void refill();
   void compare();
   void refreshTable();
+  void fitHeight();
 
   EditorSession& session_;
   std::vector<Entry> entries_;

@@ -29,7 +29,7 @@ constexpr int kApart = 8;          ///< Between a name, which may be cut, and it
 constexpr int kTellEveryMs = 200;  // While results come in, the list is brought up to date this often.
 constexpr int kNoRow = -1;         ///< What Qt takes for none.
 constexpr int kRightMargin = 6;    // px
-constexpr int kBadgeWidth = 44, kBadgeHeight = 18, kBadgeGap = 6;  // px
+constexpr int kBadgeWidth = 52, kBadgeHeight = 18, kBadgeGap = 6;  // px
 enum Role {
   IncludedRole = Qt::UserRole,
   FiguresRole,

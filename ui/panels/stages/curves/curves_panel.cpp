@@ -56,7 +56,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
     : QWidget(parent),
       session_(session),
       editor_(new ParameterEditor(session, {kSettings.begin(), kSettings.end()}, this)),
-      detailScope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
+      detailScope_(new SegmentedControl({tr("Detail of all curves"), tr("of the selected")}, this)),
       methods_(new MethodTable(session, this)),
       knots_(new KnotPanel(session, view, this)),
       figures_(new FigureTable(this)),

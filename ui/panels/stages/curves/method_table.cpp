@@ -150,7 +150,7 @@ QString helpPage(ConstructMethod method) {
 MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
+      scope_(new SegmentedControl({tr("Method of all curves"), tr("of the selected")}, this)),
       whose_(note({}, this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("construct.method.row"));

@@ -64,15 +64,16 @@ PinPanel::PinPanel(EditorSession& session, QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   layout->addWidget(caption(tr("Compare"), this));
-  layout->addWidget(what_);
-  figures_->setObjectName(QStringLiteral("pin.figures"));
-  figures_->setHeader(tr("Selected curve"), {tr("pinned"), tr("now")});
-  layout->addWidget(figures_);
+  // Above what grows, so that they stay where they are.
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(pin_);
   buttons->addWidget(unpin_);
   buttons->addStretch();
   layout->addLayout(buttons);
+  layout->addWidget(what_);
+  figures_->setObjectName(QStringLiteral("pin.figures"));
+  figures_->setHeader(tr("Selected curve"), {tr("pinned"), tr("now")});
+  layout->addWidget(figures_);
   pin_->setToolTip(tr("Keeps this result as a dashed violet line for comparison  (A)"));
   connect(pin_, &QPushButton::clicked, &session_, &EditorSession::pin);
   connect(unpin_, &QPushButton::clicked, &session_, &EditorSession::unpin);
