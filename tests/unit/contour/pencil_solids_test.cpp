@@ -122,34 +122,6 @@ TEST(PencilSolids, LeaveTheLinesBesideThemStrokes) {
   }
 }
 
-double fromSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (p - a - t * (b - a)).norm();
-}
-
-// A line that a pencil thickened on a stretch and filled its bend, which holds a disc of five pens: no place is its
-// edge.
-TEST(PencilSolids, ALineThatSwellsGoesThrough) {
-  const Vec2 a(60, 200), b(240, 180), c(420, 200);
-  const auto half = [&](const Vec2& p) {
-    const double along = std::abs(p.x() - b.x());
-    return std::max(along < 130.0 ? 9.0 : 3.5, 20.5 - 0.38 * along);
-  };
-  const auto lines = test::hatchLines({240, 60}, 20.0, 4, 60.0, 420.0, 0.0);
-  for (const std::uint32_t seed : {2u, 3u, 5u}) {
-    const GreyImage grey = pencilPage(
-        lines, seed, [&](const Vec2& p) { return std::min(fromSegment(p, a, b), fromSegment(p, b, c)) < half(p); });
-    double through = 0.0;
-    for (const Contour& line : tracedPage(grey).contours) {
-      const Vec2& at = line.points.front().at;
-      if (at.y() < 120.0) continue;
-      EXPECT_EQ(line.kind, ContourKind::Centreline) << "seed " << seed << ": at " << at.transpose();
-      through = std::max(through, line.lengthPx);
-    }
-    EXPECT_GT(through, 330.0) << "seed " << seed;
-  }
-}
-
 void fill(BitImage& image, int x0, int y0, int x1, int y1) {
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) image.set(x, y, true);
