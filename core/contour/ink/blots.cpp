@@ -62,13 +62,14 @@ BitImage leftBeside(const BitImage& ink, std::optional<double> penPx, const Cont
   return without(both(grown(wide, half + 1, context), ink), strokes);
 }
 
-// What strokes of a pen enclose and fill.
-BitImage penFillings(const BitImage& ink, std::optional<double> penPx, const ContourSet& lines,
-                     const RunContext& context) {
+// What strokes of a pen enclose and fill. What is left beside a line that swells is none.
+BitImage penFillings(const BitImage& ink, const BitImage& swellings, std::optional<double> penPx,
+                     const ContourSet& lines, const RunContext& context) {
   constexpr double kLeastArea = 3.0;   // [squared pen widths] a dot of two pens across
   constexpr double kBodyWidths = 2.5;  // strokes that cross at any angle hold no larger disc, and a pixel
   BitImage fillings = leftBeside(ink, penPx, lines, context);
   if (fillings.count() == 0 || !penPx) return fillings;
+  if (swellings.width > 0) fillings = without(std::move(fillings), swellings);
   const int half = stepsOfWide(*penPx);
   const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * *penPx + 1.0))));
   const BitImage bodies = grown(shrunken(ink, body, context), body + 1, context);
@@ -114,14 +115,15 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
 }
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
-  if (!split.pencil) return penFillings(split.strokes, split.penPx, lines, context);
+  if (!split.pencil) return penFillings(split.strokes, split.swellings, split.penPx, lines, context);
   // Tones of a pencil have no border; solids have, which lies where the strokes beside them do.
   const BitImage besideSolid = grown(split.shapes, 1, context);
   BitImage tones =
       mostlyInk(leftBeside(pencilStrokes(*split.pencil, split.shapes), split.pencil->widthPx, lines, context),
                 split.strokes, kInkShare, context);
   tones = withoutMargins(keepPieces(tones, {.seeds = &besideSolid}, context), context);
-  return either(penFillings(without(split.strokes, split.pencil->ink), split.penPx, lines, context), tones);
+  return either(penFillings(without(split.strokes, split.pencil->ink), split.swellings, split.penPx, lines, context),
+                tones);
 }
 
 BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgeParams& edges) {

@@ -13,6 +13,7 @@
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink/painted_ink.h"
+#include "core/contour/ink/pencil_solids.h"
 #include "core/contour/label/ink_labels.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/fine_page.h"
@@ -106,24 +107,6 @@ Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx, const R
   }
 }
 
-// The solids of a pencil whose grain is closed; small ones are grain themselves, or strokes that cross.
-Result<BitImage> pencilSolids(const BitImage& body, double widthPx, double mergeWidths, double pixelsPerPx,
-                              const RunContext& context) {
-  constexpr double kSolidWidths = 5.0;   // strokes side by side that have run together are narrower
-  constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke
-  Result<InkLabels> labels = labelInk(body, context, mergeWidths, pixelsPerPx);
-  if (!labels) return fail(labels.error());
-  const double pen = std::max(labels->penPx.value_or(0.0), widthPx);
-  const auto opened = [&](double widths) {
-    const int steps = std::max(1, static_cast<int>(0.5 * widths * pen));
-    return grown(shrunken(labels->shapes, steps, context), steps, context);
-  };
-  const BitImage seeds = opened(kSolidWidths);
-  BitImage solids = keepPieces(opened(kBorderWidths), {.seeds = &seeds}, context);
-  if (context.isCancelled()) return cancelled();
-  return solids;
-}
-
 Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
                               const GreyImage* page, const RunContext& context) {
   const double pixelsPerPx = page != nullptr ? kFineFactor : 1.0;
@@ -132,6 +115,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   InkSplit split;
   split.strokes = std::move(labels->strokes);
   split.shapes = std::move(labels->shapes);
+  split.swellings = std::move(labels->swellings);
   split.penPx = labels->penPx;
   auto [paths, junctions] = findPathsAndJunctions(labels->skeleton, ink, params, context);
   if (context.isCancelled()) return cancelled();
@@ -159,10 +143,13 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
-  Result<BitImage> solids = pencilSolids(*body, widthPx, params.mergeWidths, pixelsPerPx, context);
-  if (!solids) return fail(solids.error());
-  split.strokes = without(std::move(split.strokes), *solids);
-  split.shapes = either(std::move(split.shapes), *solids);
+  Result<InkLabels> ofBody = labelInk(*body, context, params.mergeWidths, pixelsPerPx);
+  if (!ofBody) return fail(ofBody.error());
+  const double penPx = std::max(ofBody->penPx.value_or(0.0), widthPx);
+  const BitImage solids = pencilSolids(*body, ofBody->shapes, penPx, context);
+  if (context.isCancelled()) return cancelled();
+  split.strokes = without(std::move(split.strokes), solids);
+  split.shapes = either(std::move(split.shapes), solids);
   drawn.widthPx = std::max(split.penPx.value_or(0.0), widthPx);
   drawn.body = std::move(*body);
   split.pencil = std::move(drawn);

@@ -25,6 +25,7 @@ struct PencilInk {
 struct InkSplit {
   BitImage strokes;                      ///< Along their middle.
   BitImage shapes;                       ///< Along their border.
+  BitImage swellings = {};               ///< Of the strokes: where one swells (InkLabels). Empty: nowhere.
   std::optional<PencilInk> pencil = {};  ///< Absent: nothing was drawn with a pencil.
   std::optional<BitImage> painted = {};  ///< Ink whose kind the user has painted; absent: he painted nothing.
   RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.

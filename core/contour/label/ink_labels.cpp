@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/label/ink_labels.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <new>
@@ -108,12 +109,20 @@ void applyVotes(const RunPieces& runs, const PiecesOfPage& page, const std::vect
   }
 }
 
+// A stroke that runs into a shape.
+struct StrokeInto {
+  double widthPx;  ///< Where it leaves the shape.
+  int path;
+};
+
 // What is known of one connected shape.
 struct ShapeRegion {
   std::int64_t areaPx = 0;
   double largestRadiusPx = 0.0;
   int mouths = 0;                           ///< Places where strokes run into it.
+  std::vector<StrokeInto> strokesInto;      ///< These strokes.
   std::int64_t borderPx = 0, mouthsPx = 0;  ///< Pixels around it; those of them that are strokes.
+  double widthPx() const { return 2.0 * largestRadiusPx - kRadiiBeyondWidthPx; }
 };
 
 std::optional<int> pieceBeside(const RunPieces& pieces, const SkeletonPixel& p) {
@@ -146,6 +155,30 @@ std::unordered_map<int, ShapeRegion> measureShapes(const InkGraph& graph, const 
   return regions;
 }
 
+// The widths of the strokes that run into each shape, where their middles leave it.
+void measureStrokesInto(std::unordered_map<int, ShapeRegion>& regions, const InkGraph& graph, const BitImage& ink,
+                        const RunPieces& shapes) {
+  const auto leaves = [&](int number, const InkPixel& inside, const InkPixel& outside) {
+    if (!ink.at(inside.x, inside.y) || ink.at(outside.x, outside.y)) return;
+    if (const auto piece = pieceAt(shapes, inside.x, inside.y))
+      regions[*piece].strokesInto.push_back({outside.widthPx(), number});
+  };
+  for (const InkChain& chain : graph.chains()) {
+    if (!chain.isAlive) continue;
+    for (std::size_t i = 0; i + 1 < chain.pixels.size(); ++i) {
+      leaves(*chain.path, chain.pixels[i], chain.pixels[i + 1]);
+      leaves(*chain.path, chain.pixels[i + 1], chain.pixels[i]);
+    }
+    for (int side = 0; side < 2 && !chain.pixels.empty(); ++side) {
+      if (!chain.node[side]) continue;
+      for (const InkPixel& p : graph.nodes()[*chain.node[side]].pixels) {
+        const InkPixel& end = side == 0 ? chain.pixels.front() : chain.pixels.back();
+        if (std::max(std::abs(p.x - end.x), std::abs(p.y - end.y)) <= 1) leaves(*chain.path, p, end);
+      }
+    }
+  }
+}
+
 // How much of its border each shape shares with strokes.
 void measureMouths(std::unordered_map<int, ShapeRegion>& regions, const RunPieces& shapes, const BitImage& border,
                    const BitImage& mouths) {
@@ -161,6 +194,24 @@ void measureMouths(std::unordered_map<int, ShapeRegion>& regions, const RunPiece
       }
     }
   }
+}
+
+// Whether lines run into a shape without a step in width and cover far more than it does: a line that swells.
+bool isSwelling(const ShapeRegion& r, const InkGraph& graph, double widestPenPx) {
+  constexpr double kStep = 1.5;  // of widths; more is the edge of a shape
+  constexpr double kLine = 3.0;  // of the area of the shape: strokes that fill one cover no more
+  const double shapePx = r.widthPx();
+  if (r.mouths < 2 || shapePx <= 0.0 || shapePx > widestPenPx) return false;
+  double covered = 0.0;
+  std::vector<int> counted;
+  for (const auto& [widthPx, number] : r.strokesInto) {
+    const InkPath& path = graph.paths()[number];
+    const bool isCounted = std::find(counted.begin(), counted.end(), number) != counted.end();
+    if (isCounted || path.elongation() < kStrokeWidths || shapePx > kStep * widthPx + 1.0) continue;
+    covered += path.lengthPx * *path.widthPx;
+    counted.push_back(number);
+  }
+  return covered >= kLine * static_cast<double>(r.areaPx);
 }
 
 // Where strokes lie over one another there is no solid: see labelInk.
@@ -180,8 +231,9 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
   if (context.isCancelled()) return;
   auto regions = measureShapes(graph, shapes, mouths);
   measureMouths(regions, shapes, border, rim);
+  measureStrokesInto(regions, graph, labels.shapes, shapes);
   const auto isBundle = [&](const ShapeRegion& r) {
-    const double width = 2.0 * r.largestRadiusPx - kRadiiBeyondWidthPx;
+    const double width = r.widthPx();
     if (r.mouths == 0 || width <= 0.0) return false;
     if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * penPx + 1.0) return true;
     if (r.mouths < 2 || width > std::min(kBundlePens * penPx + 1.0, page.widestPenPx)) return false;
@@ -189,8 +241,12 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
     if (isKnot && width <= kKnotPens * penPx + 1.0) return true;
     return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
   };
+  labels.swellings = BitImage(labels.shapes.width, labels.shapes.height);
   for (std::size_t i = 0; i < shapes.runs.size(); ++i) {
-    if (!isBundle(regions.at(shapes.piece[i]))) continue;
+    const ShapeRegion& region = regions.at(shapes.piece[i]);
+    const bool swells = isSwelling(region, graph, page.widestPenPx);
+    if (!swells && !isBundle(region)) continue;
+    if (swells) setBits(labels.swellings, shapes.runs[i]);
     setBits(labels.strokes, shapes.runs[i]);
     clearBits(labels.shapes, shapes.runs[i]);
   }

@@ -14,6 +14,8 @@ struct InkLabels {
   BitImage strokes;   ///< Lines of a pen, to be followed along their middle.
   BitImage shapes;    ///< Filled areas, dots and broad lettering, to be followed along their border.
   BitImage skeleton;  ///< Of all the ink.
+  /// Of the strokes: where one swells that goes on without a step in width. Empty: nothing was looked for.
+  BitImage swellings = {};
   /// [px] median width of the strokes, weighed by their lengths in widths; absent: there is none.
   std::optional<double> penPx = {};
 };
@@ -22,7 +24,8 @@ struct InkLabels {
 /// Pieces that are alike in size and width (an alphabet) are voted on together, so that broad-nib letters are shapes as
 /// a whole. Nothing depends on the size of the page but what counts as a letter.
 /// Strokes drawn over one another are no solid where they lie close: what is long, narrow and joined to three strokes,
-/// or longer and joined to two, stays stroke.
+/// or longer and joined to two, stays stroke. So does what lines run into without a step in width, if they cover far
+/// more than it does: a line that swells.
 /// @param mergeWidths [stroke widths] how far apart the strokes of one line run that are to be merged; what is no wider
 /// than such a line and joined to strokes is not a shape. 0: no merging.
 /// @param pixelsPerPx of the ink, along a pixel of the page.

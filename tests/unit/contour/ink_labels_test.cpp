@@ -105,6 +105,32 @@ TEST(InkLabels, DotsBesideLinesAreShapes) {
   EXPECT_EQ(score.objects, 1.0);
 }
 
+// A felt pen among the lines of a fine pen: where its line bends and swells, and a fine line meets it, it goes on.
+TEST(InkLabels, ALineThatSwellsIsAStroke) {
+  test::LabelPage page(600, 400);
+  page.begin(false);
+  for (int i = 0; i < 8; ++i) page.line(segment({20, 240.0 + 20.0 * i}, {580, 250.0 + 18.0 * i}), 3.0);
+  page.line(segment({20, 200}, {280, 110}), 12.0);
+  page.line(segment({280, 110}, {310, 100}), 12.0, 17.0);
+  page.line(segment({310, 100}, {340, 90}), 17.0, 12.0);
+  page.line(segment({340, 90}, {580, 20}), 12.0);
+  page.line(segment({306, 106}, {560, 200}), 3.0);
+  page.line(segment({306, 106}, {340, 210}), 3.0);
+  EXPECT_LT(shareOfShapes(labelsOf(page.ink(3))), 0.001);
+}
+
+// A step in width on all sides: a filled shape, whatever lines run into it.
+TEST(InkLabels, ABlackThatLinesRunIntoIsAShape) {
+  test::LabelPage page(600, 400);
+  page.begin(false);
+  for (int i = 0; i < 8; ++i) page.line(segment({20, 240.0 + 20.0 * i}, {580, 250.0 + 18.0 * i}), 3.0);
+  page.line(segment({20, 140}, {580, 100}), 12.0);
+  page.begin(true);
+  page.area({{{270, 100}, {330, 96}, {334, 146}, {274, 150}}});
+  const BitImage ink = page.ink(3);
+  EXPECT_GT(page.score(ink, labelsOf(ink).shapes).shapes, 0.9);
+}
+
 // Legs of even width, but nothing on the page says that a pen of that width was used.
 TEST(InkLabels, TheLimbsOfASilhouetteBelongToIt) {
   test::LabelPage page(500, 400);
