@@ -13,14 +13,14 @@ namespace batten {
 namespace {
 
 // As large as a photograph is when rulings are looked for: strips are wide, and a fan blurs lines within them.
-constexpr int kPhotoWidth = 1800, kPhotoHeight = 1500;
+constexpr int kFannedWidth = 1800, kFannedHeight = 1500;
 
 using Field = std::function<double(double u, double v)>;  // u and v run from -1 to 1 over the page
 
 /// Light that passes: 1 on paper, less on lines `width` px wide along which the field is a whole number.
 double passing(const Field& field, double x, double y, double width, double line) {
   const auto at = [&](double px, double py) {
-    return field(2.0 * px / kPhotoWidth - 1.0, 2.0 * py / kPhotoHeight - 1.0);
+    return field(2.0 * px / kFannedWidth - 1.0, 2.0 * py / kFannedHeight - 1.0);
   };
   const double here = at(x, y);
   const double gradient = std::hypot(at(x + 1.0, y) - here, at(x, y + 1.0) - here);
@@ -30,12 +30,12 @@ double passing(const Field& field, double x, double y, double width, double line
 
 /// Grainy paper, darker towards its left.
 GreyImage photograph(const std::function<double(double x, double y)>& light, double grain = 6.0) {
-  GreyImage page(kPhotoWidth, kPhotoHeight, 0);
+  GreyImage page(kFannedWidth, kFannedHeight, 0);
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, grain);
-  for (int y = 0; y < kPhotoHeight; ++y) {
-    for (int x = 0; x < kPhotoWidth; ++x) {
-      const double paper = 110.0 + 60.0 * x / kPhotoWidth;
+  for (int y = 0; y < kFannedHeight; ++y) {
+    for (int x = 0; x < kFannedWidth; ++x) {
+      const double paper = 110.0 + 60.0 * x / kFannedWidth;
       const double level = std::clamp(paper * light(x + 0.5, y + 0.5) + noise(random), 0.0, 255.0);
       page.row(y)[x] = static_cast<std::uint16_t>(level * GreyImage::kGreyUnit);
     }
@@ -60,8 +60,8 @@ double mostOff(const RulingFamily& family, const Field& field) {
   double most = 0.0;
   for (const RulingLine& line : family.lines) {
     for (const Vec2& p : line.coursePx) {
-      if (p.y() < 0.0 || p.y() >= kPhotoHeight || p.x() < 0.0 || p.x() > kPhotoWidth) continue;
-      const double here = field(2.0 * p.x() / kPhotoWidth - 1.0, 2.0 * p.y() / kPhotoHeight - 1.0);
+      if (p.y() < 0.0 || p.y() >= kFannedHeight || p.x() < 0.0 || p.x() > kFannedWidth) continue;
+      const double here = field(2.0 * p.x() / kFannedWidth - 1.0, 2.0 * p.y() / kFannedHeight - 1.0);
       most = std::max(most, std::fabs(here - std::round(here)) * family.spacingPx);
     }
   }
@@ -85,7 +85,7 @@ TEST(PhotographedRulings, AFanAndACurlAreFollowed) {
 
 /// The next page lies beside it, bright, with other lines.
 TEST(PhotographedRulings, TheNextPageDoesNotSpoilThem) {
-  const double border = 0.1 * kPhotoWidth;
+  const double border = 0.1 * kFannedWidth;
   const Field next = [](double u, double v) { return 9.3 * v + 2.0 * u; };
   const GreyImage page = photograph([&](double x, double y) {
     if (x < border) return 1.4 * passing(next, x, y, 3.0, 0.8);
@@ -101,7 +101,7 @@ TEST(PhotographedRulings, TheNextPageDoesNotSpoilThem) {
 TEST(PhotographedRulings, NothingOfThemIsLeft) {
   std::mt19937 random(3);
   std::normal_distribution<double> blotch(0.0, 0.09);
-  std::vector<double> print(kPhotoWidth / 3 + 1);
+  std::vector<double> print(kFannedWidth / 3 + 1);
   for (double& p : print) p = blotch(random);
   const GreyImage page = photograph([&](double x, double y) {
     const double line = passing(fanned, x, y, 3.0, kLinePasses);
@@ -109,16 +109,16 @@ TEST(PhotographedRulings, NothingOfThemIsLeft) {
   });
   const GreyImage cleaned = withoutRulings(page, findRulings(page, {}), {});
   int dark = 0;
-  for (int y = 20; y < kPhotoHeight - 20; ++y) {
-    for (int x = 20; x < kPhotoWidth - 20; ++x)
-      dark += cleaned.row(y)[x] < 0.75 * (110.0 + 60.0 * x / kPhotoWidth) * GreyImage::kGreyUnit ? 1 : 0;
+  for (int y = 20; y < kFannedHeight - 20; ++y) {
+    for (int x = 20; x < kFannedWidth - 20; ++x)
+      dark += cleaned.row(y)[x] < 0.75 * (110.0 + 60.0 * x / kFannedWidth) * GreyImage::kGreyUnit ? 1 : 0;
   }
   EXPECT_LT(dark, 400);
 }
 
 TEST(PhotographedRulings, WhatIsDrawnIsNone) {
   const auto isWithin = [](double x, double y, double x0, double y0, double x1, double y1) {
-    return x > x0 * kPhotoWidth && x < x1 * kPhotoWidth && y > y0 * kPhotoHeight && y < y1 * kPhotoHeight;
+    return x > x0 * kFannedWidth && x < x1 * kFannedWidth && y > y0 * kFannedHeight && y < y1 * kFannedHeight;
   };
   const struct {
     const char* name;
@@ -134,7 +134,7 @@ TEST(PhotographedRulings, WhatIsDrawnIsNone) {
        }},
       {"siding drawn by hand, each board otherwise",
        [&](double x, double y) {
-         const double board = std::floor(fanned(2.0 * x / kPhotoWidth - 1.0, 2.0 * y / kPhotoHeight - 1.0) + 0.5);
+         const double board = std::floor(fanned(2.0 * x / kFannedWidth - 1.0, 2.0 * y / kFannedHeight - 1.0) + 0.5);
          const double sway = 5.0 * std::sin(x / 210.0 + 1.7 * board) + 4.0 * std::sin(2.9 * board);
          return passing(fanned, x, y + sway, 3.0, kLinePasses);
        }},
