@@ -2,10 +2,12 @@
 #include "core/image/ruling/find_rulings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <ranges>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -19,12 +21,19 @@ namespace {
 
 constexpr std::int64_t kLargestLatticePx = 4'000'000;  // [px] of the shrunk page: bounds the time
 constexpr int kStationPx = 16;                         // [px] between the points of a course
-constexpr double kMostMisfit = 0.75;                   // [grid] drawn lines are less even
+// Of the columns of a strip. Printed lines go on, unlike grain and most hatching; where few of them do, all count.
+constexpr std::array<double, 2> kLeastInked = {0.7, 0.0};
+constexpr std::size_t kMostMargins = 2;    // more straight lines are no margins but drawn
+constexpr double kMostMisfit = 0.75;       // [grid] drawn lines are less even
+constexpr double kMostMisfitShare = 0.02;  // of the spacing; likewise: crumpled paper bends print by less
 constexpr double kLeastLineSeen = 0.8,
                  kLeastLineSeenAlone = 0.7;             // of the lines; the latter where hardly any others are
 constexpr double kLeastCoverage = 0.7;                  // of the stretches of the lines that are seen
 constexpr double kAlone = 0.4, kLeastSelective = 0.25;  // of the thin lines over the ruling that belong to it
 constexpr double kLeastInk = 0.8;                       // of the length of the lines: they go on
+constexpr int kLeastRun = 3;                            // strips of a page that lies beside others
+constexpr double kMostlyInked = 0.5;                    // of the lines, in a column they run through
+constexpr double kEdgeShare = 0.1;                      // of a lattice: there lines have the direction they end with
 constexpr double kMostWidth = 0.3;                      // of the spacing
 constexpr double kDarkCoverage = 0.85;                  // asked of dark lines that make no grid
 constexpr int kDarkLines = 12;                          // likewise
@@ -54,7 +63,7 @@ LineLook lookOf(const Plane& grey, const RulingLattice& lattice) {
   for (std::size_t i = 0; i < lattice.isSeen.size(); ++i) {
     if (!lattice.isSeen[i]) continue;
     for (int p = 0; p < kPlaces; ++p) {
-      const double x = (p + 0.5) / kPlaces * grey.width;
+      const double x = lattice.fromX + (p + 0.5) / kPlaces * (lattice.toX() - lattice.fromX);
       const int column = static_cast<int>(x),
                 row = static_cast<int>(lattice.at(lattice.first + static_cast<double>(i), x));
       if (row < reach || row + reach >= grey.height) continue;
@@ -79,13 +88,14 @@ LineLook lookOf(const Plane& grey, const RulingLattice& lattice) {
 struct FoundLattice {
   RulingLattice lattice;
   LineLook look;
+  int fromX = 0, toX = 0;  ///< [grid] Columns that its lines run through.
 };
 
 std::optional<FoundLattice> judged(const Plane& grey, RulingLattice lattice, const RunContext& context) {
-  FoundLattice found{std::move(lattice), {}};
+  FoundLattice found{std::move(lattice), {}, 0, grey.width};
   const RulingLattice& l = found.lattice;
   found.look = lookOf(grey, l);
-  const bool isEven = l.misfit <= kMostMisfit;
+  const bool isEven = l.misfit <= std::max(kMostMisfit, kMostMisfitShare * l.spacing);
   const bool isThin = found.look.width <= std::max(2.0, kMostWidth * l.spacing);
   if (!isEven || !isThin || found.look.depth < kLeastRulingDepth) return std::nullopt;
   if (l.seen < (l.selective >= kAlone ? kLeastLineSeenAlone : kLeastLineSeen) || l.coverage < kLeastCoverage ||
@@ -93,6 +103,46 @@ std::optional<FoundLattice> judged(const Plane& grey, RulingLattice lattice, con
     return std::nullopt;
   if (inkAlongLines(grey, l, context) < kLeastInk) return std::nullopt;  // letters, dots or crossings in rows
   return found;
+}
+
+/// A lattice of the lines along x of a plane, if it is a ruling. `isHopeful` becomes true where there is one at all.
+/// @param planeOf makes the plane, which is needed only there.
+template <class PlaneOf>
+std::optional<FoundLattice> latticeOf(const RulingStretches& found, PlaneOf& planeOf, bool& isHopeful,
+                                      const RunContext& context) {
+  for (const double share : kLeastInked) {
+    if (context.isCancelled()) break;
+    auto lattice = findRulingLattice(found.inkedAtLeast(share), context);
+    if (!lattice) continue;
+    isHopeful = true;
+    if (auto passed = judged(planeOf(), std::move(*lattice), context)) return passed;
+  }
+  return std::nullopt;
+}
+
+/// The ruling of the lines along x of a plane, or those of the pages side by side on it: each in strips of its own, in
+/// most of them together.
+template <class PlaneOf>
+std::vector<FoundLattice> latticesOf(const RulingStretches& found, PlaneOf planeOf, const RunContext& context) {
+  bool isHopeful = false;
+  std::vector<FoundLattice> lattices;
+  if (auto whole = latticeOf(found, planeOf, isHopeful, context)) lattices.push_back(std::move(*whole));
+  if (!lattices.empty() || !isHopeful) return lattices;
+  const int strips = static_cast<int>(found.strips.size());
+  std::vector<bool> isTaken(strips, false);
+  for (int count = strips - 1; count >= kLeastRun; --count) {
+    for (int first = 0; first + count <= strips; ++first) {
+      const auto run = std::ranges::subrange(isTaken.begin() + first, isTaken.begin() + first + count);
+      if (context.isCancelled()) return {};
+      if (std::ranges::find(run, true) != run.end()) continue;
+      auto part = latticeOf(found.inStrips(first, count), planeOf, isHopeful, context);
+      if (!part || part->look.depth > kDarkRuling) continue;
+      std::fill_n(isTaken.begin() + first, count, true);
+      lattices.push_back(std::move(*part));
+    }
+  }
+  if (static_cast<double>(std::ranges::count(isTaken, true)) < kLeastCoverage * strips) lattices.clear();
+  return lattices;
 }
 
 /// Share of the seen lines that hold ink at a side of the page.
@@ -146,10 +196,50 @@ bool isComb(const Plane& grey, const FoundLattice& found) {
 }
 
 /// Dark lines are a drawing unless they make a grid or fill the page without a gap.
-bool isPrinted(const Plane& grey, const FoundLattice& found, const std::optional<FoundLattice>& across) {
-  if (found.look.depth <= kDarkRuling || across) return true;
+bool isPrinted(const Plane& grey, const FoundLattice& found, bool isGrid) {
+  if (found.look.depth <= kDarkRuling || isGrid) return true;
   if (isComb(grey, found)) return false;
   return found.lattice.coverage >= kDarkCoverage && std::ssize(found.lattice.isSeen) >= kDarkLines;
+}
+
+/// Where a line runs, also beyond its lattice: straight on.
+double courseAt(const RulingLattice& lattice, double k, double x) {
+  const double edge = std::clamp(x, lattice.fromX, lattice.toX());
+  if (edge == x) return lattice.at(k, x);
+  const double within = kEdgeShare * (lattice.toX() - lattice.fromX) * (x < edge ? 1.0 : -1.0);
+  const double here = lattice.at(k, edge);
+  return here + (lattice.at(k, edge + within) - here) / within * (x - edge);
+}
+
+/// Share of the seen lines that hold ink in a column.
+double shareInked(const Plane& grey, const FoundLattice& found, int x) {
+  const RulingLattice& l = found.lattice;
+  const int half = std::max(2, static_cast<int>(0.5 * l.spacing));
+  int seen = 0, inked = 0;
+  for (std::size_t i = 0; i < l.isSeen.size(); ++i) {
+    const auto middle = static_cast<int>(courseAt(l, l.first + static_cast<double>(i), x + 0.5));
+    if (!l.isSeen[i] || middle - half < 0 || middle + half >= grey.height) continue;
+    std::vector<float> levels;
+    for (int y = middle - half; y <= middle + half; ++y) levels.push_back(grey.row(y)[x]);
+    const float darkest = std::min({levels[half - 1], levels[half], levels[half + 1]});
+    ++seen;
+    inked += static_cast<double>(darkest) < (1.0 - 0.5 * found.look.depth) * static_cast<double>(upperMedian(levels));
+  }
+  return seen > 0 ? inked / static_cast<double>(seen) : 0.0;
+}
+
+/// Where the lines of a part of the page end, sought from the last of its strips towards its border or the next part.
+int endOf(const Plane& grey, const FoundLattice& found, int from, int limit) {
+  const int direction = limit < from ? -1 : 1;
+  double sum = 0.0, best = 0.0;
+  int end = from;
+  for (int x = from; x != limit; x += direction) {
+    sum += shareInked(grey, found, direction > 0 ? x : x - 1) - kMostlyInked;
+    if (sum <= best) continue;
+    best = sum;
+    end = x + direction;
+  }
+  return end;
 }
 
 RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDown, int shrink) {
@@ -164,7 +254,7 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   const double least = -1.0, most = grey.height + 1.0;
   const auto isOnPage = [&](int k) {
     for (int i = 0; i <= kPlacesAcross; ++i) {
-      const double y = lattice.at(k, static_cast<double>(i) * grey.width / kPlacesAcross);
+      const double y = lattice.at(k, lattice.fromX + i * (lattice.toX() - lattice.fromX) / kPlacesAcross);
       if (y > least && y < most) return true;
     }
     return false;
@@ -173,13 +263,14 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   const int more = first < last ? 3 : 0;  // a margin has no neighbours
   while (lattice.first - first < more && isOnPage(first - 1)) --first;
   while (last - lattice.last < more && isOnPage(last + 1)) ++last;
-  const double length = static_cast<double>(grey.width) * shrink;
+  const double from = static_cast<double>(found.fromX) * shrink,
+               length = static_cast<double>(found.toX) * shrink - from;
   const int stations = static_cast<int>(std::ceil(length / kStationPx)) + 1;
   for (int k = first; k <= last; ++k) {
     RulingLine line;
     for (int i = 0; i < stations; ++i) {
-      const double x = std::min(length, static_cast<double>(i) * kStationPx);
-      const double y = lattice.at(k, x / shrink) * shrink;
+      const double x = from + std::min(length, static_cast<double>(i) * kStationPx);
+      const double y = courseAt(lattice, k, x / shrink) * shrink;
       line.coursePx.push_back(runsDown ? Vec2(y, x) : Vec2(x, y));
     }
     family.lines.push_back(std::move(line));
@@ -187,10 +278,26 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   return family;
 }
 
+/// The lines of the lattices of one direction. Those of a part of the page end where their ink does.
+void addFamilies(std::vector<FoundLattice>& lattices, const Plane& grey, bool runsDown, bool isGrid, int shrink,
+                 std::vector<RulingFamily>& families) {
+  std::ranges::sort(lattices, {}, [](const FoundLattice& found) { return found.lattice.fromX; });
+  for (std::size_t i = 0; i < lattices.size(); ++i) {
+    FoundLattice& found = lattices[i];
+    if (!isPrinted(grey, found, isGrid)) continue;
+    const auto columnOf = [&](double x) { return std::clamp(static_cast<int>(std::lround(x)), 0, grey.width); };
+    const int before = i == 0 ? 0 : columnOf(lattices[i - 1].lattice.toX());
+    const int after = i + 1 == lattices.size() ? grey.width : columnOf(lattices[i + 1].lattice.fromX);
+    found.fromX = endOf(grey, found, columnOf(found.lattice.fromX), before);
+    found.toX = endOf(grey, found, columnOf(found.lattice.toX()), after);
+    families.push_back(familyOf(found, grey, runsDown, shrink));
+  }
+}
+
 /// A line across ruled ones that is their margin: thin, whole, from border to border, and no darker than a ruling.
 std::optional<FoundLattice> judgedMargin(const Plane& along, const RulingLattice& line, double depthOfRuling,
                                          const RunContext& context) {
-  FoundLattice found{line, lookOf(along, line)};
+  FoundLattice found{line, lookOf(along, line), 0, along.width};
   const LineLook& look = found.look;
   if (look.width > std::max(2.0, kMostWidth * line.spacing) || look.depth < kLeastRulingDepth) return std::nullopt;
   if (look.depth > std::max(kDarkRuling, depthOfRuling)) return std::nullopt;  // drawn with a pen
@@ -207,31 +314,36 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
   while (static_cast<std::int64_t>(image.width / shrink) * (image.height / shrink) > kLargestLatticePx) ++shrink;
   const Plane across = shrinkGrey(image, shrink, context);
   if (context.isCancelled()) return {};
-  std::optional<FoundLattice> rows, columns;
   const RulingStretches ofRows = findRulingStretches({across, false}, context);
-  if (auto lattice = findRulingLattice(ofRows, context)) rows = judged(across, std::move(*lattice), context);
+  std::vector<FoundLattice> rows = latticesOf(
+      ofRows, [&]() -> const Plane& { return across; }, context);
   if (context.isCancelled()) return {};
   Plane down;  // few pages have lines that run down, and only they need it
   const RulingStretches ofColumns = findRulingStretches({across, true}, context);
-  if (auto lattice = findRulingLattice(ofColumns, context)) {
-    down = mirrored(across, context);
-    columns = judged(down, std::move(*lattice), context);
-  }
+  std::vector<FoundLattice> columns = latticesOf(
+      ofColumns,
+      [&]() -> const Plane& {
+        if (down.width == 0) down = mirrored(across, context);
+        return down;
+      },
+      context);
   std::vector<RulingFamily> families;
   if (context.isCancelled()) return families;
-  if (rows && isPrinted(across, *rows, columns)) families.push_back(familyOf(*rows, across, false, shrink));
-  if (columns && isPrinted(down, *columns, rows)) families.push_back(familyOf(*columns, down, true, shrink));
+  addFamilies(rows, across, false, !columns.empty(), shrink, families);
+  addFamilies(columns, down, true, !rows.empty(), shrink, families);
   if (families.size() == 1) {
     const bool runsDown = families.front().runsDown;
     const double depth = families.front().depth;
     const auto lines = findMarginLines({across, !runsDown}, runsDown ? ofRows : ofColumns,
-                                       (runsDown ? columns : rows)->lattice.spacing, context);
+                                       (runsDown ? columns : rows).front().lattice.spacing, context);
     if (!lines.empty() && !runsDown && down.width == 0) down = mirrored(across, context);
     const Plane& along = runsDown ? across : down;
+    std::vector<RulingFamily> margins;
     for (const RulingLattice& line : lines) {
       if (auto margin = judgedMargin(along, line, depth, context))
-        families.push_back(familyOf(*margin, along, !runsDown, shrink));
+        margins.push_back(familyOf(*margin, along, !runsDown, shrink));
     }
+    if (margins.size() <= kMostMargins) std::ranges::move(margins, std::back_inserter(families));
   }
   if (context.isCancelled()) families.clear();
   return families;

@@ -17,7 +17,6 @@ constexpr double kFarthestMargin = 0.3;    // of the plane, from its side
 constexpr double kMostBend = 0.02;         // of its length: a ruled line on paper that curls
 constexpr double kLeastSeen = 0.85;        // of the steps along it
 constexpr double kMostMarginMisfit = 2.5;  // [grid] of nine in ten places, off a cubic: paper bends, pens tremble
-constexpr std::size_t kMostMargins = 2;    // more straight lines are no margins but drawn
 constexpr int kStep = 4;                   // [grid] along the line
 constexpr int kLookFor = 3;                // [grid] to either side of where it is expected
 constexpr int kPaperBeside = 7;            // [grid] to either side: paper shows within
@@ -111,6 +110,14 @@ class MarginTrack {
   std::vector<double> xs_, ys_;
 };
 
+/// Whether a line runs where one of the others does.
+bool isAmong(const std::vector<RulingLattice>& others, const RulingLattice& line) {
+  return std::ranges::any_of(others, [&](const RulingLattice& other) {
+    const auto isSame = [&](double x) { return std::fabs(other.at(0.0, x) - line.at(0.0, x)) <= kLookFor; };
+    return isSame(0.5 * line.halfWidth) && isSame(1.5 * line.halfWidth);
+  });
+}
+
 }  // namespace
 
 std::vector<RulingLattice> findMarginLines(const PlaneView& grey, const RulingStretches& found, double spacing,
@@ -118,9 +125,9 @@ std::vector<RulingLattice> findMarginLines(const PlaneView& grey, const RulingSt
   std::vector<RulingLattice> margins;
   for (std::size_t strip = 0; strip < found.strips.size(); ++strip) {
     const double x = (static_cast<double>(strip) + 0.5) * found.stripWidth;
-    for (const double place : found.strips[strip]) {
+    for (const RulingStretch& stretch : found.strips[strip]) {
       if (context.isCancelled()) return {};
-      const double y = place + found.slope * x;
+      const double y = stretch.place + found.slope * x;
       if (std::min(y, found.height - y) > kFarthestMargin * found.height) continue;
       const bool isKnown = std::ranges::any_of(
           margins, [&](const RulingLattice& line) { return std::fabs(line.at(0.0, x) - y) <= kPaperBeside; });
@@ -136,10 +143,10 @@ std::vector<RulingLattice> findMarginLines(const PlaneView& grey, const RulingSt
       const auto isBesideSide = [&](double at) {
         return std::min(at, found.height - at) <= kFarthestMargin * found.height;
       };
-      if (isBesideSide(line.at(0.0, 0.0)) && isBesideSide(line.at(0.0, found.width))) margins.push_back(line);
+      if (isBesideSide(line.at(0.0, 0.0)) && isBesideSide(line.at(0.0, found.width)) && !isAmong(margins, line))
+        margins.push_back(line);
     }
   }
-  if (margins.size() > kMostMargins) margins.clear();
   return margins;
 }
 

@@ -10,7 +10,7 @@
 namespace batten {
 
 /// Lines that may be the margin of ruled paper, each as a lattice of one line: they run along x through the whole
-/// plane, nearly straight, in the outer three tenths. None where there are more than two of them.
+/// plane, nearly straight, in the outer three tenths.
 /// @param found the stretches of the plane. @param spacing [grid] of the ruled lines across them.
 std::vector<RulingLattice> findMarginLines(const PlaneView& grey, const RulingStretches& found, double spacing,
                                            const RunContext& context);

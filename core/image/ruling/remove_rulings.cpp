@@ -13,6 +13,7 @@ namespace batten {
 namespace {
 
 constexpr int kBlockPx = 32;              // [px] along a line: one paper level, one place and one profile
+constexpr int kSampledBlocks = 3;         // one in so many tells noise and spread
 constexpr int kProfileBlocks = 2;         // to either side, for the profile of a line
 constexpr int kBinsPerPx = 2;             // of the profile across a line
 constexpr double kLeastOfColumns = 0.15;  // that must meet a place of a profile
@@ -25,7 +26,7 @@ constexpr double kLeastDepthSeen = 0.01;  // of the paper: a fainter line is lef
 constexpr double kPresence = 0.35;        // of the line's depth: fainter stretches are gaps
 constexpr double kSolidLight = 0.35;      // less light comes through a dark line: what is over it cannot be told
 constexpr double kSnapShare = 0.35;       // of the depth: what is left of a line after it is divided out
-constexpr double kSnapPerNoise = 2.5;     // standard deviations of the paper
+constexpr double kSnapPerNoise = 2.5;     // standard deviations of the paper, or of what is left of the line
 constexpr double kLeastStroke = 0.12;     // of the paper's light: what a stroke across takes at least
 // Of what the whole line takes of the light, and of the light: a stretch takes no more.
 constexpr double kMostOfWhole = 1.35, kMostBesides = 0.02;
@@ -50,19 +51,21 @@ class RulingEraser {
     reach_ = std::max(2, static_cast<int>(limit));
     rim_ =
         std::min(static_cast<double>(reach_) - 1.0, std::max(0.5 * family.widthPx + 1.5, kRimShare * family.spacingPx));
+    const auto place = [&](std::size_t i) {
+      const Vec2& p = line.coursePx[i];
+      return family.runsDown ? Vec2(p.y(), p.x()) : p;
+    };
     course_.resize(image.width);
     std::size_t at = 0;
     for (int x = 0; x < image.width; ++x) {
-      const auto place = [&](std::size_t i) {
-        const Vec2& p = line.coursePx[i];
-        return family.runsDown ? Vec2(p.y(), p.x()) : p;
-      };
       while (at + 2 < line.coursePx.size() && place(at + 1).x() < x + 0.5) ++at;
       const Vec2 a = place(at), b = place(std::min(at + 1, line.coursePx.size() - 1));
       const double share = b.x() > a.x() ? (x + 0.5 - a.x()) / (b.x() - a.x()) : 0.0;
       course_[x] = a.y() + share * (b.y() - a.y());
     }
-    blocks_ = std::max(1, image.width / kBlockPx);
+    from_ = std::clamp(static_cast<int>(std::lround(place(0).x())), 0, image.width - 1);
+    to_ = std::clamp(static_cast<int>(std::lround(place(line.coursePx.size() - 1).x())), from_ + 1, image.width);
+    blocks_ = std::max(1, (to_ - from_) / kBlockPx);
   }
 
   void erase() {
@@ -76,13 +79,15 @@ class RulingEraser {
     isSolid_ = 1.0 - depth_ < kSolidLight;
     std::vector<std::vector<double>> profiles;  // all before the first pixel changes
     for (int b = 0; b < blocks_; ++b)
-      profiles.push_back(profileOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1)));
+      profiles.push_back(
+          ofLineAlone(profileOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1))));
+    measureSpread(profiles);
     for (int b = 0; b < blocks_; ++b) eraseBlock(b, profiles[b]);
   }
 
  private:
-  int begin(int block) const { return block * kBlockPx; }
-  int end(int block) const { return block + 1 == blocks_ ? image_.width : (block + 1) * kBlockPx; }
+  int begin(int block) const { return from_ + block * kBlockPx; }
+  int end(int block) const { return block + 1 == blocks_ ? to_ : from_ + (block + 1) * kBlockPx; }
   int bins() const { return 2 * kBinsPerPx * reach_ + 1; }
 
   /// Calls f(x, y, offset of the pixel's centre from the line) for the pixels of a strip.
@@ -144,7 +149,7 @@ class RulingEraser {
 
   /// Values at the blocks' middles, linear between them.
   double atBlocks(const std::vector<double>& values, int x) const {
-    const double place = (x + 0.5) / kBlockPx - 0.5;
+    const double place = (x - from_ + 0.5) / kBlockPx - 0.5;
     const double low = std::clamp(std::floor(place), 0.0, static_cast<double>(values.size() - 1));
     const int i = static_cast<int>(low), j = std::min(i + 1, static_cast<int>(values.size()) - 1);
     return values[i] + std::clamp(place - low, 0.0, 1.0) * (values[j] - values[i]);
@@ -160,7 +165,7 @@ class RulingEraser {
       const double level = levels.empty() ? 0.0 : static_cast<double>(lowerQuantile(levels, kPaperRank));
       paper_.push_back(level > 1.0 ? level : paper_.empty() ? 65535.0 : paper_.back());
     }
-    for (int b = 0; b < blocks_; b += 3) {
+    for (int b = 0; b < blocks_; b += kSampledBlocks) {
       forStrip(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
         if (std::fabs(offset) >= rim_) noise_.push_back(lightAt(x, y) - 1.0);
       });
@@ -269,24 +274,46 @@ class RulingEraser {
     return most;
   }
 
-  void eraseBlock(int block, std::vector<double>& profile) {
-    const auto [nearFrom, nearTo] = middleOf(profile);
-    const double depthHere = 1.0 - *std::min_element(nearFrom, nearTo);
-    if (!isSolid_ && depthHere < kPresence * depth_) return;
-    // A stroke that runs along the line is no part of it.
+  /// A stroke that runs along the line is no part of it.
+  std::vector<double> ofLineAlone(std::vector<double> profile) const {
     for (std::size_t i = 0; i < profile.size(); ++i)
       profile[i] = std::max({profile[i], 1.0 - kMostOfWhole * (1.0 - whole_[i]) - kMostBesides, 0.0});
-    const double leastStroke = std::max(kLeastStroke, 3.0 * noiseLevel_);
-    const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
+    return profile;
+  }
+
+  double leastStroke() const { return std::max(kLeastStroke, 3.0 * noiseLevel_); }
+
+  bool isGap(const std::vector<double>& profile) const {
+    const auto [nearFrom, nearTo] = middleOf(profile);
+    return !isSolid_ && 1.0 - *std::min_element(nearFrom, nearTo) < kPresence * depth_;
+  }
+
+  /// How much the line itself varies: what is left of it, once divided out, where no stroke crosses it.
+  void measureSpread(const std::vector<std::vector<double>>& profiles) {
+    if (isSolid_ || depth_ < kLeastStroke) return;  // what a paler line leaves is no stroke
+    std::vector<double> left;
+    for (int b = 0; b < blocks_; b += kSampledBlocks) {
+      if (isGap(profiles[b])) continue;
+      forStrip(begin(b), end(b), low_ + 1.0, high_ - 1.0, [&](int x, int y, double offset) {
+        if (strokeAt(x, offset) <= leastStroke())
+          left.push_back(lightAt(x, y) / std::max(kSolidLight, at(profiles[b], offset)));
+      });
+    }
+    if (!left.empty()) spread_ = robustSigma(left);
+  }
+
+  void eraseBlock(int block, const std::vector<double>& profile) {
+    if (isGap(profile)) return;
+    const double snap = std::max(kSnapPerNoise * std::max(noiseLevel_, spread_), kSnapShare * depth_);
     forStrip(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
       const double paper = atBlocks(paper_, x), light = image_.row(y)[x] / paper;
       const double stroke = strokeAt(x, offset);
       double left = 1.0;
       if (isSolid_) {
-        if (stroke > leastStroke) left = std::max(light, 1.0 - stroke);
+        if (stroke > leastStroke()) left = std::max(light, 1.0 - stroke);
       } else {
         left = std::min(1.0, light / std::max(kSolidLight, at(profile, offset)));
-        if (1.0 - left <= snap && stroke <= leastStroke) left = 1.0;
+        if (1.0 - left <= snap && stroke <= leastStroke()) left = 1.0;
       }
       if (left > light) image_.row(y)[x] = static_cast<std::uint16_t>(std::clamp(left * paper, 0.0, 65535.0));
     });
@@ -294,12 +321,14 @@ class RulingEraser {
 
   GreyImage& image_;
   const RulingFamily& family_;
+  int from_ = 0, to_ = 1;  ///< [px] Columns that the line runs through.
   int reach_ = 2, blocks_ = 1;
   double rim_ = 1.0;
   std::vector<double> course_;  ///< [px] The line's middle at every column.
   std::vector<double> paper_;   ///< [0..65535] per block.
   std::vector<double> noise_, whole_, above_, below_;
   double noiseLevel_ = 0.0, depth_ = 0.0;
+  double spread_ = 0.0;            ///< Standard deviation of what is left of the line.
   double low_ = 0.0, high_ = 0.0;  ///< [px] What the line covers, from its middle.
   bool isSolid_ = false;
 };

@@ -104,14 +104,16 @@ class StretchInk {
 
 double inkAlongLines(const Plane& grey, const RulingLattice& lattice, const RunContext& context) {
   const int length = std::max(kShortestStretch, static_cast<int>(std::ceil(kStretchSpacings * lattice.spacing)));
-  const int perLine = std::max(1, grey.width / length);
+  const int begin = static_cast<int>(std::lround(lattice.fromX)),
+            end = std::min(grey.width, static_cast<int>(std::lround(lattice.toX())));
+  const int perLine = std::max(1, (end - begin) / length);
   const int lines = static_cast<int>(std::ssize(lattice.isSeen));
   const double noise = paperNoise(grey);
   std::vector<std::vector<double>> ofLine(lines);
   parallelFor(context, lines, 1, [&](int i, int) {
     if (!lattice.isSeen[i]) return;
     for (int s = 0; s < perLine && !context.isCancelled(); ++s) {
-      const Stretch stretch{s * length, std::min(grey.width, (s + 1) * length)};
+      const Stretch stretch{begin + s * length, std::min(end, begin + (s + 1) * length)};
       const double share = StretchInk(grey, noise, lattice, lattice.first + i, stretch).share();
       if (share > kAbsent) ofLine[i].push_back(share);
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -19,11 +20,12 @@ constexpr int kLeastLines = 5;             // of a ruling
 constexpr int kMostMissing = 3;            // lines between two that are seen
 constexpr double kChainReach = 0.2;        // of the spacing: where the next line is looked for
 constexpr double kLatticeReach = 0.18;     // of the spacing: how far a stretch may lie off its line
-constexpr double kLeastReach = 1.2;        // [grid]
-constexpr double kPrintReach = 2.5;        // [grid] printed lines lie nearer to the lattice
-constexpr double kLeastOfLine = 0.5;       // of the strips: a line is seen
-constexpr double kPairReach = 0.04;        // of the spacing: half width of what counts as one distance
-constexpr double kAlmostBest = 0.6;  // of the pairs at the best spacing: a smaller one that has so many is the line's
+constexpr double kFollowReach = 0.25;  // of the spacing: how far a line may lie off its direction, a strip farther on
+constexpr double kLeastReach = 1.2;    // [grid]
+constexpr double kPrintReach = 2.5;    // [grid] printed lines lie nearer to the lattice
+constexpr double kLeastOfLine = 0.5;   // of the strips: a line is seen
+constexpr double kPairReach = 0.04;    // of the spacing: half width of what counts as one distance
+constexpr double kAlmostBest = 0.6;    // of the pairs at the best spacing: a smaller one that has so many is the line's
 constexpr double kRefineReach = 0.75, kRefineStep = 0.05;  // [grid] the spacing is sought finer than whole numbers
 constexpr double kStepLearned = 0.15;                      // of what one line of a chain says of the step to the next
 constexpr double kLeastStepShare = 0.3,
@@ -35,11 +37,22 @@ constexpr int kNewtonRounds = 6;        // limits the steps of Newton
 constexpr double kFreeTerm = 1e-6, kBendingTerm = 2e-3, kHeldTerm = 1e9;
 constexpr int kMatchRounds = 4;  // of matching lines to the lattice
 
-using Terms = Eigen::Matrix<double, 10, 1>;
+constexpr int kTerms = RulingLattice::kTerms, kCubicTerms = 10;
+using Terms = Eigen::Matrix<double, kTerms, 1>;
 
+/// Perspective and curl bend lines along x; across them spacing changes little. The first ten are a cubic.
 Terms termsOf(double k, double x) {
-  return (Terms() << 1.0, k, x, k * k, k * x, x * x, k * k * k, k * k * x, k * x * x, x * x * x).finished();
+  const double kk = k * k, xx = x * x;
+  return (Terms() << 1.0, k, x, kk, k * x, xx, kk * k, kk * x, k * xx, xx * x,  //
+          xx * xx, xx * xx * x, k * xx * x, k * xx * xx, kk * xx, kk * xx * x, kk * k * x, kk * k * xx)
+      .finished();
 }
+
+/// Where a line is expected in a strip.
+struct Expected {
+  int line = 0;
+  double place = 0.0;
+};
 
 struct Member {
   int strip = 0, line = 0;
@@ -52,9 +65,10 @@ double pairsAt(const RulingStretches& found, double spacing) {
   const double reach = std::max(kLeastReach, kPairReach * spacing);
   for (const auto& strip : found.strips) {
     for (std::size_t i = 0, j = 0; i < strip.size(); ++i) {
-      while (j < strip.size() && strip[j] < strip[i] + spacing - reach) ++j;
-      for (std::size_t m = j; m < strip.size() && strip[m] <= strip[i] + spacing + reach; ++m)
-        sum += 1.0 - std::fabs(strip[m] - strip[i] - spacing) / (reach + 1e-9);
+      const double next = strip[i].place + spacing;
+      while (j < strip.size() && strip[j].place < next - reach) ++j;
+      for (std::size_t m = j; m < strip.size() && strip[m].place <= next + reach; ++m)
+        sum += 1.0 - std::fabs(strip[m].place - next) / (reach + 1e-9);
     }
   }
   return sum;
@@ -87,21 +101,21 @@ double commonSpacing(const RulingStretches& found, double height, const RunConte
 }
 
 /// The longest run of equally spaced stretches in one strip, as (line number from 0, place).
-std::vector<std::pair<int, double>> longestChain(const std::vector<double>& places, double spacing) {
+std::vector<std::pair<int, double>> longestChain(const std::vector<RulingStretch>& stretches, double spacing) {
   std::vector<std::pair<int, double>> best;
-  for (std::size_t start = 0; start < places.size(); ++start) {
-    std::vector<std::pair<int, double>> chain{{0, places[start]}};
+  for (std::size_t start = 0; start < stretches.size(); ++start) {
+    std::vector<std::pair<int, double>> chain{{0, stretches[start].place}};
     double step = spacing;
-    for (std::size_t i = start + 1; i < places.size(); ++i) {
-      const double away = places[i] - chain.back().second;
+    for (std::size_t i = start + 1; i < stretches.size(); ++i) {
+      const double away = stretches[i].place - chain.back().second;
       const double lines = std::round(away / step);
       if (lines > kMostMissing + 1) break;
       if (lines < 1.0 || std::fabs(away - lines * step) > std::max(kLeastReach, kChainReach * spacing)) continue;
-      chain.emplace_back(chain.back().first + static_cast<int>(lines), places[i]);
+      chain.emplace_back(chain.back().first + static_cast<int>(lines), stretches[i].place);
       step += kStepLearned * (away / lines - step);
     }
     if (chain.size() > best.size()) best = std::move(chain);
-    if (best.size() + start >= places.size()) break;
+    if (best.size() + start >= stretches.size()) break;
   }
   return best;
 }
@@ -123,34 +137,53 @@ class LatticeFit {
     }
     if (std::ssize(chain) < kLeastLines) return std::nullopt;
     lattice_.slope = found_.slope;
-    lattice_.halfWidth = 0.5 * found_.width;
+    lattice_.fromX = found_.fromX;
+    lattice_.halfWidth = 0.5 * found_.stripWidth * static_cast<double>(found_.strips.size());
     lattice_.middle = 0.5 * chain.back().first;
     lattice_.reach = std::max(1.0, lattice_.middle);
     for (const auto& [line, y] : chain) members_.push_back({static_cast<int>(seed), line, xOf(seed), y});
-    fit(2);
     grow(static_cast<int>(seed));
+    fit(kCubicTerms);
     for (int round = 0; round < kMatchRounds; ++round) {
       if (context_.isCancelled()) return std::nullopt;
       matchAll(round + 1 == kMatchRounds);
       if (std::ssize(members_) < kLeastLines) return std::nullopt;
-      fit(10);
+      fit(round == 0 ? kCubicTerms : kTerms);
     }
     return judged();
   }
 
  private:
-  double xOf(std::size_t strip) const { return (static_cast<double>(strip) + 0.5) * found_.stripWidth; }
+  double xOf(std::size_t strip) const { return found_.middleOf(strip); }
   double reach() const { return std::max(kLeastReach, kLatticeReach * spacing_); }
 
-  /// Strip by strip outwards from the seed, so that a bend is followed.
+  /// Follows the lines of the seed strip by strip, in the direction they have there, so that a bend is followed.
   void grow(int seed) {
-    const int strips = static_cast<int>(found_.strips.size());
-    for (int away = 1; away < strips && !context_.isCancelled(); ++away) {
-      for (const int s : {seed - away, seed + away}) {
-        if (s < 0 || s >= strips) continue;
-        match(s, 0.25);
+    std::vector<Expected> lines;
+    for (const Member& m : members_) {
+      for (int k = lines.empty() ? m.line : lines.back().line + 1; k <= m.line; ++k) {
+        const double share = lines.empty() ? 1.0 : 1.0 / (m.line - k + 1);
+        lines.push_back({k, lines.empty() ? m.y : lines.back().place + share * (m.y - lines.back().place)});
       }
-      fit(away < 2 ? 3 : 10);
+    }
+    for (const int direction : {-1, 1}) follow(seed, direction, lines);
+  }
+
+  /// Lines that are hidden in a strip go on beyond it.
+  void follow(int from, int direction, std::vector<Expected> lines) {
+    const int strips = static_cast<int>(found_.strips.size());
+    for (int s = from + direction; s >= 0 && s < strips && !context_.isCancelled(); s += direction) {
+      const auto& strip = found_.strips[s];
+      for (Expected& line : lines) {
+        const double half = 0.5 * direction * found_.stripWidth;
+        line.place += half * (found_.slopeAt(s - direction, line.place) - found_.slope);
+        line.place += half * (found_.slopeAt(s, line.place) - found_.slope);
+        const auto away = [&](const RulingStretch& stretch) { return std::fabs(stretch.place - line.place); };
+        const auto nearest = std::ranges::min_element(strip, {}, away);
+        if (nearest == strip.end() || away(*nearest) > std::max(kLeastReach, kFollowReach * spacing_)) continue;
+        line.place = nearest->place;
+        members_.push_back({s, line.line, xOf(s), line.place});
+      }
     }
   }
 
@@ -165,7 +198,7 @@ class LatticeFit {
   void match(int strip, double share) {
     const double x = xOf(strip);
     const std::size_t before = members_.size();
-    for (const double y : found_.strips[strip]) {
+    for (const double y : found_.strips[strip] | std::views::transform(&RulingStretch::place)) {
       const double k = std::round(lineAt(x, y));
       const double off = y - lattice_.at(k, x) + lattice_.slope * x;
       if (std::fabs(off) > std::max(kLeastReach, share * spacing_)) continue;
@@ -193,12 +226,13 @@ class LatticeFit {
 
   /// @param terms how many of the terms move; higher ones are held back so that few stretches do not bend the page.
   void fit(int terms) {
-    Eigen::Matrix<double, 10, 10> normal = Eigen::Matrix<double, 10, 10>::Zero();
+    Eigen::Matrix<double, kTerms, kTerms> normal = Eigen::Matrix<double, kTerms, kTerms>::Zero();
     Terms right = Terms::Zero();
     const auto count = static_cast<double>(members_.size());
-    for (int i = 0; i < 10; ++i) normal(i, i) = (i >= terms ? kHeldTerm : i < 3 ? kFreeTerm : kBendingTerm) * count;
+    for (int i = 0; i < kTerms; ++i) normal(i, i) = (i >= terms ? kHeldTerm : i < 3 ? kFreeTerm : kBendingTerm) * count;
     for (const Member& m : members_) {
-      const Terms t = termsOf((m.line - lattice_.middle) / lattice_.reach, m.x / lattice_.halfWidth - 1.0);
+      const Terms t =
+          termsOf((m.line - lattice_.middle) / lattice_.reach, (m.x - lattice_.fromX) / lattice_.halfWidth - 1.0);
       normal += t * t.transpose();
       right += m.y * t;
     }
@@ -232,14 +266,14 @@ class LatticeFit {
     }
     lattice_.seen = seen / static_cast<double>(to - from + 1);
     lattice_.coverage = stretches / (static_cast<double>(seen) * static_cast<double>(found_.strips.size()));
-    const double middle = lattice_.halfWidth;
+    const double middle = lattice_.fromX + lattice_.halfWidth;
     const double extent = lattice_.at(lattice_.last, middle) - lattice_.at(lattice_.first, middle);
     lattice_.spacing = extent / std::max(1, lattice_.last - lattice_.first);
     lattice_.misfit = upperMedian(off);
     // How many of the stretches over the lattice lie on its lines.
     std::size_t within = 0;
     for (std::size_t s = 0; s < found_.strips.size(); ++s) {
-      for (const double y : found_.strips[s]) {
+      for (const double y : found_.strips[s] | std::views::transform(&RulingStretch::place)) {
         const double k = lineAt(xOf(s), y);
         within += k > lattice_.first - 0.5 && k < lattice_.last + 0.5 ? 1 : 0;
       }
@@ -260,7 +294,7 @@ class LatticeFit {
 }  // namespace
 
 double RulingLattice::at(double k, double x) const {
-  const Terms t = termsOf((k - middle) / reach, x / halfWidth - 1.0);
+  const Terms t = termsOf((k - middle) / reach, (x - fromX) / halfWidth - 1.0);
   return Eigen::Map<const Terms>(coefficients.data()).dot(t) + slope * x;
 }
 

@@ -13,17 +13,19 @@ namespace batten {
 /// Equally spaced lines across a plane: line k runs along y = at(k, x). Slightly turned, bent and in perspective.
 struct RulingLattice {
   double slope = 0.0;
-  double halfWidth = 1.0;                 ///< [grid] x is centred and divided by it.
-  double middle = 0.0, reach = 1.0;       ///< k is centred and divided by these.
-  std::array<double, 10> coefficients{};  ///< Of a cubic in both.
-  int first = 0, last = 0;                ///< Lines seen, the outermost ones.
-  double spacing = 0.0;                   ///< [grid] mean.
+  double fromX = 0.0, halfWidth = 1.0;  ///< [grid] It runs from there on, twice as far; x is divided by it.
+  double middle = 0.0, reach = 1.0;     ///< k is centred and divided by these.
+  static constexpr int kTerms = 18;
+  std::array<double, kTerms> coefficients{};  ///< Of a polynomial of degree five, cubic in k.
+  int first = 0, last = 0;                    ///< Lines seen, the outermost ones.
+  double spacing = 0.0;                       ///< [grid] mean.
   double seen = 0.0;         ///< Share of the lines from first to last that are seen along most of the page.
   double coverage = 0.0;     ///< Share of the stretches of these lines that are seen.
   double selective = 0.0;    ///< Share of the stretches over the lattice that lie on its lines.
   double misfit = 0.0;       ///< [grid] median distance of the stretches from the lattice.
   std::vector<bool> isSeen;  ///< From first to last: line by line.
 
+  double toX() const { return fromX + 2.0 * halfWidth; }
   double at(double k, double x) const;
 };
 

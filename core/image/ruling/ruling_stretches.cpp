@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <span>
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
@@ -23,6 +24,8 @@ constexpr std::array<int, 2> kSides = {2, 5};  // [grid] where the paper beside 
 constexpr int kAlong = 2;                      // [grid] half the length over which grey is averaged along the lines
 constexpr float kLeastDepth = 2.0f;            // [grey]
 constexpr double kDepthPerNoise = 2.5;         // standard deviations of the grey across lines
+constexpr int kBands = 8;                      // across the lines of a strip, each with a slope of its own in a fan
+constexpr double kClearlyBetter = 1.1;         // than the common direction: a fan that is no accident of noise
 constexpr int kNoiseStride = 7;                // [px] between two samples of the page
 
 struct LinePixel {
@@ -155,10 +158,14 @@ std::array<std::vector<LinePixel>, kStrips> linePixels(const PlaneView& grey, co
   return pixels;
 }
 
-/// Counts of y - slope x in bins of 1, the first at -offset.
-void project(const std::vector<LinePixel>& pixels, double slope, double offset, std::vector<int>& bins) {
+double slopeIn(const RulingFan& fan, double y, double height) {
+  return std::clamp(fan.slope + fan.fan * (2.0 * y / height - 1.0), -kSteepest, kSteepest);
+}
+
+/// Counts of y - slope (x - middle) in bins of 1, the first at -offset.
+void project(std::span<const LinePixel> pixels, double slope, double middle, double offset, std::vector<int>& bins) {
   std::fill(bins.begin(), bins.end(), 0);
-  const auto tilt = static_cast<float>(slope), shift = static_cast<float>(offset);
+  const auto tilt = static_cast<float>(slope), shift = static_cast<float>(offset + slope * middle);
   for (const LinePixel& p : pixels) {
     const auto bin = static_cast<int>(p.y - tilt * p.x + shift);
     if (bin >= 0 && bin < std::ssize(bins)) ++bins[bin];
@@ -182,20 +189,82 @@ double scoreOf(const std::vector<int>& bins, float least) {
   return score;
 }
 
-/// Places where three bins together hold enough pixels, each at their centre of mass.
-std::vector<double> peaksOf(const std::vector<int>& bins, double least, double offset) {
+/// Places where three bins together hold enough pixels, each at their centre of mass, and with their count.
+std::vector<RulingStretch> peaksOf(const std::vector<int>& bins, double least, double offset) {
   constexpr double kNearest = 2.5;  // bins: two peaks that are nearer share one
-  std::vector<double> places;
+  std::vector<RulingStretch> peaks;
   const auto around = [&](std::size_t i) { return bins[i - 1] + bins[i] + bins[i + 1]; };
   for (std::size_t i = 2; i + 2 < bins.size(); ++i) {
     const double here = around(i);
     if (here < least || here < around(i - 1) || here <= around(i + 1)) continue;
     const double shift = static_cast<float>(bins[i + 1] - bins[i - 1]) / static_cast<float>(here);
     const double place = static_cast<double>(i) + 0.5 + shift - offset;
-    if (places.empty() || place - places.back() > kNearest) places.push_back(place);
+    if (peaks.empty() || place - peaks.back().place > kNearest) peaks.push_back({place, here});
   }
-  return places;
+  return peaks;
 }
+
+/// How well each slope suits the lines of each strip and band of a plane.
+class SlopeScores {
+ public:
+  SlopeScores(const std::array<std::vector<LinePixel>, kStrips>& pixels, const RulingStretches& plane,
+              const RunContext& context)
+      : steps_(static_cast<int>(std::ceil(kSteepest * plane.stripWidth / kShiftPerStep))),
+        scores_(kStrips * kBands, std::vector<double>(2 * steps_ + 1, 0.0)) {
+    const double least = kLeastOfStrip * plane.stripWidth, bandHeight = plane.height / kBands;
+    const double offset = 0.5 * kSteepest * plane.stripWidth + 2.0;
+    parallelFor(context, kStrips, 1, [&](int s, int) {
+      std::array<std::vector<LinePixel>, kBands> bands;
+      for (const LinePixel& p : pixels[s])
+        bands[std::clamp(static_cast<int>(p.y / bandHeight), 0, kBands - 1)].push_back(p);
+      std::vector<int> bins(static_cast<std::size_t>(bandHeight + 2.0 * offset) + 2);
+      for (int b = 0; b < kBands; ++b) {
+        for (int i = 0; i <= 2 * steps_ && !context.isCancelled(); ++i) {
+          project(bands[b], slopeOf(i), (s + 0.5) * plane.stripWidth, offset - b * bandHeight, bins);
+          scores_[s * kBands + b][i] = scoreOf(bins, static_cast<float>(least));
+        }
+      }
+    });
+    for (int i = 1; i <= 2 * steps_; ++i)
+      if (sumOf(0, kStrips * kBands, i) > sumOf(0, kStrips * kBands, common_)) common_ = i;
+  }
+
+  /// Whether there are lines at all.
+  bool hasLines() const { return sumOf(0, kStrips * kBands, common_) > 0.0; }
+  /// The slope that suits the whole plane.
+  double commonSlope() const { return slopeOf(common_); }
+
+  /// The lines of a strip: in the common direction, unless a fan suits them clearly better.
+  RulingFan fanOf(int strip) const {
+    RulingFan found{commonSlope(), 0.0};
+    double top = kClearlyBetter * sumOf(strip * kBands, (strip + 1) * kBands, common_);
+    for (int middle = 0; middle <= 2 * steps_; ++middle) {
+      for (int fan = -steps_; fan <= steps_; ++fan) {
+        double sum = 0.0;
+        for (int b = 0; b < kBands; ++b) {
+          const double v = (2.0 * b + 1.0) / kBands - 1.0;
+          const auto step = std::clamp(static_cast<int>(std::lround(middle + fan * v)), 0, 2 * steps_);
+          sum += scores_[strip * kBands + b][step];
+        }
+        if (sum <= top) continue;
+        top = sum;
+        found = {slopeOf(middle), kSteepest * fan / steps_};
+      }
+    }
+    return found;
+  }
+
+ private:
+  double slopeOf(int step) const { return kSteepest * (step - steps_) / steps_; }
+  double sumOf(int from, int to, int step) const {
+    double sum = 0.0;
+    for (int i = from; i < to; ++i) sum += scores_[i][step];
+    return sum;
+  }
+
+  int steps_, common_ = 0;
+  std::vector<std::vector<double>> scores_;  ///< Per strip and band, slope by slope.
+};
 
 }  // namespace
 
@@ -215,6 +284,24 @@ void PlaneView::copyRows(int first, int past, float* out) const {
   }
 }
 
+double RulingStretches::slopeAt(int strip, double place) const {
+  return slopeIn(fans[strip], place + slope * middleOf(strip), height);
+}
+
+RulingStretches RulingStretches::inStrips(int first, int count) const {
+  RulingStretches out = *this;
+  out.fromX += first * stripWidth;
+  out.strips.assign(strips.begin() + first, strips.begin() + first + count);
+  out.fans.assign(fans.begin() + first, fans.begin() + first + count);
+  return out;
+}
+
+RulingStretches RulingStretches::inkedAtLeast(double share) const {
+  RulingStretches out = *this;
+  for (auto& strip : out.strips) std::erase_if(strip, [&](const RulingStretch& s) { return s.inked < share; });
+  return out;
+}
+
 RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& context) {
   RulingStretches out;
   out.width = grey.width();
@@ -223,29 +310,22 @@ RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& con
   if (std::min(grey.width(), grey.height()) < kLeastStretchSide) return out;
   const auto pixels = linePixels(grey, context);
   if (context.isCancelled()) return out;
-  const double offset = kSteepest * out.width + 2.0;
-  const double least = kLeastOfStrip * out.stripWidth;
-  const int steps = static_cast<int>(std::ceil(kSteepest * out.stripWidth / kShiftPerStep));
-  const int binCount = static_cast<int>(out.height + 2.0 * offset) + 2;
-  std::vector<double> scores(2 * steps + 1, 0.0);
-  const auto slopeOf = [&](int step) { return kSteepest * (step - steps) / steps; };
-  parallelFor(context, 2 * steps + 1, 1, [&](int begin, int end) {
-    std::vector<int> bins(binCount);
-    for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      for (const auto& strip : pixels) {
-        project(strip, slopeOf(i), offset, bins);
-        scores[i] += scoreOf(bins, static_cast<float>(least));
-      }
-    }
-  });
-  if (context.isCancelled()) return out;
-  const auto best = static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
-  if (scores[best] <= 0.0) return out;
-  out.slope = slopeOf(best);
-  std::vector<int> bins(binCount);
-  for (const auto& strip : pixels) {
-    project(strip, out.slope, offset, bins);
+  const SlopeScores scores(pixels, out, context);
+  if (context.isCancelled() || !scores.hasLines()) return out;
+  out.slope = scores.commonSlope();
+  const double offset = 0.5 * kSteepest * out.stripWidth + 2.0, least = kLeastOfStrip * out.stripWidth;
+  std::vector<int> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
+  for (int s = 0; s < kStrips; ++s) {
+    const RulingFan& fan = out.fans.emplace_back(scores.fanOf(s));
+    const double middle = (s + 0.5) * out.stripWidth;
+    std::fill(bins.begin(), bins.end(), 0);
+    for (const LinePixel& p : pixels[s])
+      ++bins[static_cast<std::size_t>(p.y - slopeIn(fan, p.y, out.height) * (p.x - middle) + offset)];
     out.strips.push_back(peaksOf(bins, least, offset));
+    for (RulingStretch& stretch : out.strips.back()) {
+      stretch.place -= out.slope * middle;
+      stretch.inked /= out.stripWidth;
+    }
   }
   return out;
 }

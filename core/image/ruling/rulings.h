@@ -9,10 +9,10 @@ namespace batten {
 
 /// One printed line of ruled paper or of a grid.
 struct RulingLine {
-  std::vector<Vec2> coursePx;  ///< Its middle, from border to border, image frame.
+  std::vector<Vec2> coursePx;  ///< Its middle, from end to end, image frame.
 };
 
-/// Parallel lines at equal spacing over the page.
+/// Lines side by side at equal spacing over the page, or over one of the pages that lie side by side on it.
 struct RulingFamily {
   bool runsDown = false;   ///< More down the page than across it.
   double spacingPx = 0.0;  ///< Mean distance of neighbours.
