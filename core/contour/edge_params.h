@@ -39,7 +39,8 @@ struct EdgeParams {
 std::optional<Error> validate(const EdgeParams&);
 
 struct ContourParams {
-  double minWidths = 3.0;    ///< [stroke widths] 0..100. Shorter lines are left out.
+  /// [stroke widths] 0..100. Shorter lines are left out. Up to the default those that part two faces of the paper stay.
+  double minWidths = 3.0;
   double minLengthPx = 0.0;  ///< [px] >= 0. So are lines shorter than this.
   int maxCount = 0;          ///< 0..100000. At most this many, the longest; says when it cuts. 0 = all.
   bool operator==(const ContourParams&) const = default;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <new>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
 #include "core/contour/centreline/page_scale.h"
+#include "core/contour/centreline/paper_faces.h"
 #include "core/contour/centreline/refinement.h"
 #include "core/contour/centreline/skeleton.h"
 #include "core/contour/centreline/stroke_mask.h"
@@ -188,41 +190,55 @@ double depthOf(const StrokePath& s, const GreyImage& grey) {
   return count > 0 ? sum / count : 0.0;
 }
 
+// Within the discs of junctions and corners no grey values are read.
+bool isHidden(const StrokePath& s) {
+  return std::none_of(s.points.begin(), s.points.end(),
+                      [](const StrokePathPoint& p) { return p.part == StrokePart::Ink; });
+}
+
+bool isBetweenJunctions(const StrokePath& s) { return !s.closed && !s.tip[0] && !s.tip[1]; }
+
+// [stroke widths] Length of the ink: a free end of a skeleton lies half a width before that of its ink.
+double widthsOf(const StrokePath& s) {
+  const double ends = s.closed ? 0.0 : (s.tip[0] ? 0.5 : 0.0) + (s.tip[1] ? 0.5 : 0.0);
+  return s.length() / s.widthPx() + ends;
+}
+
 // Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
 // of its own, which end free. Such are kept where they are as dark as the strokes around, or as ink must be by the
 // threshold if they look like strokes of the same pencil: no broader, as marks are, and long enough for its width.
-void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const CentrelineOptions& options, bool anyPencil,
-               const RunContext& context) {
+// What parts two faces of the paper was drawn, however short and even where no grey values are read: the bar of an A,
+// the rim of a lamp beside another. @return how many such strokes there are, which come last.
+int dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const CentrelineOptions& options, bool anyPencil,
+              PaperFaces* faces, const RunContext& context) {
   constexpr double kGrainWidths = 2.5;               // times the shortest: longer ones are no grain
   constexpr double kSamePencil = 1.5;                // of its usual width: two strokes side by side are broader
   constexpr double kAsDark = 0.8, kHalfLevel = 0.5;  // of the depth of the strokes around
-  // A free end of a skeleton lies half a width before that of its ink.
-  const auto widthsOf = [](const StrokePath& s) {
-    const double ends = s.closed ? 0.0 : (s.tip[0] ? 0.5 : 0.0) + (s.tip[1] ? 0.5 : 0.0);
-    return s.length() / s.widthPx() + ends;
-  };
-  std::vector<bool> isDropped;
   const double minWidths = options.minWidths;
   const std::optional<GraininessMap> grain =
       anyPencil ? std::optional(grainOf(paths, grey, options, context)) : std::nullopt;
-  if (context.isCancelled()) return;
+  if (context.isCancelled()) return 0;
   const double usualPx = grain ? medianWidth(paths, [&](int i) { return grain->isPencil(i); }) : 0.0;
+  std::vector<StrokePath> kept, links;
   for (int i = 0; i < std::ssize(paths); ++i) {
-    const StrokePath& s = paths[i];
+    StrokePath& s = paths[i];
     const double widths = widthsOf(s);
-    bool drop = s.points.size() < 3 || widths < minWidths;
-    const bool isLink = !s.closed && !s.tip[0] && !s.tip[1];
-    if (!drop && !isLink && grain && grain->isPencil(i) && widths < kGrainWidths * minWidths) {
-      const bool isStroke = s.length() >= minWidths * usualPx && s.widthPx() <= kSamePencil * usualPx;
-      drop = depthOf(s, grey) < (isStroke ? kHalfLevel : kAsDark) * grain->depthAt(s.points[s.points.size() / 2].at);
+    const bool isPencil = grain && grain->isPencil(i), isShort = s.points.size() < 3 || widths < minWidths;
+    if (isShort || (!isPencil && isHidden(s))) {
+      const bool isLink = faces != nullptr && (s.closed || isBetweenJunctions(s)) && faces->arePartedBy(s);
+      if (isLink || !isShort) (isLink ? links : kept).push_back(std::move(s));
+      continue;
     }
-    isDropped.push_back(drop);
-  }
-  std::vector<StrokePath> kept;
-  for (int i = 0; i < std::ssize(paths); ++i) {
-    if (!isDropped[i]) kept.push_back(std::move(paths[i]));
+    if (!isBetweenJunctions(s) && isPencil && widths < kGrainWidths * minWidths) {
+      const bool isStroke = s.length() >= minWidths * usualPx && s.widthPx() <= kSamePencil * usualPx;
+      const double usualDepth = grain->depthAt(s.points[s.points.size() / 2].at);
+      if (depthOf(s, grey) < (isStroke ? kHalfLevel : kAsDark) * usualDepth) continue;
+    }
+    kept.push_back(std::move(s));
   }
   paths = std::move(kept);
+  std::move(links.begin(), links.end(), std::back_inserter(paths));
+  return static_cast<int>(links.size());
 }
 
 // A line of which the grey values show no point is none.
@@ -230,15 +246,11 @@ bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
 }
 
-// Within the discs of junctions and corners no grey values are read. Where a pencil's broad and torn strokes meet,
-// whole strokes lie there: they are read all along.
+// Where a pencil's broad and torn strokes meet, whole strokes lie hidden: they are read all along.
 void readHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
   for (int i = 0; i < std::ssize(paths); ++i) {
-    std::vector<StrokePathPoint>& points = paths[i].points;
-    const bool isHidden =
-        std::none_of(points.begin(), points.end(), [](const StrokePathPoint& p) { return p.part == StrokePart::Ink; });
-    if (!isHidden || !grain.isPencil(i)) continue;
-    for (StrokePathPoint& p : points) {
+    if (!grain.isPencil(i) || !isHidden(paths[i])) continue;
+    for (StrokePathPoint& p : paths[i].points) {
       if (p.part == StrokePart::Junction) p.part = StrokePart::Ink;
     }
   }
@@ -315,7 +327,13 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   const int pixelsPerPx = options.pixelsPerPx();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
-  dropShort(paths, grey, options, anyPencil, context);
+  const BitImage& ink = found.bodies ? *found.bodies : strokes;
+  BitImage seen = options.shapes != nullptr ? either(ink, *options.shapes) : ink;
+  PaperFaces faces(seen, found.widthPx, context);
+  // Between strokes that are merged into one there is no face that was drawn; who asks for longer lines wants no links.
+  const bool isMerged = params.mergeWidths > 0.0 && !params.intent;
+  const bool keepsLinks = !isMerged && options.minWidths <= ContourParams{}.minWidths;
+  const int links = dropShort(paths, grey, options, anyPencil, keepsLinks ? &faces : nullptr, context);
   if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
   std::optional<GraininessMap> ofKept;
@@ -326,16 +344,21 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   const GraininessMap* grain = ofKept ? &*ofKept : nullptr;
   RefinedStrokes placed = options.page != nullptr ? placeOnPage(paths, grain, *options.page, params.subpixel, context)
                                                   : placeStrokePaths(paths, grain, grey, params.subpixel, context);
-  set.contours = std::move(placed.contours);
   if (context.isCancelled()) return cancelled();
-  set.report.droppedShort += static_cast<int>(std::erase_if(
-      set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); }));
-  const BitImage& ink = found.bodies ? *found.bodies : strokes;
-  BitImage seen = options.shapes != nullptr ? either(ink, *options.shapes) : ink;
+  const auto firstLink = placed.contours.end() - links;
+  std::vector<Contour> parting(std::make_move_iterator(firstLink), std::make_move_iterator(placed.contours.end()));
+  placed.contours.erase(firstLink, placed.contours.end());
+  set.contours = std::move(placed.contours);
+  const auto isNoLine = [](const Contour& c) { return c.points.size() < 3; };
+  const auto dropped = std::erase_if(parting, isNoLine) + std::erase_if(set.contours, [&](const Contour& c) {
+                         return isNoLine(c) || (params.subpixel && !isSeen(c));
+                       });
+  set.report.droppedShort += static_cast<int>(dropped);
   for (const Vec2& at : placed.faint) setDisc(seen, at, pixelsPerPx);
   set.contours = keepOnInk(std::move(set.contours), seen, pixelsPerPx);
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);
+  if (!set.report.isGrouped) std::move(parting.begin(), parting.end(), std::back_inserter(set.contours));
   if (!params.intent && params.mergeWidths <= 0.0)
     set.junctions = junctionsOfLines(std::move(found.strokes.junctions), set.contours);
   if (context.isCancelled()) return cancelled();

@@ -98,6 +98,58 @@ TEST(ShortStrokes, ARungBetweenBroadRailsHasALine) {
   EXPECT_GE(found, 10) << "of 16: grain tears some of them";
 }
 
+// A page of a pen: pairs of rails with rungs between them, shorter than three of their widths or hidden among the discs
+// of the junctions. @param rungs gets the rungs.
+GreyImage penLadder(Lines& rungs, std::uint32_t seed) {
+  constexpr double kPenPx = 6.0;
+  Lines rails;
+  for (const double x : {60.0, 180.0, 300.0}) {
+    const double gap = 20.0 + x / 150.0;
+    rails.push_back(straight({x, 30}, {x, 330}));
+    rails.push_back(straight({x + gap, 30}, {x + gap, 330}));
+    for (int k = 0; k < 6; ++k) rungs.push_back(straight({x, 60.0 + 45.0 * k}, {x + gap, 60.0 + 45.0 * k}));
+  }
+  std::vector<float> cover(static_cast<std::ptrdiff_t>(kLadderWidth) * kLadderHeight, 0.0f);
+  ink(cover, rails, kPenPx, 1.0f);
+  ink(cover, rungs, kPenPx, 1.0f);
+  return test::scanOfLines(std::move(cover), kLadderWidth, kLadderHeight, seed).grey;
+}
+
+// Without the rung two meshes would be one.
+TEST(ShortStrokes, ARungOfAPenThatPartsTwoMeshesHasALine) {
+  for (const std::uint32_t seed : kSeeds) {
+    Lines rungs;
+    const ContourSet set = tracedPage(penLadder(rungs, seed));
+    EXPECT_EQ(linesFound(rungs, set, 0.9), 18) << "seed " << seed;
+    EXPECT_EQ(std::ssize(set.contours), 24) << "six rails besides, seed " << seed;
+  }
+}
+
+// Whoever asks for longer lines gets those alone.
+TEST(ShortStrokes, RungsShorterThanTheUserWantsHaveNoLine) {
+  ContourParams byWidths, byPx;
+  byWidths.minWidths = 6.0;
+  byPx.minLengthPx = 40.0;
+  for (const ContourParams& params : {byWidths, byPx}) {
+    Lines rungs;
+    EXPECT_EQ(std::ssize(tracedPage(penLadder(rungs, kSeeds[0]), params).contours), 6);
+  }
+}
+
+// Two strokes that touch along a stretch have paper at both ends of it, but no line runs across where they do.
+TEST(ShortStrokes, WhereTwoStrokesTouchNoRungIsDrawn) {
+  Lines bows;
+  for (const double side : {-1.0, 1.0}) {
+    std::vector<Vec2> bow;
+    for (int x = 60; x <= 420; ++x) bow.push_back({1.0 * x, 180.0 + side * (3.5 + (x - 240.0) * (x - 240.0) / 900.0)});
+    bows.push_back(std::move(bow));
+  }
+  std::vector<float> cover(static_cast<std::ptrdiff_t>(kLadderWidth) * kLadderHeight, 0.0f);
+  ink(cover, bows, 6.0, 1.0f);
+  for (const std::uint32_t seed : kSeeds)
+    EXPECT_EQ(std::ssize(tracedPage(test::scanOfLines(cover, kLadderWidth, kLadderHeight, seed).grey).contours), 2);
+}
+
 // A short stroke that stands alone is ink by its threshold, which asks for half the depth of the strokes around.
 TEST(ShortStrokes, AWeakStrokeAloneHasALine) {
   Lines rails, ticks;

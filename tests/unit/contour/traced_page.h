@@ -8,11 +8,11 @@
 
 namespace batten {
 
-/// The lines of a page, all parameters as they are by default.
-inline ContourSet tracedPage(const GreyImage& grey) {
+/// The lines of a page, all other parameters as they are by default.
+inline ContourSet tracedPage(const GreyImage& grey, const ContourParams& lengths = {}) {
   const ThresholdParams params;
   const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
-  const auto set = traceContours(ink, grey, {}, {}, {});
+  const auto set = traceContours(ink, grey, {}, lengths, {});
   EXPECT_TRUE(set);
   return set ? *set : ContourSet{};
 }
