@@ -14,7 +14,7 @@ namespace batten {
 inline constexpr double kNeutralLogFactor = 45.98590442833571;
 
 struct LogParams {
-  bool enabled = false;  ///< The window shows the picture like this while the scan is looked at.
+  bool enabled = true;                ///< Off: the picture is shown as scanned.
   double factor = kNeutralLogFactor;  ///< [-] 10..150. Slope a of y = a log(1 + x). Larger lifts the dark tones and
                                       ///< clips the bright.
   bool operator==(const LogParams&) const = default;

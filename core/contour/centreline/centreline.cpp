@@ -358,7 +358,9 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   set.contours = keepOnInk(std::move(set.contours), seen, pixelsPerPx);
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);
-  if (!set.report.isGrouped) std::move(parting.begin(), parting.end(), std::back_inserter(set.contours));
+  // Links alone are a net, whose borders tell more.
+  if (!set.report.isGrouped && !set.contours.empty())
+    std::move(parting.begin(), parting.end(), std::back_inserter(set.contours));
   if (!params.intent && params.mergeWidths <= 0.0)
     set.junctions = junctionsOfLines(std::move(found.strokes.junctions), set.contours);
   if (context.isCancelled()) return cancelled();

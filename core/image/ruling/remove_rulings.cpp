@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 constexpr int kBlockPx = 32;              // [px] along a line: one paper level, one place and one profile
-constexpr int kSampledBlocks = 3;         // one in so many tells noise and spread
+constexpr int kSampledBlocks = 3;         // one in so many tells the noise
 constexpr int kProfileBlocks = 2;         // to either side, for the profile of a line
 constexpr int kBinsPerPx = 2;             // of the profile across a line
 constexpr double kLeastOfColumns = 0.15;  // that must meet a place of a profile
@@ -26,7 +26,7 @@ constexpr double kLeastDepthSeen = 0.01;  // of the paper: a fainter line is lef
 constexpr double kPresence = 0.35;        // of the line's depth: fainter stretches are gaps
 constexpr double kSolidLight = 0.35;      // less light comes through a dark line: what is over it cannot be told
 constexpr double kSnapShare = 0.35;       // of the depth: what is left of a line after it is divided out
-constexpr double kSnapPerNoise = 2.5;     // standard deviations of the paper, or of what is left of the line
+constexpr double kSnapPerNoise = 2.5;     // standard deviations of the paper
 constexpr double kLeastStroke = 0.12;     // of the paper's light: what a stroke across takes at least
 // Of what the whole line takes of the light, and of the light: a stretch takes no more.
 constexpr double kMostOfWhole = 1.35, kMostBesides = 0.02;
@@ -81,7 +81,6 @@ class RulingEraser {
     for (int b = 0; b < blocks_; ++b)
       profiles.push_back(
           ofLineAlone(profileOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1))));
-    measureSpread(profiles);
     for (int b = 0; b < blocks_; ++b) eraseBlock(b, profiles[b]);
   }
 
@@ -288,23 +287,9 @@ class RulingEraser {
     return !isSolid_ && 1.0 - *std::min_element(nearFrom, nearTo) < kPresence * depth_;
   }
 
-  /// How much the line itself varies: what is left of it, once divided out, where no stroke crosses it.
-  void measureSpread(const std::vector<std::vector<double>>& profiles) {
-    if (isSolid_ || depth_ < kLeastStroke) return;  // what a paler line leaves is no stroke
-    std::vector<double> left;
-    for (int b = 0; b < blocks_; b += kSampledBlocks) {
-      if (isGap(profiles[b])) continue;
-      forStrip(begin(b), end(b), low_ + 1.0, high_ - 1.0, [&](int x, int y, double offset) {
-        if (strokeAt(x, offset) <= leastStroke())
-          left.push_back(lightAt(x, y) / std::max(kSolidLight, at(profiles[b], offset)));
-      });
-    }
-    if (!left.empty()) spread_ = robustSigma(left);
-  }
-
   void eraseBlock(int block, const std::vector<double>& profile) {
     if (isGap(profile)) return;
-    const double snap = std::max(kSnapPerNoise * std::max(noiseLevel_, spread_), kSnapShare * depth_);
+    const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
     forStrip(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
       const double paper = atBlocks(paper_, x), light = image_.row(y)[x] / paper;
       const double stroke = strokeAt(x, offset);
@@ -328,7 +313,6 @@ class RulingEraser {
   std::vector<double> paper_;   ///< [0..65535] per block.
   std::vector<double> noise_, whole_, above_, below_;
   double noiseLevel_ = 0.0, depth_ = 0.0;
-  double spread_ = 0.0;            ///< Standard deviation of what is left of the line.
   double low_ = 0.0, high_ = 0.0;  ///< [px] What the line covers, from its middle.
   bool isSolid_ = false;
 };

@@ -111,7 +111,7 @@ struct Recipe {
   std::optional<double> dpi;           ///< The user's own resolution; absent = the file's, else the assumed one.
   std::optional<ScaleLine> scaleLine;  ///< Where `dpi` comes from, if it was measured on the drawing.
   PageChoice scanPage;                 ///< Which page of the scan's file it is for.
-  LogParams log;
+  LogParams log{.enabled = false};     ///< Of the log picture, which is shown on request only.
   PreparationParams preparation;
   PaperParams paper;
   ThresholdParams threshold;
