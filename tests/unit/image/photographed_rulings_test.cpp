@@ -79,7 +79,8 @@ TEST(PhotographedRulings, AFanAndACurlAreFollowed) {
     ASSERT_EQ(found.size(), 1u) << c.name;
     EXPECT_FALSE(found[0].runsDown) << c.name;
     EXPECT_NEAR(static_cast<double>(found[0].lines.size()), 2.0 * kLines, 4.0) << c.name;
-    EXPECT_LT(mostOff(found[0], c.field), 6.0) << c.name << ", " << found[0].lines.size();
+    // The eraser looks for a line further than that from its course.
+    EXPECT_LT(mostOff(found[0], c.field), 0.15 * found[0].spacingPx) << c.name;
   }
 }
 
