@@ -306,7 +306,7 @@ TEST_F(HostileInput, EveryNumberIsReadInOneWay) {
       {"batch " + scan + " --to " + file("out") + " --jobs ", "--jobs takes a whole number from 0 to 1024"},
       {"batch " + scan + " --to " + file("out") + " --first-line ", "--first-line takes a whole number"},
       {"batch " + scan + " --to " + file("out") + " --page-timeout ", "--page-timeout takes seconds"},
-      {"batch " + scan + " --to " + file("out") + " --max-failures ", "--max-failures takes a share"},
+      {"batch " + scan + " --to " + file("out") + " --max-failures ", "--max-failures takes a fraction"},
   };
   for (const auto& [words, says] : options) {
     for (const char* value : {"\"\"", "0x10", "1e999", "nan", "inf", "1.2.3", "five"})
