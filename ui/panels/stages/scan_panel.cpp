@@ -33,7 +33,7 @@ ToneSwatch::ToneSwatch(QWidget* parent) : QWidget(parent) {
 }
 
 void ToneSwatch::show(const LogParams& params) {
-  params_ = params;
+  params_ = {true, params.factor};
   update();
 }
 
@@ -47,10 +47,10 @@ void ToneSwatch::paintEvent(QPaintEvent*) {
     const QRect box(label, row * 26 + 2, width() - label, 22);
     painter.setPen(theme.mute);
     painter.drawText(QRect(0, box.top(), label, box.height()), Qt::AlignVCenter | Qt::AlignLeft,
-                     row == 0 ? tr("Scan") : tr("Shown"));
+                     row == 0 ? tr("Scan") : tr("Log"));
     QImage ramp(256, 1, QImage::Format_RGB32);
     for (int grey = 0; grey < 256; ++grey) {
-      const int tone = row == 0 || !params_.enabled ? grey : tones[grey];
+      const int tone = row == 0 ? grey : tones[grey];
       ramp.setPixel(grey, 0, qRgb(tone, tone, tone));
     }
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
