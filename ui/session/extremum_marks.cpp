@@ -58,11 +58,15 @@ QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
 }
 
 /// The extrema of a curve as its figures count them.
+std::vector<CurvatureExtremumPoint> extremaOf(const NurbsCurve& curve, bool closed) {
+  const double size = extent(curve);
+  if (!(size > 0.0)) return {};
+  return curvatureExtrema(curve, kExtremumProminence / size, closed);
+}
+
 std::vector<ExtremumMark> marksOf(const EditorSession& session, const NurbsCurve& curve, bool closed, bool isFaired) {
   std::vector<ExtremumMark> marks;
-  const double size = extent(curve);
-  if (!(size > 0.0)) return marks;
-  for (const CurvatureExtremumPoint& one : curvatureExtrema(curve, kExtremumProminence / size, closed)) {
+  for (const CurvatureExtremumPoint& one : extremaOf(curve, closed)) {
     ExtremumMark mark;
     mark.px = session.output().frame.pointToImage(curve.point(one.u));
     mark.s = one.s;
@@ -100,10 +104,7 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, std::optio
   // Only the fair fit judges extrema; of all other curves they are shown as they are.
   if (traced->construct.extrema.empty()) return marksOf(session, traced->sketched, traced->closed, false);
   const NurbsCurve& sketched = traced->sketched;
-  const double size = extent(sketched);
-  const std::vector<CurvatureExtremumPoint> shown =
-      size > 0.0 ? curvatureExtrema(sketched, kExtremumProminence / size, traced->closed)
-                 : std::vector<CurvatureExtremumPoint>();
+  const std::vector<CurvatureExtremumPoint> shown = extremaOf(sketched, traced->closed);
   std::vector<ExtremumMark> marks;
   for (std::size_t i = 0; i < traced->construct.extrema.size(); ++i) {
     const ExtremumNote& note = traced->construct.extrema[i];

@@ -2,9 +2,8 @@
 #include "core/contour/ink/pencil_solids.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
 
+#include "core/contour/centreline/stroke_mask.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 
@@ -16,28 +15,12 @@ constexpr double kSolidWidths = 5.0;   // strokes side by side that have run tog
 constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke or a taper
 constexpr double kStep = 1.5;          // of widths, where a stroke leaves a solid; with less it is a taper
 constexpr double kTaperWidths = kBorderWidths / kStep;
+// Of a solid: a filled shape has corners, a stroke that swells goes on.
+constexpr double kMostTaper = 0.5;
 
 BitImage opened(const BitImage& ink, double px, const RunContext& context) {
   const int steps = std::max(1, static_cast<int>(0.5 * px));
   return grown(shrunken(ink, steps, context), steps, context);
-}
-
-// The pieces of `whole` of whose area in `solids` their tapers are not too large a part.
-BitImage mostlySolid(const BitImage& whole, const BitImage& solids, const RunContext& context) {
-  constexpr double kMostTaper = 0.5;  // of its solid: a filled shape has corners, a stroke that swells goes on
-  const RunPieces pieces = findPieces(whole, Connectivity::Eight, context);
-  std::vector<std::int64_t> area(pieces.runs.size()), solid(pieces.runs.size());
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
-    solid[pieces.piece[i]] += countBits(solids, pieces.runs[i]);
-  }
-  BitImage kept(whole.width, whole.height);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const int piece = pieces.piece[i];
-    if (static_cast<double>(area[piece]) <= (1.0 + kMostTaper) * static_cast<double>(solid[piece]))
-      setBits(kept, pieces.runs[i]);
-  }
-  return kept;
 }
 
 }  // namespace
@@ -53,7 +36,7 @@ BitImage pencilSolids(const BitImage& body, const BitImage& shapes, double penPx
   const BitImage beside = grown(solids, 1, context);
   const BitImage whole = either(solids, keepPieces(tapers, {.seeds = &beside}, context));
   if (context.isCancelled()) return solids;
-  return mostlySolid(whole, solids, context);
+  return mostlyInk(whole, solids, 1.0 / (1.0 + kMostTaper), context);
 }
 
 }  // namespace batten
