@@ -212,6 +212,21 @@ TEST_F(Judging, ThePlotRunsAsTheCurveLiesAndCanBeTurned) {
   }
 }
 
+TEST_F(Judging, ARadiusTooLargeToShowLeavesThePlot) {
+  ASSERT_NO_FATAL_FAILURE(openPage(ripplePage()));
+  for (const bool isLinear : {false, true}) {
+    const PlotData data = plotData(session(), PlotTab::Radius, Judged::Sketched, isLinear);
+    ASSERT_EQ(data.series.front().role, PlotRole::Sketched);
+    const auto& points = data.series.front().points;
+    const auto above = std::ranges::count_if(points, [&](const PlotPoint& p) { return p.value > data.high; });
+    EXPECT_GT(above, 0) << "the ripple has inflections, where the radius is infinite";
+    EXPECT_LT(above, std::ssize(points) / 2);
+    for (std::size_t i = 1; i < points.size(); ++i)
+      EXPECT_FALSE(points[i].value <= data.high && points[i].value == points[i - 1].value)
+          << "a flat line that looks like an arc at " << points[i].s;
+  }
+}
+
 TEST_F(Judging, ThePlotOfTheSlopeIsTheDerivativeOfTheCurvature) {
   ASSERT_NO_FATAL_FAILURE(openPage(ripplePage()));
   window_->setStage(PanelStage::Curves);

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QApplication>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QScrollArea>
 #include <QSplitter>
 #include <QTest>
@@ -280,6 +282,26 @@ TEST_F(Layout, NothingLiesOverTheRegionsWhileTheyAreWorkedOn) {
   EXPECT_EQ(with.first, without.first) << "nothing is said of a curve that is not drawn";
   window_->setStage(PanelStage::Scan);
   EXPECT_NE(corners().second, without.second) << "the page's chip is back elsewhere";
+}
+
+TEST_F(Layout, AChipMakesWayForTheMouse) {
+  openPage(test::zigzagPage({640, 500}));
+  window_->setStage(PanelStage::Scan);
+  auto* canvas = find<CurveCanvas>("canvas");
+  const auto corner = [&] {
+    const QImage all = canvas->grab().toImage();
+    return all.copy(0, all.height() - 60, 300, 60);
+  };
+  const auto moveTo = [&](QPoint place) {
+    QMouseEvent move(QEvent::MouseMove, place, canvas->mapToGlobal(place), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(canvas, &move);
+  };
+  moveTo(canvas->rect().center());
+  const QImage with = corner();
+  moveTo({40, canvas->height() - 22});
+  EXPECT_NE(corner(), with);
+  moveTo(canvas->rect().center());
+  EXPECT_EQ(corner(), with);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPainter>
 #include <QPainterPath>
@@ -151,6 +152,32 @@ TEST_F(Lists, TheListOfCurvesStaysUnderTheMouseThatClicksIt) {
     isSaid.insert(!fairingNote(*session().selected()).text.isEmpty());
   }
   EXPECT_EQ(isSaid.size(), 2u) << "of one curve something is said, of another nothing";
+  EXPECT_EQ(places.size(), 1u);
+}
+
+TEST_F(Lists, NothingJumpsWhenATargetNeedsMoreTolerance) {
+  openPage(test::drawnPage({640, 400}, [](QPainter& painter) {
+    QPainterPath wave({40, 300});
+    wave.cubicTo({200, 20}, {400, 600}, {600, 60});
+    painter.drawPath(wave);
+  }));
+  window_->setStage(PanelStage::Fairing);
+  QTest::mouseClick(find<QAbstractButton>("fairing.mode.target"), Qt::LeftButton);
+  type(find<QLineEdit>("fairing.tolerance.field"), QStringLiteral("0.03"));
+  session().selectCurve(0);
+  ASSERT_TRUE(settle());
+  std::set<int> places;
+  std::set<bool> isRaised;
+  for (int degree = 1; degree <= 6; ++degree) {
+    auto* tile = find<QAbstractButton>(QStringLiteral("target.%1").arg(degree).toLatin1().constData());
+    ASSERT_TRUE(waitUntil([&] { return !session().isTargeting() && tile->isEnabled(); }));
+    QTest::mouseClick(tile, Qt::LeftButton);
+    ASSERT_TRUE(settle());
+    ASSERT_TRUE(settleLayout());
+    places.insert(find<QWidget>("fairing.compare")->mapTo(window_.get(), QPoint(0, 0)).y());
+    isRaised.insert(find<QWidget>("fairing.raise")->isVisible());
+  }
+  EXPECT_EQ(isRaised.size(), 2u) << *isRaised.begin() << ": one target needs more, another does not";
   EXPECT_EQ(places.size(), 1u);
 }
 }  // namespace

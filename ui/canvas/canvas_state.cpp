@@ -18,6 +18,7 @@
 #include "ui/canvas/layers/segment_point_layer.h"
 #include "ui/canvas/layers/sheet_layer.h"
 #include "ui/canvas/layers/span_layer.h"
+#include "ui/canvas/layers/text_box.h"
 #include "ui/session/coarse_runner.h"
 #include "ui/session/explanation_source.h"
 #include "ui/session/growing_player.h"
@@ -286,6 +287,13 @@ void CurveCanvas::State::paint(QPainter& painter) {
     paintFlash(painter);
   }
   paintChips(painter, *this);
+}
+
+void CurveCanvas::State::moveMouse(const std::optional<QPointF>& widget) {
+  const auto isBeside = [this](const std::optional<QPointF>& at) { return at && isBesideChips(*this, *at); };
+  const bool isChanged = isBeside(mouse) || isBeside(widget);
+  mouse = widget;
+  if (isChanged) canvas.update();
 }
 
 void CurveCanvas::State::linkCursor(const std::optional<Vec2>& px) {

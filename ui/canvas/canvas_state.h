@@ -34,6 +34,8 @@ struct CurveCanvas::State : CanvasScene {
   /// Sets the common cursor when the mouse is near the selected curve, clears it when it has left.
   void linkCursor(const std::optional<Vec2>& px);
   void updateMouseCursor();
+  /// @param widget where the mouse is over the view, or none
+  void moveMouse(const std::optional<QPointF>& widget);
   ToolEvent toolEvent(QPointF widget, Qt::KeyboardModifiers) const;
 
   CurveCanvas& canvas;

@@ -193,6 +193,7 @@ void CurveCanvas::mouseMoveEvent(QMouseEvent* event) {
   State& s = *state_;
   const QPointF moved = event->position() - s.lastMouse;
   s.lastMouse = event->position();
+  s.moveMouse(event->position());
   if (s.isPanning) {
     s.transform.pan(moved);
     s.isFitted = false;
@@ -235,6 +236,7 @@ void CurveCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void CurveCanvas::leaveEvent(QEvent* event) {
   QWidget::leaveEvent(event);
+  state_->moveMouse(std::nullopt);
   emit hovered(std::nullopt);
   state_->tool().leave();
   state_->hint({});

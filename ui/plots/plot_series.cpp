@@ -30,9 +30,12 @@ double PlotSeries::at(double place) const {
 namespace {
 
 constexpr double kLargestRadius = 20.0;  // extents that a plot shows
-constexpr double kMostlyBelow = 0.9;     // of the samples, on a linear axis
-constexpr int kSamples = 400;            // along a curve
-constexpr int kDeviationSamples = 160;   // along a curve
+/// Of the largest radius shown: where the lines of the radius end. So far above the plot that a line to a straight
+/// stretch leaves it steeply.
+constexpr double kFarAbove = 1000.0;
+constexpr double kMostlyBelow = 0.9;    // of the samples, on a linear axis
+constexpr int kSamples = 400;           // along a curve
+constexpr int kDeviationSamples = 160;  // along a curve
 /// Of the mean: how far up and down the plot of the speed reaches at least.
 constexpr double kLeastSpeedRange = 0.05;
 /// Of the extent: ends that are nearer to each other than this from left to right lie above each other.
@@ -95,7 +98,10 @@ void addDrawn(PlotData& data, const EditorSession& session, const TracedCurve& c
     series.points.push_back({f * data.lengthMm, value});
   }
   if (series.points.size() > 1) data.series.push_back(std::move(series));
-  for (const ProfilePoint& p : asked.profile) data.handles.push_back({p.fraction * data.lengthMm, valueOf(p.kappa)});
+  // Within the plot, where they can be dragged.
+  for (const ProfilePoint& p : asked.profile)
+    data.handles.push_back(
+        {p.fraction * data.lengthMm, std::min(valueOf(p.kappa), data.most.value_or(valueOf(p.kappa)))});
 }
 
 /// Range from the two curves alone: a target that shoots off must not flatten them. Of the curves themselves, single
@@ -119,6 +125,7 @@ void fitRange(PlotData& data, double padding) {
     data.low = std::min(data.low, mark.kappa);
     data.high = std::max(data.high, mark.kappa);
   }
+  if (data.most && data.low < *data.most) data.high = std::min(data.high, *data.most);
   if (data.logarithmic) {
     const double grow = std::max(1.15, std::pow(data.high / data.low, padding));
     data.low /= grow;
@@ -234,7 +241,9 @@ void addRadius(PlotData& data, const EditorSession& session, const SampledCurve&
   data.logarithmic = !isLinear;
   const double size = extent(sampled.curve.sketched);
   const double most = isLinear ? linearLimit(sampled.sketched, size) : kLargestRadius * size;
-  addWithTargets(data, session, sampled, [=](double kappa) { return clampedRadius(kappa, size * 1e-4, most); });
+  data.most = most;
+  addWithTargets(data, session, sampled,
+                 [=](double kappa) { return clampedRadius(kappa, size * 1e-4, kFarAbove * most); });
 }
 
 void addCurvature(PlotData& data, const EditorSession& session, const SampledCurve& sampled, Judged judged) {

@@ -48,8 +48,9 @@ struct PlotData {
   std::vector<double> kept;         ///< s of the extrema that monotone fairing is to keep.
   std::vector<double> splits;       ///< s of the splits, in the order of splitsOf.
   bool logarithmic = false;
-  bool runsLeft = false;         ///< The curve begins farther right on the page (or below) than it ends.
-  double low = 0.0, high = 1.0;  ///< Range of the values that is shown at first.
+  std::optional<double> most = {};  ///< Of the values shown at first: above it, lines leave the plot.
+  bool runsLeft = false;            ///< The curve begins farther right on the page (or below) than it ends.
+  double low = 0.0, high = 1.0;     ///< Range of the values that is shown at first.
   bool isEmpty() const { return series.empty(); }
 };
 
@@ -59,7 +60,7 @@ struct PlotData {
 /// @param judged Sketched: the constructed curve alone; Result: what fairing made of it, over the sketched one in grey.
 PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged = Judged::Result, bool linearRadius = false);
 
-/// Radius limited to what a plot can show: straight stretches end as a flat line at `largest`, never as infinity.
+/// Radius within limits, never infinite: `largest` for straight stretches.
 double clampedRadius(double kappa, double smallest, double largest);
 
 }  // namespace batten

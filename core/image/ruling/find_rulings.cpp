@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
-#include <ranges>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -132,9 +131,9 @@ std::vector<FoundLattice> latticesOf(const RulingStretches& found, PlaneOf plane
   std::vector<bool> isTaken(strips, false);
   for (int count = strips - 1; count >= kLeastRun; --count) {
     for (int first = 0; first + count <= strips; ++first) {
-      const auto run = std::ranges::subrange(isTaken.begin() + first, isTaken.begin() + first + count);
       if (context.isCancelled()) return {};
-      if (std::ranges::find(run, true) != run.end()) continue;
+      const auto end = isTaken.begin() + first + count;
+      if (std::find(isTaken.begin() + first, end, true) != end) continue;
       auto part = latticeOf(found.inStrips(first, count), planeOf, isHopeful, context);
       if (!part || part->look.depth > kDarkRuling) continue;
       std::fill_n(isTaken.begin() + first, count, true);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -198,7 +197,8 @@ class LatticeFit {
   void match(int strip, double share) {
     const double x = xOf(strip);
     const std::size_t before = members_.size();
-    for (const double y : found_.strips[strip] | std::views::transform(&RulingStretch::place)) {
+    for (const RulingStretch& stretch : found_.strips[strip]) {
+      const double y = stretch.place;
       const double k = std::round(lineAt(x, y));
       const double off = y - lattice_.at(k, x) + lattice_.slope * x;
       if (std::fabs(off) > std::max(kLeastReach, share * spacing_)) continue;
@@ -273,8 +273,8 @@ class LatticeFit {
     // How many of the stretches over the lattice lie on its lines.
     std::size_t within = 0;
     for (std::size_t s = 0; s < found_.strips.size(); ++s) {
-      for (const double y : found_.strips[s] | std::views::transform(&RulingStretch::place)) {
-        const double k = lineAt(xOf(s), y);
+      for (const RulingStretch& stretch : found_.strips[s]) {
+        const double k = lineAt(xOf(s), stretch.place);
         within += k > lattice_.first - 0.5 && k < lattice_.last + 0.5 ? 1 : 0;
       }
     }

@@ -3,6 +3,7 @@
 
 #include <QFontMetricsF>
 #include <QPen>
+#include <algorithm>
 #include <cmath>
 
 namespace batten {
@@ -42,7 +43,14 @@ void paintChip(QPainter& painter, const CanvasScene& scene, const QString& text,
   const bool bottom = place == ChipPlace::BottomLeft || place == ChipPlace::BottomRight;
   const QPointF corner(right ? view.width() - kMargin - size.width() : kMargin,
                        bottom ? view.height() - kMargin - size.height() : kMargin);
-  paintBox(painter, scene, text, QRectF(corner, size), 0.93);
+  const QRectF box(corner, size);
+  if (!scene.mouse || !box.contains(*scene.mouse)) paintBox(painter, scene, text, box, 0.93);
+}
+
+bool isBesideChips(const CanvasScene& scene, QPointF mouse) {
+  const double height = kMargin + boxSize(scene, QStringLiteral("0"), kPadX, kPadY).height();
+  const double below = scene.transform.viewSize().height() / scene.transform.ratio() - mouse.y();
+  return std::min(mouse.y(), below) <= height;
 }
 
 void paintLabel(QPainter& painter, const CanvasScene& scene, const QString& text, QPointF beside) {

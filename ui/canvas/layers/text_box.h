@@ -10,8 +10,11 @@
 namespace batten {
 
 enum class ChipPlace { TopLeft, TopRight, BottomLeft, BottomRight };
-/// A text in a corner of the view; none where it is empty.
+/// A text in a corner of the view; none where it is empty. It makes way for the mouse, so that what lies beneath can be
+/// seen and clicked.
 void paintChip(QPainter&, const CanvasScene&, const QString& text, ChipPlace);
+/// Whether the mouse may lie on a chip there, or did: the view is to be painted again when it moves.
+bool isBesideChips(const CanvasScene&, QPointF mouse);
 /// A small label beside a place.
 void paintLabel(QPainter&, const CanvasScene&, const QString& text, QPointF beside);
 

@@ -3,6 +3,7 @@
 
 #include <QFont>
 #include <QPalette>
+#include <QPointF>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -38,7 +39,8 @@ struct CanvasScene {
   std::vector<ExtremumMark> extrema;  ///< Of the selected curve.
   QPalette palette;
   QFont font;
-  bool isLate = false;  ///< Work has been going on long enough to say so.
+  std::optional<QPointF> mouse;  ///< [widget px] Over the view.
+  bool isLate = false;           ///< Work has been going on long enough to say so.
   std::function<void()> repaint;
   std::function<void(const QString&)> hint;
   /// A short ring where a click had nothing to act on.

@@ -186,8 +186,12 @@ void FairingPanel::buildNote() {
 }
 
 void FairingPanel::buildLinks() {
+  // Close together: what stands below them is to fit into a low window.
+  links_ = new QVBoxLayout;
+  links_->setSpacing(0);
+  column()->addLayout(links_);
   for (QPushButton* link : {split_, whole_, unsplit_, draw_, forget_, like_, logAesthetic_})
-    column()->addWidget(link, 0, Qt::AlignLeft);
+    links_->addWidget(link, 0, Qt::AlignLeft);
   split_->setText(tr("Natural spans"));
   unsplit_->setText(tr("One polynomial for the whole curve"));
   whole_->setText(tr("Targets for the whole curve"));
@@ -199,7 +203,7 @@ void FairingPanel::buildLinks() {
   });
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
   compare->setToolTip(tr("Similarity of two curves and fairness of this one, as a table."));
-  column()->addWidget(compare, 0, Qt::AlignLeft);
+  links_->addWidget(compare, 0, Qt::AlignLeft);
   connect(compare, &QPushButton::clicked, this, &FairingPanel::comparisonAsked);
   connect(split_, &QPushButton::clicked, this, [this] { splitNaturally(session_); });
   connect(unsplit_, &QPushButton::clicked, this, [this] { joinAllSpans(session_); });
@@ -209,7 +213,7 @@ void FairingPanel::buildLinks() {
 }
 
 void FairingPanel::buildScopeLinks() {
-  for (QPushButton* link : {useForAll_, followAll_}) column()->addWidget(link, 0, Qt::AlignLeft);
+  for (QPushButton* link : {useForAll_, followAll_}) links_->addWidget(link, 0, Qt::AlignLeft);
   connect(raise_, &QPushButton::clicked, this, &FairingPanel::raiseTolerance);
   connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
   connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
@@ -381,10 +385,12 @@ void FairingPanel::refreshFigures() {
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
   note_->setText(said.text);
-  constexpr int kUsualLines = 2, kLinesOfTargets = 4;  // of room for the note
+  constexpr int kUsualLines = 2, kLinesOfTargets = 3;  // of room for the note
   const FairingMode mode = shown(session_.recipe()).mode;
   const int lines = mode == FairingMode::None ? 0 : mode == FairingMode::Target ? kLinesOfTargets : kUsualLines;
-  said_->setMinimumHeight(lines * note_->fontMetrics().lineSpacing());
+  const bool canNeedMore = mode == FairingMode::Target || mode == FairingMode::Monotone;
+  said_->setMinimumHeight(lines * note_->fontMetrics().lineSpacing() +
+                          (canNeedMore ? said_->layout()->spacing() + raise_->sizeHint().height() : 0));
   note_->setVisible(!said.text.isEmpty());
   said_->setVisible(mode != FairingMode::None || !said.text.isEmpty());
   if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));

@@ -67,6 +67,7 @@ class FairingPanel : public QWidget {
   QLabel* note_;
   QWidget* said_ = nullptr;
   QPushButton* raise_;
+  QVBoxLayout* links_ = nullptr;
   QPushButton* useForAll_;
   QPushButton* followAll_;
   QPushButton* whole_;
