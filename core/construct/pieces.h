@@ -24,6 +24,12 @@ struct ExtremumConstraint {
   int id = 0;                 ///< The caller's name for it; comes back in the report.
 };
 
+/// What the grain of a stroke does to its centre line (stroke_grain.h); 0: nothing that its points do not show.
+struct StrokeGrain {
+  double density = 0.0;  ///< [px^2 px] Noise density.
+  double sigmaPx = 0.0;  ///< [px] Standard deviation of the centre, over a length of one stroke width.
+};
+
 /// One piece as the constructions take it. Model frame, mm.
 struct ConstructPiece : PieceLine {
   std::vector<Station> stations = {};  ///< Regression segments, model frame.
@@ -31,6 +37,7 @@ struct ConstructPiece : PieceLine {
   std::vector<Vec2> breakpoints = {};  ///< Places along the line where the user wants typical curves to meet.
   std::vector<ExtremumConstraint> constraints = {};
   std::optional<double> detail = {};  ///< 0..1. Its own, instead of ConstructParams::detail.
+  StrokeGrain grain = {};             ///< Of its contour; the fair fit measures it.
 };
 
 /// All pieces of one contour: methods may pool what they have in common (noise).

@@ -13,6 +13,7 @@
 #include "core/construct/fair/fair_piece.h"
 #include "core/construct/fair/fair_prepare.h"
 #include "core/construct/fair/smooth_sections.h"
+#include "core/construct/fair/stroke_grain.h"
 
 namespace batten {
 namespace {
@@ -29,8 +30,8 @@ void keepBaseOnly(FairPiece& piece) {
 }
 
 /// Smooths every piece by its own cut-off and weighs its points by the noise that this leaves.
-void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, double density, double s0,
-                 const FairFitOptions& options, const RunContext& context) {
+void followNoise(std::vector<FairPiece>& pieces, const ConstructContour& contour, const CutoffChoice& choice,
+                 double density, double s0, const FairFitOptions& options, const RunContext& context) {
   std::vector<NoiseTrace> traces(pieces.size());
   parallelFor(context, static_cast<int>(pieces.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -46,7 +47,8 @@ void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, dou
   });
   const std::vector<LocalNoise> noise = localNoise(traces);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (pieces[i].frame) weighByNoise(pieces[i].data, noise[i], density, options.noiseDensityFloor);
+    if (pieces[i].frame)
+      weighByNoise(pieces[i].data, noise[i], density, options.noiseDensityFloor, contour.pieces[i].grain.density);
   }
 }
 
@@ -62,15 +64,17 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
   });
   if (context.isCancelled()) return cancelled();
   std::vector<std::optional<CutoffTable>> tables;
+  std::vector<double> leastVariance;
   for (const FairPiece& piece : pieces) tables.push_back(piece.table);
-  const CutoffChoice choice = chooseCutoffs(tables, options.effectiveDofWeight);
+  for (const ConstructPiece& piece : contour.pieces) leastVariance.push_back(piece.grain.density / options.blockPx);
+  const CutoffChoice choice = chooseCutoffs(tables, leastVariance, options.effectiveDofWeight);
   const bool measured = std::any_of(choice.k.begin(), choice.k.end(), [](const auto& k) { return k.has_value(); });
   const double density = measured ? options.blockPx * choice.blockVariance : kWhiteDensity;
   const double s0 = std::max(density, options.noiseDensityFloor);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (!choice.k[i]) pieces[i].frame.reset();
   }
-  followNoise(pieces, choice, density, s0, options, context);
+  followNoise(pieces, contour, choice, density, s0, options, context);
   if (context.isCancelled()) return cancelled();
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
@@ -157,7 +161,10 @@ Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, c
   try {
     FairFitOptions asked = options;
     asked.extremumSignificance = costAsked(contour, options);
-    auto pieces = fitParts(contour, asked, context);
+    ConstructContour grained = contour;
+    const StrokeGrain grain = strokeGrain(contour);
+    for (ConstructPiece& piece : grained.pieces) piece.grain = grain;
+    auto pieces = fitParts(grained, asked, context);
     if (!pieces) return pieces;
     for (ConstructedPiece& piece : *pieces) {
       for (ExtremumNote& note : piece.report.extrema) note.askedCost = asked.extremumSignificance;

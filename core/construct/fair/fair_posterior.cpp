@@ -154,7 +154,8 @@ CutoffTable cutoffTable(const FairFrame& frame, CancelCheck check) {
   return table;
 }
 
-CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>& tables, double gamma) {
+CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>& tables, std::span<const double> leastVariance,
+                           double gamma) {
   CutoffChoice choice;
   choice.k.resize(tables.size());
   for (int round = 0; round < 3; ++round) {
@@ -164,12 +165,13 @@ CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>& tables
       if (!tables[i]) continue;
       const CutoffTable& t = *tables[i];
       double best = 0.0;
+      const double variance = std::max(choice.blockVariance, leastVariance[i]);
       for (int k = 0; k < CutoffTable::kCount; ++k) {
         if (!t.valid[k]) continue;
         const double left = t.blocks - t.dof[k];
-        const double score = round == 0                   ? t.rss[k] / (left * left)
-                             : choice.blockVariance > 0.0 ? t.rss[k] / choice.blockVariance + gamma * t.dof[k]
-                                                          : t.rss[k];
+        const double score = round == 0       ? t.rss[k] / (left * left)
+                             : variance > 0.0 ? t.rss[k] / variance + gamma * t.dof[k]
+                                              : t.rss[k];
         if (!choice.k[i] || score < best) {
           best = score;
           choice.k[i] = k;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/cancel_check.h"
@@ -40,7 +41,9 @@ struct CutoffChoice {
   std::vector<std::optional<int>> k;  ///< Per table; absent: no table, or no candidate in it.
   double blockVariance = 0.0;
 };
-CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>&, double gamma);
+/// @param leastVariance [px^2] per table: what the variance of its blocks is at least.
+CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>&, std::span<const double> leastVariance,
+                           double gamma);
 
 /// Local prior by empirical Bayes, starting from the cut-off or from `tau2` (same number of stations).
 std::optional<FairPosterior> localPosterior(const FairFrame&, double s0, std::vector<double> tau2, int rounds,

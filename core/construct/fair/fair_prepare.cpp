@@ -146,10 +146,10 @@ std::optional<double> ordinarySigma(const ConstructContour& contour) {
   return upperMedian(sigma);
 }
 
-void weighByNoise(FairData& data, const LocalNoise& noise, double measured, double floor) {
+void weighByNoise(FairData& data, const LocalNoise& noise, double measured, double floor, double grain) {
   const double s0 = std::max(measured, floor);
   for (FairPoint& p : data.points) {
-    const double there = measured * noise.at(p.t) / p.weight + kWanderShare * std::pow(p.spread, 3);
+    const double there = std::max(measured * noise.at(p.t) / p.weight, grain) + kWanderShare * std::pow(p.spread, 3);
     p.weight = s0 / std::max(there, floor);
   }
 }

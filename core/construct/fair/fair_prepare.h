@@ -23,7 +23,8 @@ inline constexpr double kMeanShare = 0.07;
 
 /// Adapts the weights to the noise along the piece, and to what is left of it above the floor: a weight of 1 is a noise
 /// density of max(measured, floor).
-void weighByNoise(FairData&, const LocalNoise&, double measured, double floor);
+/// @param grain noise density of the stroke's grain (stroke_grain.h): the noise is nowhere less.
+void weighByNoise(FairData&, const LocalNoise&, double measured, double floor, double grain);
 
 /// [px] Median distance of neighbours; 1 for a single point.
 double medianSpacing(const FairData&);

@@ -15,13 +15,17 @@
 namespace batten {
 namespace {
 
-constexpr double kArmPx = 6.0;       // chords whose directions are compared
-constexpr double kArmPoints = 3.0;   // and where points are sparse: chords of fewer have no direction
-constexpr int kFewestPoints = 5;     // fewer have no turn that two chords could tell
-constexpr double kFewestArms = 3.0;  // of line: shorter ones have no turn that two chords could tell
-constexpr double kSharpRad = 0.6;    // between the two chords: an arc of less than 10 px radius, or a corner
-constexpr double kMarginPx = 3.0;    // of line on either side that blur has rounded
-constexpr double kEndGuardPx = 5.0;  // an end has hooks of its own
+constexpr double kArmPx = 6.0;  // chords whose directions are compared
+// Of the centre's standard deviation by grain: then three standard deviations of the angle between two chords, sqrt(6)
+// times that over a chord, are as much as kSharpRad.
+constexpr double kArmSigmas = 12.0;
+constexpr double kGrainSigmas = 3.0;  // within which a point is where the stroke is
+constexpr double kArmPoints = 3.0;    // and where points are sparse: chords of fewer have no direction
+constexpr int kFewestPoints = 5;      // fewer have no turn that two chords could tell
+constexpr double kFewestArms = 3.0;   // of line: shorter ones have no turn that two chords could tell
+constexpr double kSharpRad = 0.6;     // between the two chords: an arc of less than 10 px radius, or a corner
+constexpr double kMarginPx = 3.0;     // of line on either side that blur has rounded
+constexpr double kEndGuardPx = 5.0;   // an end has hooks of its own
 constexpr double kFarPx = 1.5, kVeryFarPx = 4.0;   // of a point from a curve: few may lie so far, and none
 constexpr double kFarShare = 0.02;                 // of the points: so few
 constexpr double kOutlierPx = 1.2, kBackPx = 0.5;  // what a fit has left, and where it is back on its points
@@ -98,6 +102,11 @@ std::vector<double> turning(const Course& course, double arm) {
   return angle;
 }
 
+/// [px] Length of the chords whose directions are compared.
+double armOf(const Course& course, const ConstructPiece& piece) {
+  return std::max({kArmPx, kArmSigmas * piece.grain.sigmaPx, kArmPoints * course.total / course.count()});
+}
+
 /// Widens the places a..b of the course by a length on either side; as indices of the piece.
 PointRange widened(const Course& course, const ConstructPiece& piece, int a, int b, double margin) {
   const int n = course.count();
@@ -153,8 +162,7 @@ std::vector<PointRange> sharpFeatures(const ConstructPiece& piece, bool isStroke
   const int n = course.count();
   std::vector<PointRange> features;
   if (n < kFewestPoints) return features;
-  const double arm = std::max(kArmPx, kArmPoints * course.total / n);
-  const std::vector<double> angle = turning(course, arm);
+  const std::vector<double> angle = turning(course, armOf(course, piece));
   const auto sharp = [&](int i) { return angle[i % n] > kSharpRad; };
   int begin = 0;
   if (piece.closed) {
@@ -266,8 +274,10 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
     }
     PointOffset& offset = result.points.emplace_back();
     offset.offPx = d.distance;
-    // Between merged strokes the line may lie anywhere.
-    offset.distancePx = std::max(0.0, d.distance - static_cast<double>(point.spreadPx.value_or(0.0f)));
+    // Between merged strokes the line may lie anywhere, and grain scatters the points of a single one.
+    const double allowed =
+        std::max(static_cast<double>(point.spreadPx.value_or(0.0f)), kGrainSigmas * piece.grain.sigmaPx);
+    offset.distancePx = std::max(0.0, d.distance - allowed);
     const int low = std::min(static_cast<int>(d.place), static_cast<int>(parameter.size()) - 2);
     offset.parameter = std::lerp(parameter[low], parameter[low + 1], d.place - low);
     along += offset.distancePx;
@@ -294,7 +304,7 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
       std::ranges::any_of(close.points, [](const PointOffset& p) { return !(p.distancePx <= kOutlierPx); });
   if (!outliers && close.lengthRatio < kLongestRatio) return out;
   const Course course = courseOf(piece, 0.0);
-  const std::vector<double> angle = turning(course, std::max(kArmPx, kArmPoints * course.total / n));
+  const std::vector<double> angle = turning(course, armOf(course, piece));
   if (course.count() != n) return {{0, n - 1}};
   const auto distance = [&](int i) { return close.points[((i % n) + n) % n].distancePx; };
   const auto middle = [&](int i) {
@@ -309,7 +319,7 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
     int a = i, b = i;
     const auto isOff = [&](int k) {
       // What is cut out of a fit ends where the fit itself is back on the points.
-      return (whole ? close.points[k].offPx : middle(k)) > kBackPx;
+      return (whole ? close.points[k].offPx - kGrainSigmas * piece.grain.sigmaPx : middle(k)) > kBackPx;
     };
     while (a > 0 && isOff(a - 1)) --a;
     while (b + 1 < n && isOff(b + 1)) ++b;

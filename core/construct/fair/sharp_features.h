@@ -29,7 +29,7 @@ std::vector<PointRange> between(const std::vector<PointRange>& features, const C
 
 /// How far a point lies from a curve.
 struct PointOffset {
-  double distancePx = 0.0;  ///< Between merged strokes only what lies outside them.
+  double distancePx = 0.0;  ///< Only what merged strokes or grain do not explain.
   double offPx = 0.0;       ///< All of it …
   double parameter = 0.0;   ///< … and where on the curve.
 };

@@ -103,6 +103,7 @@ std::vector<ConstructPiece> SmoothSections::stretches() const {
   for (const PointRange& range : smooth_) {
     ConstructPiece piece;
     piece.points = pointsOf(range);
+    piece.grain = piece_.grain;
     piece.startIsCorner = piece_.startIsCorner && range.first == 0;
     piece.endIsCorner = piece_.endIsCorner && range.last + 1 == std::ssize(piece_.points);
     pieces.push_back(std::move(piece));

@@ -82,7 +82,7 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
     const ContourPoint& p = contour.points[wrapIndex(i, n)];
     std::optional<float> spreadPx;
     if (p.bundle) spreadPx = 0.5f * (p.bundle->left + p.bundle->right);
-    piece.points.push_back({p.at, p.refined, p.sigmaPx, spreadPx});
+    piece.points.push_back({p.at, p.refined, p.sigmaPx, spreadPx, p.widthPx});
   }
   const auto zoneOf = [&](const PlacedCorner* placed) { return placed->exact ? placed->zone : kGuessedZonePx; };
   int head = 0, tail = 0;
@@ -98,7 +98,7 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   const PiecePoint first = piece.points.empty() ? alone : piece.points.front();
   const PiecePoint last = piece.points.empty() ? alone : piece.points.back();
   const auto at = [&](const PlacedCorner& placed, const PiecePoint& beside) {
-    return PiecePoint{placed.corner.positionPx, placed.exact || drawn, beside.sigmaPx, beside.spreadPx};
+    return PiecePoint{placed.corner.positionPx, placed.exact || drawn, beside.sigmaPx, beside.spreadPx, beside.widthPx};
   };
   if (start != nullptr) piece.points.insert(piece.points.begin(), at(*start, first));
   if (end != nullptr) piece.points.push_back(at(*end, last));

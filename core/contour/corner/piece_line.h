@@ -16,6 +16,7 @@ struct PiecePoint {
   std::optional<float> sigmaPx = {};   ///< [px] > 0: standard deviation across the line.
   std::optional<float> spreadPx = {};  ///< [px] half-width of the bundle of merged strokes: the intended line may lie
                                        ///< anywhere within.
+  std::optional<float> widthPx = {};   ///< [px] of the stroke that the line is the centre of.
 };
 
 /// The line of a piece: ordered points, about one a pixel of the scan.

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/stroke_grain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "core/construct/fair/fair_fit.h"
+
+namespace batten {
+namespace {
+
+constexpr double kStrokeWidthPx = 14.0, kStrokeLengthPx = 1200.0;
+
+/// Gaussian noise a px, of this standard deviation, that is alike over about a stroke's width.
+std::vector<double> wandering(std::mt19937& random, int count, double sigmaPx) {
+  constexpr double kAlikePx = 0.25 * kStrokeWidthPx;  // of the Gaussian that smooths white noise
+  std::normal_distribution<double> normal;
+  const int reach = static_cast<int>(3.0 * kAlikePx);
+  std::vector<double> white(count + 2 * reach), out(count);
+  for (double& w : white) w = normal(random);
+  const double scale = sigmaPx * std::sqrt(2.0 * kAlikePx * std::sqrt(std::numbers::pi)) /
+                       (kAlikePx * std::sqrt(2.0 * std::numbers::pi));
+  for (int i = 0; i < count; ++i) {
+    for (int k = -reach; k <= reach; ++k)
+      out[i] += scale * white[i + reach + k] * std::exp(-0.5 * k * k / (kAlikePx * kAlikePx));
+  }
+  return out;
+}
+
+/// A stroke along an S of two wide arcs whose two borders wander by themselves.
+ConstructContour sketched(double borderSigmaPx, std::uint32_t seed, bool hasWidths = true, double wavePx = 0.0) {
+  std::mt19937 random(seed);
+  const int count = static_cast<int>(kStrokeLengthPx);
+  const std::vector<double> left = wandering(random, count, borderSigmaPx),
+                            right = wandering(random, count, borderSigmaPx);
+  std::normal_distribution<double> fine(0.0, 0.05);
+  ConstructContour contour;
+  contour.isStroke = true;
+  ConstructPiece piece;
+  for (int i = 0; i < count; ++i) {
+    const double x = i, bow = 60.0 * std::sin(std::numbers::pi * x / kStrokeLengthPx);
+    const double wave = wavePx * std::sin(2.0 * std::numbers::pi * x / 200.0);
+    PiecePoint p;
+    p.at = {x, 300.0 + bow + wave + 0.5 * (left[i] + right[i]) + fine(random)};
+    p.sigmaPx = 0.1f;
+    if (hasWidths) p.widthPx = static_cast<float>(kStrokeWidthPx + 0.004 * x + left[i] - right[i]);
+    piece.points.push_back(p);
+  }
+  contour.pieces.push_back(std::move(piece));
+  return contour;
+}
+
+int extremaOf(const ConstructContour& contour) {
+  const auto fit = fairFit(contour, {}, {});
+  if (!fit) {
+    ADD_FAILURE() << fit.error().message;
+    return 0;
+  }
+  return static_cast<int>(std::ranges::count_if(fit->front().report.extrema, &ExtremumNote::kept)) +
+         fit->front().report.extremaInSharpFeatures;
+}
+
+TEST(StrokeGrain, IsTheScatterOfTheCentreOverAStrokesWidth) {
+  std::vector<double> density;
+  for (std::uint32_t seed = 1; seed <= 9; ++seed) density.push_back(strokeGrain(sketched(1.2, seed)).density);
+  std::ranges::sort(density);
+  // Half the difference of two borders: half the variance of one, over the length of its correlation.
+  const double expected = 0.5 * 1.2 * 1.2 * 2.0 * 0.25 * kStrokeWidthPx * std::sqrt(std::numbers::pi);
+  EXPECT_GT(density[4], 0.5 * expected);
+  EXPECT_LT(density[4], 1.6 * expected);
+}
+
+TEST(StrokeGrain, ATaperIsNone) {
+  const StrokeGrain grain = strokeGrain(sketched(0.0, 1));
+  EXPECT_LT(grain.density, 1e-3);
+  EXPECT_EQ(strokeGrain(sketched(1.2, 1, false)).density, 0.0);
+}
+
+TEST(StrokeGrain, IsNoShapeOfTheLine) {
+  // The borders wander by more than a pixel: without the widths that is taken for the drawn line.
+  int with = 0, without = 0;
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    with += extremaOf(sketched(1.2, seed));
+    without += extremaOf(sketched(1.2, seed, false));
+  }
+  EXPECT_LE(with, 5 * 3) << "the S has one";
+  EXPECT_GT(without, 5 * 6);
+}
+
+TEST(StrokeGrain, AWaveThatWasDrawnStays) {
+  // Six waves of 4 px in 200: both borders follow them, the width does not.
+  const int drawn = extremaOf(sketched(1.2, 3, true, 4.0));
+  EXPECT_GE(drawn, 10);
+  EXPECT_LE(drawn, 16);
+}
+
+}  // namespace
+}  // namespace batten
