@@ -110,6 +110,7 @@ struct ContourReport {
 struct ContourSet {
   std::vector<Contour> contours;
   std::vector<StrokeJunction> junctions;  ///< Of the strokes; none where lines were made of several.
+  std::vector<Contour> grain;             ///< Short lines that were dropped, being the grain of a tone.
   ContourReport report;
 };
 

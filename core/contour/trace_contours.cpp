@@ -17,6 +17,7 @@
 #include "core/contour/ink/faint_marks.h"
 #include "core/contour/ink/ink_split.h"
 #include "core/contour/ink/line_choices.h"
+#include "core/contour/ink/tone_grain.h"
 #include "core/contour/outline/crack_contours.h"
 #include "core/contour/outline/implied_borders.h"
 #include "core/contour/outline/soft_borders.h"
@@ -62,6 +63,9 @@ void tellDropped(ContourSet& set, const EdgeParams& edges) {
   if (report.droppedFaint > 0)
     addNote(set, countedWere(report.droppedFaint, "speck", "specks") +
                      " dropped, much fainter than the strokes around; contours.min_widths=2 keeps them.");
+  if (!set.grain.empty())
+    addNote(set, countedWere(static_cast<int>(set.grain.size()), "short line", "short lines") +
+                     " dropped, no darker than the grain of the tone around; contours.min_widths=2 keeps them.");
   if (report.droppedMargins > 0)
     addNote(set, countedWere(report.droppedMargins, "line along the page border", "lines along the page border") +
                      " dropped.");
@@ -189,8 +193,10 @@ bool hasOwnLengths(const ContourParams& params) {
 // What a page is made of, before sub-pixel placement of the outlines; centre lines come placed.
 struct FoundLines {
   ContourSet set;
-  RunPieces regions;  ///< What a choice of the user holds for.
-  BitImage blots;     ///< Ink to be followed along its middle that has none.
+  RunPieces regions;                ///< What a choice of the user holds for.
+  BitImage blots;                   ///< Ink to be followed along its middle that has none.
+  double penPx = 0.0;               ///< The width of the strokes; 0: there are none.
+  std::optional<BitImage> painted;  ///< InkSplit::painted.
 };
 
 // Drops marks much fainter than the strokes around them. @return how many.
@@ -217,6 +223,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   Result<InkSplit> split = splitInk(ink, grey, edges, context, page);
   if (!split) return fail(split.error());
   context.report(0.2);
+  found.penPx = split->penPx.value_or(0.0);
   found.regions = std::move(split->regions);
   const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths,
                                   split->known.get(), page};
@@ -250,6 +257,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   borders->report.droppedHoles += texture;
   borders->report.droppedFaint = faint;
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);
+  found.painted = std::move(split->painted);
   found.set = std::move(*borders);
   const std::size_t all = lines->contours.size();
   std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
@@ -334,6 +342,10 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
     if (isMoreOfIt(*net, found->set)) found->set = std::move(*net);
   }
   noteChoices(found->set, found->regions, edges.choices, found->blots, page != nullptr ? kFineFactor : 1.0, context);
+  // A line of several strokes lies beside their ink.
+  const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
+  if (edges.mode == EdgeMode::Automatic && isOfOne && !hasOwnLengths(params))
+    dropGrain(found->set, grey, found->penPx, found->painted, context);
   return std::move(found->set);
 }
 

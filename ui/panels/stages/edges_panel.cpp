@@ -179,6 +179,10 @@ void EdgesPanel::refresh() {
     rows.push_back({tr("Faint specks dropped"),
                     {{grouped(report.droppedFaint)}},
                     tr("Much fainter than the strokes around them.")});
+  if (!set->grain.empty())
+    rows.push_back({tr("Grain of tones dropped"),
+                    {{grouped(static_cast<int>(set->grain.size()))}},
+                    tr("Short lines no darker than the grain of the shading around them.")});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines dropped"), {{grouped(report.droppedHoles)}}, {}});
   qint64 fallback = 0;
   for (const Contour& contour : set->contours)

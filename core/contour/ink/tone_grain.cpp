@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/ink/tone_grain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+
+#include "core/base/statistics.h"
+#include "core/contour/ink/line_company.h"
+#include "core/image/bits/bit_disc.h"
+
+namespace batten {
+namespace {
+
+// [widths] Grain runs on by chance: after each width the next place of the paper is as likely bright as dark, and a way
+// round is found for a few of them.
+constexpr double kMostGrainWidths = 25.0;
+constexpr double kMostBreadth = 2.0;   // [widths] the page is smoothed to one, in the middle of all short lines
+constexpr double kGroundWidths = 8.0;  // [widths] from a line: its ground, several grains wide
+constexpr double kClearWidths = 1.5;   // [widths] from its middle: beyond its blurred border
+constexpr double kBesideWidths = 1.0;  // [widths] beyond its border: what lies beside it
+constexpr double kBlurWidths = 0.4;    // [widths] standard deviation: about the profile of a line
+// [standard deviations of a place] A line of grain is the darkest of some thousand ways over its ground, 3.5 of the
+// deviations of its mean; that is half as large as of a place, four widths long or so; and pencil on the tooth of the
+// paper varies up to twice as far to the dark side as to the bright.
+constexpr double kStandsOut = 4.0;
+constexpr double kOneSigma = 0.841, kTwoSigma = 0.977;  // quantiles of a normal variable, 1 and 2 above its median
+constexpr double kLeastSigma = 0.29;                    // [grey] of what is rounded to whole levels
+constexpr int kFewestCells = 60;                        // of a ground: the upper quantile is then not a single cell
+// Of the contrast of the page's lines: pencil strokes of one hand differ by less, as in centreline.cpp.
+constexpr double kAsDarkAsLines = 0.8;
+
+double widthOf(const Contour& line, double otherwisePx) {
+  const std::vector<float> widths = strokeWidthsOf(line.points);
+  double sum = 0.0;
+  for (const float width : widths) sum += static_cast<double>(width);
+  return widths.empty() ? otherwisePx : std::max(1.0, sum / static_cast<double>(widths.size()));
+}
+
+// [px] The width of a line; of a mark that of a line with its area and border.
+double breadthOf(const Contour& c, double penPx) {
+  return c.kind == ContourKind::Outline ? 2.0 * c.areaPx / std::max(1.0, c.lengthPx) : widthOf(c, penPx);
+}
+
+// A page as its short lines see it: smoothed to their width, in cells of half of it.
+struct LinesOnGround {
+  double cellPx = 1.0, widthPx = 1.0;
+  cv::Mat1f level;  // [grey]
+  cv::Mat1b ink;    // not 0 on shapes and long lines: no ground
+
+  double widthCells() const { return widthPx / cellPx; }
+  cv::Point2d cellAt(const Vec2& px) const { return {px.x() / cellPx - 0.5, px.y() / cellPx - 0.5}; }
+  std::vector<cv::Point> cellsOf(const Contour& c) const {
+    std::vector<cv::Point> cells;
+    for (const ContourPoint& p : c.points) {
+      const cv::Point2d at = cellAt(p.at);
+      const cv::Point cell(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+      if (cells.empty() || cells.back() != cell) cells.push_back(cell);
+    }
+    return cells;
+  }
+  double levelAt(const Vec2& px) const {
+    const cv::Point2d at = cellAt(px);
+    const double x = std::clamp(at.x, 0.0, level.cols - 1.0), y = std::clamp(at.y, 0.0, level.rows - 1.0);
+    const int i = std::min(static_cast<int>(x), level.cols - 2), j = std::min(static_cast<int>(y), level.rows - 2);
+    const auto value = [&](int dx, int dy) { return static_cast<double>(level(j + dy, i + dx)); };
+    return std::lerp(std::lerp(value(0, 0), value(1, 0), x - i), std::lerp(value(0, 1), value(1, 1), x - i), y - j);
+  }
+};
+
+cv::Mat1b inkOfLongLines(const LinesOnGround& page, const ContourSet& set, const std::vector<bool>& isShort) {
+  constexpr int kThickest = 255;  // that OpenCV draws
+  cv::Mat1b ink = cv::Mat1b::zeros(page.level.size()), shapes = ink.clone();
+  std::vector<std::vector<cv::Point>> borders;
+  for (std::size_t i = 0; i < set.contours.size(); ++i) {
+    const Contour& c = set.contours[i];
+    if (isShort[i] || c.points.empty()) continue;
+    std::vector<cv::Point> cells = page.cellsOf(c);
+    if (c.kind == ContourKind::Outline) {
+      borders.push_back(std::move(cells));
+      continue;
+    }
+    // The width, and a cell of blurred border at either side.
+    const double thick = widthOf(c, page.widthPx) / page.cellPx + 2.0;
+    cv::polylines(ink, cells, c.closed, 255, std::clamp(static_cast<int>(std::lround(thick)), 1, kThickest));
+  }
+  if (!borders.empty()) cv::fillPoly(shapes, borders, 255);
+  cv::dilate(shapes, shapes, cv::Mat());
+  return ink | shapes;
+}
+
+LinesOnGround linesOnGround(const ContourSet& set, const std::vector<bool>& isShort, const GreyImage& grey,
+                            double widthPx) {
+  LinesOnGround page;
+  const int cellPx = std::max(1, static_cast<int>(0.5 * widthPx));
+  page.cellPx = cellPx;
+  page.widthPx = widthPx;
+  const cv::Size size(grey.width / cellPx, grey.height / cellPx);
+  const cv::Mat whole(grey.height, grey.width, CV_16U, const_cast<std::uint16_t*>(grey.pixels.data()));
+  cv::Mat reduced;
+  cv::resize(whole(cv::Rect(0, 0, size.width * cellPx, size.height * cellPx)), reduced, size, 0, 0, cv::INTER_AREA);
+  reduced.convertTo(page.level, CV_32F, 1.0 / GreyImage::kGreyUnit);
+  cv::GaussianBlur(page.level, page.level, {}, kBlurWidths * page.widthCells());
+  page.ink = inkOfLongLines(page, set, isShort);
+  return page;
+}
+
+struct GroundCell {
+  float x, y, level;
+};
+
+// The light on a ground: a plane below its bright side, where no ink is. [grey: at 0, by x, by y]
+std::array<double, 3> lightOn(const std::vector<GroundCell>& ground) {
+  constexpr int kRounds = 3;
+  constexpr double kBelow = 0.1;  // weight of what is darker than the plane, which may be ink
+  cv::Vec3d plane(0.0, 0.0, 0.0);
+  for (int round = 0; round < kRounds; ++round) {
+    cv::Matx33d normal = cv::Matx33d::zeros();
+    cv::Vec3d right(0.0, 0.0, 0.0);
+    for (const GroundCell& cell : ground) {
+      const cv::Vec3d row(1.0, static_cast<double>(cell.x), static_cast<double>(cell.y));
+      const double level = static_cast<double>(cell.level);
+      const double weight = round > 0 && level < plane.dot(row) ? kBelow : 1.0;
+      normal += weight * row * row.t();
+      right += weight * level * row;
+    }
+    plane = normal.solve(right, cv::DECOMP_SVD);
+  }
+  return {plane[0], plane[1], plane[2]};
+}
+
+// By how many standard deviations of its ground a line is darker than the ground, both measured from a plane.
+double overNoise(const std::vector<GroundCell>& ground, const GroundCell& line, const std::array<double, 3>& plane) {
+  const auto above = [&plane](const GroundCell& cell) {
+    return static_cast<double>(cell.level) - plane[0] - plane[1] * static_cast<double>(cell.x) -
+           plane[2] * static_cast<double>(cell.y);
+  };
+  std::vector<double> levels;
+  for (const GroundCell& cell : ground) levels.push_back(above(cell));
+  // Where clean paper shows, both lie on it.
+  const double one = lowerQuantile(levels, kOneSigma), two = lowerQuantile(levels, kTwoSigma);
+  const double sigma = std::max(kLeastSigma, two - one);
+  return (one - sigma - above(line)) / sigma;
+}
+
+// A line, in the mean along it, and a mark, inside it, against the ground. Absent: there is no ground.
+std::optional<double> overGround(const Contour& c, const LinesOnGround& page) {
+  const auto reach = static_cast<int>(kGroundWidths * page.widthCells());
+  std::vector<cv::Point> cells = page.cellsOf(c);
+  cv::Rect box = cv::boundingRect(cells);
+  box = cv::Rect(box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach) &
+        cv::Rect({0, 0}, page.level.size());
+  if (box.empty()) return std::nullopt;
+  for (cv::Point& cell : cells) cell -= box.tl();
+  cv::Mat1b own = cv::Mat1b::zeros(box.size());
+  cv::polylines(own, cells, c.closed, 255);
+  if (c.kind == ContourKind::Outline) cv::fillPoly(own, std::vector<std::vector<cv::Point>>{cells}, 255);
+  cv::Mat1f distance;
+  cv::distanceTransform(own == 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
+  std::vector<GroundCell> ground;
+  GroundCell sum{0.0f, 0.0f, 0.0f};
+  int count = 0;
+  for (int j = 0; j < box.height; ++j) {
+    for (int i = 0; i < box.width; ++i) {
+      const GroundCell cell{static_cast<float>(i), static_cast<float>(j), page.level(box.y + j, box.x + i)};
+      const auto off = static_cast<double>(distance(j, i));
+      if (off > kClearWidths * page.widthCells() && off < reach && page.ink(box.y + j, box.x + i) == 0)
+        ground.push_back(cell);
+      if (own(j, i) != 0) sum = {sum.x + cell.x, sum.y + cell.y, sum.level + cell.level}, ++count;
+    }
+  }
+  if (std::ssize(ground) < kFewestCells || count == 0) return std::nullopt;
+  const auto n = static_cast<float>(count);
+  const GroundCell line{sum.x / n, sum.y / n, sum.level / n};
+  // Slanting light is no grain; but where little paper shows, its slant is not known.
+  return std::max(overNoise(ground, line, {}), overNoise(ground, line, lightOn(ground)));
+}
+
+// [grey] How much darker a line is than what lies beside it.
+double contrastOf(const Contour& c, const LinesOnGround& page) {
+  const double aside = 0.5 * widthOf(c, page.widthPx) + kBesideWidths * page.widthPx;
+  const auto step = static_cast<std::ptrdiff_t>(std::max(1.0, 0.5 * page.widthPx));
+  const std::ptrdiff_t last = std::ssize(c.points) - 1;
+  double sum = 0.0;
+  int count = 0;
+  for (std::ptrdiff_t i = 0; i <= last; i += step) {
+    const Vec2& at = c.points[i].at;
+    const Vec2 along = c.points[std::min(last, i + step)].at - c.points[std::max<std::ptrdiff_t>(0, i - step)].at;
+    if (!(along.norm() > 0.0)) continue;
+    const Vec2 away = aside * leftNormal(along.normalized());
+    sum += 0.5 * (page.levelAt(at + away) + page.levelAt(at - away)) - page.levelAt(at);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+// Chance turns a line of grain every few widths: three times in a row it does not lead it straight on.
+bool isStraight(const Contour& c, double widthPx) {
+  constexpr double kLeastWidths = 12.0, kMostOffWidths = 0.5;  // from end to end; from the chord, root mean square
+  if (c.closed) return false;
+  const Vec2& from = c.points.front().at;
+  const Vec2 chord = c.points.back().at - from;
+  if (!(chord.norm() >= kLeastWidths * widthPx)) return false;
+  const Vec2 across = leftNormal(chord.normalized());
+  double sum = 0.0;
+  for (const ContourPoint& p : c.points) sum += std::pow(across.dot(p.at - from), 2);
+  return std::sqrt(sum / static_cast<double>(c.points.size())) <= kMostOffWidths * widthPx;
+}
+
+// Of the long lines of the page, in the middle. Absent: there are none.
+std::optional<double> usualContrast(const ContourSet& set, const std::vector<bool>& isShort,
+                                    const LinesOnGround& page) {
+  std::vector<double> contrasts;
+  for (std::size_t i = 0; i < set.contours.size(); ++i) {
+    const Contour& c = set.contours[i];
+    if (!isShort[i] && c.kind == ContourKind::Centreline) contrasts.push_back(contrastOf(c, page));
+  }
+  return contrasts.empty() ? std::nullopt : std::optional(upperMedian(contrasts));
+}
+
+// Holes go with the mark that they are in.
+void addHoles(const ContourSet& set, const std::vector<bool>& isShort, std::vector<bool>& isGrain) {
+  for (std::size_t i = 0; i < set.contours.size(); ++i) {
+    if (!isGrain[i] || set.contours[i].kind != ContourKind::Outline) continue;
+    std::vector<cv::Point2f> border;
+    for (const ContourPoint& p : set.contours[i].points)
+      border.emplace_back(static_cast<float>(p.at.x()), static_cast<float>(p.at.y()));
+    for (std::size_t k = 0; k < set.contours.size(); ++k) {
+      if (!set.contours[k].hole || !isShort[k]) continue;
+      const Vec2& at = set.contours[k].points.front().at;
+      if (cv::pointPolygonTest(border, {static_cast<float>(at.x()), static_cast<float>(at.y())}, false) > 0.0)
+        isGrain[k] = true;
+    }
+  }
+}
+
+// The lines that are short and narrow enough for grain.
+struct ShortLines {
+  std::vector<bool> isShort;
+  double widthPx = 0.0;  // of them, in the middle; 0: there are none
+};
+ShortLines shortLinesOf(const ContourSet& set, double penPx) {
+  ShortLines lines;
+  std::vector<double> widths;
+  for (const Contour& c : set.contours) {
+    const double width = widthOf(c, penPx);
+    lines.isShort.push_back(c.points.size() > 1 && c.lengthPx < kMostGrainWidths * width);
+    if (lines.isShort.back() && c.kind == ContourKind::Centreline) widths.push_back(width);
+  }
+  if (widths.empty()) return lines;
+  lines.widthPx = upperMedian(widths);
+  // Broad lines and marks would be held against their own insides.
+  for (std::size_t i = 0; i < set.contours.size(); ++i) {
+    const Contour& c = set.contours[i];
+    if (!c.hole && breadthOf(c, penPx) > kMostBreadth * lines.widthPx) lines.isShort[i] = false;
+  }
+  return lines;
+}
+
+// Lines that are hardly darker than their ground, and fainter than the long lines.
+std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, const GreyImage& grey,
+                             const RunContext& context) {
+  std::vector<bool> isFaint(set.contours.size(), false);
+  const LinesOnGround page = linesOnGround(set, lines.isShort, grey, lines.widthPx);
+  const std::optional<double> usual = usualContrast(set, lines.isShort, page);
+  for (std::size_t i = 0; i < set.contours.size() && usual && !context.isCancelled(); ++i) {
+    const Contour& c = set.contours[i];
+    if (!lines.isShort[i] || c.hole || c.traceMode || isStraight(c, lines.widthPx)) continue;
+    if (contrastOf(c, page) >= kAsDarkAsLines * *usual) continue;
+    const std::optional<double> over = overGround(c, page);
+    isFaint[i] = over && *over < kStandsOut;
+  }
+  return isFaint;
+}
+
+}  // namespace
+
+std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, double penPx, const RunContext& context) {
+  std::vector<bool> isGrain(set.contours.size(), false);
+  const ShortLines lines = shortLinesOf(set, penPx);
+  if (grey.isUniform || !(lines.widthPx > 0.0)) return isGrain;
+  if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
+  const std::vector<bool> isFaint = faintLines(set, lines, grey, context);
+  // Grain is no company: without it others have none either.
+  for (bool isChanged = true; isChanged && !context.isCancelled();) {
+    isChanged = false;
+    const LineCompany company(set, isGrain, lines.widthPx);
+    for (int i = 0; i < std::ssize(set.contours); ++i) {
+      if (!isFaint[i] || isGrain[i] || company.isOneOf(i)) continue;
+      isGrain[i] = isChanged = true;
+    }
+  }
+  addHoles(set, lines.isShort, isGrain);
+  return isGrain;
+}
+
+void dropGrain(ContourSet& set, const GreyImage& grey, double penPx, const std::optional<BitImage>& painted,
+               const RunContext& context) {
+  constexpr double kOnPaintPx = 1.5;  // the pixel of a place and its eight neighbours
+  const std::vector<bool> isGrain = linesOfGrain(set, grey, penPx, context);
+  std::vector<Contour> kept;
+  for (std::size_t i = 0; i < isGrain.size(); ++i) {
+    Contour& c = set.contours[i];
+    const bool isPainted = isGrain[i] && painted && anyInDisc(*painted, placeOnInk(c), kOnPaintPx);
+    (isGrain[i] && !isPainted ? set.grain : kept).push_back(std::move(c));
+  }
+  set.contours = std::move(kept);
+}
+
+}  // namespace batten
