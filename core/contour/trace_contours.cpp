@@ -195,7 +195,6 @@ struct FoundLines {
   ContourSet set;
   RunPieces regions;                ///< What a choice of the user holds for.
   BitImage blots;                   ///< Ink to be followed along its middle that has none.
-  double penPx = 0.0;               ///< The width of the strokes; 0: there are none.
   std::optional<BitImage> painted;  ///< InkSplit::painted.
 };
 
@@ -223,7 +222,6 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   Result<InkSplit> split = splitInk(ink, grey, edges, context, page);
   if (!split) return fail(split.error());
   context.report(0.2);
-  found.penPx = split->penPx.value_or(0.0);
   found.regions = std::move(split->regions);
   const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths,
                                   split->known.get(), page};
@@ -345,7 +343,7 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
   // A line of several strokes lies beside their ink.
   const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
   if (edges.mode == EdgeMode::Automatic && isOfOne && !hasOwnLengths(params))
-    dropGrain(found->set, grey, found->penPx, found->painted, context);
+    dropGrain(found->set, grey, found->painted, context);
   return std::move(found->set);
 }
 

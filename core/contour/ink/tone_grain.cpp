@@ -35,16 +35,12 @@ constexpr int kFewestCells = 60;                        // of a ground: the uppe
 // Of the contrast of the page's lines: pencil strokes of one hand differ by less, as in centreline.cpp.
 constexpr double kAsDarkAsLines = 0.8;
 
-double widthOf(const Contour& line, double otherwisePx) {
+// [px] 0: not known.
+double widthOf(const Contour& line) {
   const std::vector<float> widths = strokeWidthsOf(line.points);
   double sum = 0.0;
   for (const float width : widths) sum += static_cast<double>(width);
-  return widths.empty() ? otherwisePx : std::max(1.0, sum / static_cast<double>(widths.size()));
-}
-
-// [px] The width of a line; of a mark that of a line with its area and border.
-double breadthOf(const Contour& c, double penPx) {
-  return c.kind == ContourKind::Outline ? 2.0 * c.areaPx / std::max(1.0, c.lengthPx) : widthOf(c, penPx);
+  return widths.empty() ? 0.0 : std::max(1.0, sum / static_cast<double>(widths.size()));
 }
 
 // A page as its short lines see it: smoothed to their width, in cells of half of it.
@@ -86,7 +82,7 @@ cv::Mat1b inkOfLongLines(const LinesOnGround& page, const ContourSet& set, const
       continue;
     }
     // The width, and a cell of blurred border at either side.
-    const double thick = widthOf(c, page.widthPx) / page.cellPx + 2.0;
+    const double thick = widthOf(c) / page.cellPx + 2.0;
     cv::polylines(ink, cells, c.closed, 255, std::clamp(static_cast<int>(std::lround(thick)), 1, kThickest));
   }
   if (!borders.empty()) cv::fillPoly(shapes, borders, 255);
@@ -148,7 +144,7 @@ double overNoise(const std::vector<GroundCell>& ground, const GroundCell& line, 
   return (one - sigma - above(line)) / sigma;
 }
 
-// A line, in the mean along it, and a mark, inside it, against the ground. Absent: there is no ground.
+// A line, in the mean along it, against the ground. Absent: there is no ground.
 std::optional<double> overGround(const Contour& c, const LinesOnGround& page) {
   const auto reach = static_cast<int>(kGroundWidths * page.widthCells());
   std::vector<cv::Point> cells = page.cellsOf(c);
@@ -159,7 +155,6 @@ std::optional<double> overGround(const Contour& c, const LinesOnGround& page) {
   for (cv::Point& cell : cells) cell -= box.tl();
   cv::Mat1b own = cv::Mat1b::zeros(box.size());
   cv::polylines(own, cells, c.closed, 255);
-  if (c.kind == ContourKind::Outline) cv::fillPoly(own, std::vector<std::vector<cv::Point>>{cells}, 255);
   cv::Mat1f distance;
   cv::distanceTransform(own == 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
   std::vector<GroundCell> ground;
@@ -183,7 +178,7 @@ std::optional<double> overGround(const Contour& c, const LinesOnGround& page) {
 
 // [grey] How much darker a line is than what lies beside it.
 double contrastOf(const Contour& c, const LinesOnGround& page) {
-  const double aside = 0.5 * widthOf(c, page.widthPx) + kBesideWidths * page.widthPx;
+  const double aside = 0.5 * widthOf(c) + kBesideWidths * page.widthPx;
   const auto step = static_cast<std::ptrdiff_t>(std::max(1.0, 0.5 * page.widthPx));
   const std::ptrdiff_t last = std::ssize(c.points) - 1;
   double sum = 0.0;
@@ -223,42 +218,24 @@ std::optional<double> usualContrast(const ContourSet& set, const std::vector<boo
   return contrasts.empty() ? std::nullopt : std::optional(upperMedian(contrasts));
 }
 
-// Holes go with the mark that they are in.
-void addHoles(const ContourSet& set, const std::vector<bool>& isShort, std::vector<bool>& isGrain) {
-  for (std::size_t i = 0; i < set.contours.size(); ++i) {
-    if (!isGrain[i] || set.contours[i].kind != ContourKind::Outline) continue;
-    std::vector<cv::Point2f> border;
-    for (const ContourPoint& p : set.contours[i].points)
-      border.emplace_back(static_cast<float>(p.at.x()), static_cast<float>(p.at.y()));
-    for (std::size_t k = 0; k < set.contours.size(); ++k) {
-      if (!set.contours[k].hole || !isShort[k]) continue;
-      const Vec2& at = set.contours[k].points.front().at;
-      if (cv::pointPolygonTest(border, {static_cast<float>(at.x()), static_cast<float>(at.y())}, false) > 0.0)
-        isGrain[k] = true;
-    }
-  }
-}
-
 // The lines that are short and narrow enough for grain.
 struct ShortLines {
   std::vector<bool> isShort;
   double widthPx = 0.0;  // of them, in the middle; 0: there are none
 };
-ShortLines shortLinesOf(const ContourSet& set, double penPx) {
+ShortLines shortLinesOf(const ContourSet& set) {
   ShortLines lines;
   std::vector<double> widths;
   for (const Contour& c : set.contours) {
-    const double width = widthOf(c, penPx);
-    lines.isShort.push_back(c.points.size() > 1 && c.lengthPx < kMostGrainWidths * width);
-    if (lines.isShort.back() && c.kind == ContourKind::Centreline) widths.push_back(width);
+    lines.isShort.push_back(c.kind == ContourKind::Centreline && c.points.size() > 1 &&
+                            c.lengthPx < kMostGrainWidths * widthOf(c));
+    if (lines.isShort.back()) widths.push_back(widthOf(c));
   }
   if (widths.empty()) return lines;
   lines.widthPx = upperMedian(widths);
-  // Broad lines and marks would be held against their own insides.
-  for (std::size_t i = 0; i < set.contours.size(); ++i) {
-    const Contour& c = set.contours[i];
-    if (!c.hole && breadthOf(c, penPx) > kMostBreadth * lines.widthPx) lines.isShort[i] = false;
-  }
+  // Broad lines would be held against their own insides.
+  for (std::size_t i = 0; i < set.contours.size(); ++i)
+    if (widthOf(set.contours[i]) > kMostBreadth * lines.widthPx) lines.isShort[i] = false;
   return lines;
 }
 
@@ -270,7 +247,7 @@ std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, con
   const std::optional<double> usual = usualContrast(set, lines.isShort, page);
   for (std::size_t i = 0; i < set.contours.size() && usual && !context.isCancelled(); ++i) {
     const Contour& c = set.contours[i];
-    if (!lines.isShort[i] || c.hole || c.traceMode || isStraight(c, lines.widthPx)) continue;
+    if (!lines.isShort[i] || c.traceMode || isStraight(c, lines.widthPx)) continue;
     if (contrastOf(c, page) >= kAsDarkAsLines * *usual) continue;
     const std::optional<double> over = overGround(c, page);
     isFaint[i] = over && *over < kStandsOut;
@@ -280,9 +257,9 @@ std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, con
 
 }  // namespace
 
-std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, double penPx, const RunContext& context) {
+std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, const RunContext& context) {
   std::vector<bool> isGrain(set.contours.size(), false);
-  const ShortLines lines = shortLinesOf(set, penPx);
+  const ShortLines lines = shortLinesOf(set);
   if (grey.isUniform || !(lines.widthPx > 0.0)) return isGrain;
   if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
   const std::vector<bool> isFaint = faintLines(set, lines, grey, context);
@@ -295,14 +272,13 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, dou
       isGrain[i] = isChanged = true;
     }
   }
-  addHoles(set, lines.isShort, isGrain);
   return isGrain;
 }
 
-void dropGrain(ContourSet& set, const GreyImage& grey, double penPx, const std::optional<BitImage>& painted,
+void dropGrain(ContourSet& set, const GreyImage& grey, const std::optional<BitImage>& painted,
                const RunContext& context) {
   constexpr double kOnPaintPx = 1.5;  // the pixel of a place and its eight neighbours
-  const std::vector<bool> isGrain = linesOfGrain(set, grey, penPx, context);
+  const std::vector<bool> isGrain = linesOfGrain(set, grey, context);
   std::vector<Contour> kept;
   for (std::size_t i = 0; i < isGrain.size(); ++i) {
     Contour& c = set.contours[i];

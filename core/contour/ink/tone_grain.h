@@ -19,12 +19,13 @@ namespace batten {
 ///   the paper would not find;
 /// - not straight over a length that chance does not lead it;
 /// - without company: it does not run as the lines around it do (line_company.h) that are no grain themselves.
-/// @param penPx [px] the width of marks that have none of their own. @return for each contour whether it is grain. None
-/// is where the page has no long lines, and where a line has no ground around it that is not a shape.
-std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, double penPx, const RunContext& context);
+/// Marks that are followed along their border are another rule's (faint_marks.h).
+/// @return for each contour whether it is grain. None is where the page has no long lines, and where a line has no
+/// ground around it that is not a shape.
+std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, const RunContext& context);
 
 /// Moves such lines to ContourSet::grain, but for those on ink that the user painted.
-void dropGrain(ContourSet& set, const GreyImage& grey, double penPx, const std::optional<BitImage>& painted,
+void dropGrain(ContourSet& set, const GreyImage& grey, const std::optional<BitImage>& painted,
                const RunContext& context);
 
 }  // namespace batten

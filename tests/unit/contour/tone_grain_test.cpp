@@ -141,7 +141,7 @@ std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise) {
     measureContour(c);
     set.contours.push_back(std::move(c));
   }
-  return linesOfGrain(set, grey, 4.0, {});
+  return linesOfGrain(set, grey, {});
 }
 
 TEST(ToneGrain, AFaintDashIsGrainOnNoiseAloneAndNotInCompany) {
