@@ -34,6 +34,7 @@ constexpr double kLeastSigma = 0.29;                    // [grey] of what is rou
 constexpr int kFewestCells = 60;                        // of a ground: the upper quantile is then not a single cell
 // Of the contrast of the page's lines: pencil strokes of one hand differ by less, as in centreline.cpp.
 constexpr double kAsDarkAsLines = 0.8;
+constexpr int kMostRounds = 12;  // of taking lines out: a row of faint dashes would be eaten up from its ends
 
 // [px] 0: not known.
 double widthOf(const Contour& line) {
@@ -264,7 +265,8 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, con
   if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
   const std::vector<bool> isFaint = faintLines(set, lines, grey, context);
   // Grain is no company: without it others have none either.
-  for (bool isChanged = true; isChanged && !context.isCancelled();) {
+  bool isChanged = true;
+  for (int round = 0; round < kMostRounds && isChanged && !context.isCancelled(); ++round) {
     isChanged = false;
     const LineCompany company(set, isGrain, lines.widthPx);
     for (int i = 0; i < std::ssize(set.contours); ++i) {
