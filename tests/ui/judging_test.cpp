@@ -224,6 +224,15 @@ TEST_F(Judging, ARadiusTooLargeToShowLeavesThePlot) {
     for (std::size_t i = 1; i < points.size(); ++i)
       EXPECT_FALSE(points[i].value <= data.high && points[i].value == points[i - 1].value)
           << "a flat line that looks like an arc at " << points[i].s;
+    const PlotData curvatures = plotData(session(), PlotTab::Curvature, Judged::Sketched);
+    const auto& kappa = curvatures.series.front().points;
+    for (std::size_t i = 1; i < kappa.size(); ++i) {
+      if (kappa[i].value * kappa[i - 1].value >= 0.0) continue;
+      EXPECT_TRUE(std::ranges::any_of(
+          points,
+          [&](const PlotPoint& p) { return p.s >= kappa[i - 1].s && p.s <= kappa[i].s && p.value > data.high; }))
+          << "an inflection that looks like an arc at " << kappa[i].s;
+    }
   }
 }
 

@@ -55,10 +55,43 @@ void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples,
   if (series.points.size() > 1) data.series.push_back(std::move(series));
 }
 
+/// The samples with one more, of no curvature, wherever the curvature changes its sign between two: there the radius is
+/// infinite, however far from either sample.
+std::vector<CurveSample> withInflections(const std::vector<CurveSample>& samples) {
+  std::vector<CurveSample> all;
+  for (const CurveSample& sample : samples) {
+    if (!all.empty() && all.back().kappa * sample.kappa < 0.0) {
+      const CurveSample& before = all.back();
+      CurveSample between = before;
+      between.s = std::lerp(before.s, sample.s, before.kappa / (before.kappa - sample.kappa));
+      between.kappa = 0.0;
+      all.push_back(between);
+    }
+    all.push_back(sample);
+  }
+  return all;
+}
+
 std::optional<int> chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
   if (curve.fairingUsed.mode != FairingMode::Target || !isPolynomial(curve.fairingUsed.target)) return std::nullopt;
   const std::optional<int> asked = degreeOf(curve.fairingUsed.target);
   return asked ? asked : targets.recommendedDegree;
+}
+
+/// A profile at evenly spaced places and where its curvature changes its sign.
+std::vector<PlotPoint> profilePoints(const TargetProfile& profile, int count, double lengthMm, const auto& valueOf) {
+  std::vector<PlotPoint> points;
+  const auto put = [&](double f, double kappa) {
+    if (const double value = valueOf(kappa); std::isfinite(value)) points.push_back({f * lengthMm, value});
+  };
+  double before = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double f = i / (count - 1.0), kappa = profile.curvatureAt(f);
+    if (before * kappa < 0.0) put((i - kappa / (kappa - before)) / (count - 1.0), 0.0);
+    put(f, kappa);
+    before = kappa;
+  }
+  return points;
 }
 
 void addTargets(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {
@@ -70,12 +103,7 @@ void addTargets(PlotData& data, const EditorSession& session, const TracedCurve&
     PlotSeries series{PlotRole::Target, profile.degree};
     if (profile.degree == chosen) series.role = PlotRole::ChosenTarget;
     if (profile.degree == session.hoveredTarget()) series.role = PlotRole::HoveredTarget;
-    for (int i = 0; i < kSamples / 2; ++i) {
-      const double f = i / (kSamples / 2 - 1.0);
-      const double value = valueOf(profile.curvatureAt(f));
-      if (!std::isfinite(value)) continue;
-      series.points.push_back({f * data.lengthMm, value});
-    }
+    series.points = profilePoints(profile, kSamples / 2, data.lengthMm, valueOf);
     if (series.points.size() > 1) data.series.push_back(std::move(series));
   }
 }
@@ -92,11 +120,7 @@ void addDrawn(PlotData& data, const EditorSession& session, const TracedCurve& c
   const TargetProfile profile = drawnProfile(asked.profile, curve.closed);
   if (!profile.valid) return;
   PlotSeries series{PlotRole::DrawnTarget};
-  for (int i = 0; i < kSamples; ++i) {
-    const double f = i / (kSamples - 1.0), value = valueOf(profile.curvatureAt(f));
-    if (!std::isfinite(value)) continue;
-    series.points.push_back({f * data.lengthMm, value});
-  }
+  series.points = profilePoints(profile, kSamples, data.lengthMm, valueOf);
   if (series.points.size() > 1) data.series.push_back(std::move(series));
   // Within the plot, where they can be dragged.
   for (const ProfilePoint& p : asked.profile)
@@ -237,7 +261,9 @@ void addWithTargets(PlotData& data, const EditorSession& session, const SampledC
   addSketchedAndFaired(data, sampled, [&](const CurveSample& sample) { return valueOfKappa(sample.kappa); });
 }
 
-void addRadius(PlotData& data, const EditorSession& session, const SampledCurve& sampled, bool isLinear) {
+void addRadius(PlotData& data, const EditorSession& session, SampledCurve sampled, bool isLinear) {
+  sampled.sketched = withInflections(sampled.sketched);
+  sampled.faired = withInflections(sampled.faired);
   data.logarithmic = !isLinear;
   const double size = extent(sampled.curve.sketched);
   const double most = isLinear ? linearLimit(sampled.sketched, size) : kLargestRadius * size;

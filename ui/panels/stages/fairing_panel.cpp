@@ -384,15 +384,16 @@ void FairingPanel::refreshFigures() {
   const TracedCurve* curve = session_.selected();
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
-  note_->setText(said.text);
   constexpr int kUsualLines = 2, kLinesOfTargets = 3;  // of room for the note
   const FairingMode mode = shown(session_.recipe()).mode;
-  const int lines = mode == FairingMode::None ? 0 : mode == FairingMode::Target ? kLinesOfTargets : kUsualLines;
+  const int lines = mode == FairingMode::Target ? kLinesOfTargets : kUsualLines;
   const bool canNeedMore = mode == FairingMode::Target || mode == FairingMode::Monotone;
   said_->setMinimumHeight(lines * note_->fontMetrics().lineSpacing() +
                           (canNeedMore ? said_->layout()->spacing() + raise_->sizeHint().height() : 0));
-  note_->setVisible(!said.text.isEmpty());
-  said_->setVisible(mode != FairingMode::None || !said.text.isEmpty());
+  note_->setText(mode == FairingMode::None && said.text.isEmpty()
+                     ? tr("Fairing is off: the curves stay as they are in Curves.")
+                     : said.text);
+  note_->setVisible(!note_->text().isEmpty());
   if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
   raise_->setVisible(said.neededMm.has_value());
 }
