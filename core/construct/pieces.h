@@ -26,8 +26,8 @@ struct ExtremumConstraint {
 
 /// What the grain of a stroke does to its centre line (stroke_grain.h); 0: nothing that its points do not show.
 struct StrokeGrain {
-  double density = 0.0;  ///< [px^2 px] Noise density.
-  double sigmaPx = 0.0;  ///< [px] Standard deviation of the centre, over a length of one stroke width.
+  double density = 0.0;  ///< [px^2 px] Noise density at wavelengths of several widths.
+  double sigmaPx = 0.0;  ///< [px] Standard deviation of the centre, in the mean over one stroke width or 8 px.
 };
 
 /// One piece as the constructions take it. Model frame, mm.

@@ -122,10 +122,7 @@ void addDrawn(PlotData& data, const EditorSession& session, const TracedCurve& c
   PlotSeries series{PlotRole::DrawnTarget};
   series.points = profilePoints(profile, kSamples, data.lengthMm, valueOf);
   if (series.points.size() > 1) data.series.push_back(std::move(series));
-  // Within the plot, where they can be dragged.
-  for (const ProfilePoint& p : asked.profile)
-    data.handles.push_back(
-        {p.fraction * data.lengthMm, std::min(valueOf(p.kappa), data.most.value_or(valueOf(p.kappa)))});
+  for (const ProfilePoint& p : asked.profile) data.handles.push_back({p.fraction * data.lengthMm, valueOf(p.kappa)});
 }
 
 /// Range from the two curves alone: a target that shoots off must not flatten them. Of the curves themselves, single
@@ -135,12 +132,19 @@ void fitRange(PlotData& data, double padding) {
   for (const PlotSeries& series : data.series) {
     if (series.role != PlotRole::Sketched && series.role != PlotRole::Faired) continue;
     std::vector<double> sorted;
-    for (const PlotPoint& point : series.points) sorted.push_back(point.value);
+    for (const PlotPoint& point : series.points)
+      if (!data.most || point.value <= *data.most) sorted.push_back(point.value);
+    if (sorted.empty()) continue;
     std::sort(sorted.begin(), sorted.end());
     const std::size_t cut = sorted.size() / 100;
     const double low = sorted[cut], high = sorted[sorted.size() - 1 - cut];
     data.low = any ? std::min(data.low, low) : low;
     data.high = any ? std::max(data.high, high) : high;
+    any = true;
+  }
+  if (!any && data.most) {  // straight: there is nothing but the way out
+    data.low = 0.1 * *data.most;
+    data.high = *data.most;
     any = true;
   }
   if (!any) return;
@@ -149,7 +153,6 @@ void fitRange(PlotData& data, double padding) {
     data.low = std::min(data.low, mark.kappa);
     data.high = std::max(data.high, mark.kappa);
   }
-  if (data.most && data.low < *data.most) data.high = std::min(data.high, *data.most);
   if (data.logarithmic) {
     const double grow = std::max(1.15, std::pow(data.high / data.low, padding));
     data.low /= grow;
@@ -160,6 +163,9 @@ void fitRange(PlotData& data, double padding) {
     data.low -= pad;
     data.high += pad;
   }
+  // Within the plot, where they can be dragged.
+  for (PlotPoint& handle : data.handles)
+    if (data.most) handle.value = std::min(handle.value, data.high);
 }
 
 /// [mm] Where a linear axis of the radius ends: straight stretches would press all others flat.

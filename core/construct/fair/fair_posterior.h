@@ -41,7 +41,7 @@ struct CutoffChoice {
   std::vector<std::optional<int>> k;  ///< Per table; absent: no table, or no candidate in it.
   double blockVariance = 0.0;
 };
-/// @param leastVariance [px^2] per table: what the variance of its blocks is at least.
+/// @param leastVariance [px^2] per table: what the variance of its blocks is at least: density of the noise per block.
 CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>&, std::span<const double> leastVariance,
                            double gamma);
 

@@ -104,7 +104,9 @@ std::vector<double> turning(const Course& course, double arm) {
 
 /// [px] Length of the chords whose directions are compared.
 double armOf(const Course& course, const ConstructPiece& piece) {
-  return std::max({kArmPx, kArmSigmas * piece.grain.sigmaPx, kArmPoints * course.total / course.count()});
+  const double longest = course.total / (2.0 * kFewestArms);  // a short piece has turns, too
+  return std::max(
+      {kArmPx, std::min(kArmSigmas * piece.grain.sigmaPx, longest), kArmPoints * course.total / course.count()});
 }
 
 /// Widens the places a..b of the course by a length on either side; as indices of the piece.

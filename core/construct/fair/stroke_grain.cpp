@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/base/statistics.h"
@@ -11,30 +12,47 @@ namespace batten {
 namespace {
 
 constexpr double kShortestStretchPx = 8.0;  // as the blocks of the fit: below, its own noise tells
-constexpr int kFewestDifferences = 4;       // fewer are a matter of luck
+constexpr int kFewestDifferences = 8;       // the middle of fewer is a matter of luck
 constexpr double kMedianOfSquare = 0.4549;  // of the square of a standard normal variable
 constexpr double kSecondDifference = 6.0;   // variances of a mean in that of a second difference
-constexpr double kLeastPlacedShare = 0.5;   // of a stretch: points that were placed
+constexpr double kLeastPlacedShare = 0.5;   // of the points of a stretch
 
-/// Means of the half-width over stretches of a length, NaN where too few points of one were placed.
-std::vector<double> halfWidths(const std::vector<PiecePoint>& points, double stretchPx) {
-  std::vector<double> means;
-  double sum = 0.0, placed = 0.0, length = 0.0;
+/// Of a single stroke: where several were merged, neighbouring points have the widths of different ones.
+bool hasWidth(const PiecePoint& p) { return p.refined && !p.spreadPx && p.widthPx && std::isfinite(*p.widthPx); }
+
+/// Means over a stretch of a line.
+struct GrainStretch {
+  Vec2 at = Vec2::Zero();
+  double halfWidthPx = 0.0;
+};
+
+/// Absent where too few points were placed.
+std::vector<std::optional<GrainStretch>> stretchesOf(const std::vector<PiecePoint>& points, double stretchPx) {
+  std::vector<std::optional<GrainStretch>> means;
+  GrainStretch sum;
+  double placed = 0.0, length = 0.0;
   int all = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const PiecePoint& p = points[i];
     length += (p.at - points[i - 1].at).norm();
     ++all;
-    if (p.refined && p.widthPx && std::isfinite(*p.widthPx)) {
-      sum += 0.5 * static_cast<double>(*p.widthPx);
+    if (hasWidth(p)) {
+      sum.at += p.at;
+      sum.halfWidthPx += 0.5 * static_cast<double>(*p.widthPx);
       placed += 1.0;
     }
     if (length < stretchPx) continue;
-    means.push_back(placed >= kLeastPlacedShare * all && placed > 0.0 ? sum / placed : std::nan(""));
-    sum = placed = length = 0.0;
+    const bool isKnown = placed > 0.0 && placed >= kLeastPlacedShare * all;
+    means.push_back(isKnown ? std::optional(GrainStretch{sum.at / placed, sum.halfWidthPx / placed}) : std::nullopt);
+    sum = {};
+    placed = length = 0.0;
     all = 0;
   }
   return means;
+}
+
+double varianceFrom(std::vector<double>& squares) {
+  return upperMedian(squares) / (kMedianOfSquare * kSecondDifference);
 }
 
 }  // namespace
@@ -44,20 +62,26 @@ StrokeGrain strokeGrain(const ConstructContour& contour) {
   std::vector<float> widths;
   for (const ConstructPiece& piece : contour.pieces) {
     for (const PiecePoint& p : piece.points)
-      if (p.refined && p.widthPx && std::isfinite(*p.widthPx)) widths.push_back(*p.widthPx);
+      if (hasWidth(p)) widths.push_back(*p.widthPx);
   }
   if (widths.empty()) return {};
   const double stretchPx = std::max(kShortestStretchPx, static_cast<double>(upperMedian(widths)));
-  std::vector<double> squares;
+  std::vector<double> ofWidth, ofCentre;
   for (const ConstructPiece& piece : contour.pieces) {
-    const std::vector<double> means = halfWidths(piece.points, stretchPx);
+    const std::vector<std::optional<GrainStretch>> means = stretchesOf(piece.points, stretchPx);
     for (std::size_t i = 1; i + 1 < means.size(); ++i) {
-      const double d = means[i - 1] - 2.0 * means[i] + means[i + 1];
-      if (std::isfinite(d)) squares.push_back(d * d / kSecondDifference);
+      const auto &before = means[i - 1], &here = means[i], &after = means[i + 1];
+      if (!before || !here || !after) continue;
+      const Vec2 chord = after->at - before->at;
+      if (!(chord.norm() > 0.0)) continue;
+      const double across = cross(chord.normalized(), before->at - 2.0 * here->at + after->at);
+      ofCentre.push_back(across * across);
+      ofWidth.push_back(std::pow(before->halfWidthPx - 2.0 * here->halfWidthPx + after->halfWidthPx, 2));
     }
   }
-  if (std::ssize(squares) < kFewestDifferences) return {};
-  const double variance = upperMedian(squares) / kMedianOfSquare;
+  if (std::ssize(ofWidth) < kFewestDifferences) return {};
+  // Where the pen swells, both borders move and the centre does not.
+  const double variance = std::min(varianceFrom(ofWidth), varianceFrom(ofCentre));
   return {stretchPx * variance, std::sqrt(variance)};
 }
 

@@ -8,8 +8,9 @@ namespace batten {
 /// What the teeth of the paper do to the centre line of a pencil or brush stroke. They move its two borders, each by
 /// itself: half the width then scatters as much as the centre does, and over the same lengths, which are those of the
 /// stroke's width and not of a pixel. Measured are the means of the half-width over stretches of one width, pooled over
-/// the pieces; what changes evenly along the stroke, a taper, does not count. Nothing for outlines, where there are no
-/// widths, or from too few stretches. @param contour in px
+/// the pieces; what changes evenly along the stroke, a taper, does not count, and no more than the centre itself
+/// scatters does, as where a pen swells. Nothing for outlines, where there are no widths, for merged strokes, or from
+/// too few stretches. @param contour in px
 StrokeGrain strokeGrain(const ConstructContour& contour);
 
 }  // namespace batten

@@ -261,7 +261,7 @@ std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, con
 std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, const RunContext& context) {
   std::vector<bool> isGrain(set.contours.size(), false);
   const ShortLines lines = shortLinesOf(set);
-  if (grey.isUniform || !(lines.widthPx > 0.0)) return isGrain;
+  if (grey.isUniform || !(lines.widthPx > 0.0) || context.isCancelled()) return isGrain;
   if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
   const std::vector<bool> isFaint = faintLines(set, lines, grey, context);
   // Grain is no company: without it others have none either.
@@ -269,7 +269,7 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, con
   for (int round = 0; round < kMostRounds && isChanged && !context.isCancelled(); ++round) {
     isChanged = false;
     const LineCompany company(set, isGrain, lines.widthPx);
-    for (int i = 0; i < std::ssize(set.contours); ++i) {
+    for (int i = 0; i < std::ssize(set.contours) && !context.isCancelled(); ++i) {
       if (!isFaint[i] || isGrain[i] || company.isOneOf(i)) continue;
       isGrain[i] = isChanged = true;
     }
@@ -280,7 +280,11 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, con
 void dropGrain(ContourSet& set, const GreyImage& grey, const std::optional<BitImage>& painted,
                const RunContext& context) {
   constexpr double kOnPaintPx = 1.5;  // the pixel of a place and its eight neighbours
-  const std::vector<bool> isGrain = linesOfGrain(set, grey, context);
+  std::vector<bool> isGrain(set.contours.size(), false);
+  try {
+    isGrain = linesOfGrain(set, grey, context);
+  } catch (const cv::Exception&) {  // too little memory: the lines stay as they are
+  }
   std::vector<Contour> kept;
   for (std::size_t i = 0; i < isGrain.size(); ++i) {
     Contour& c = set.contours[i];

@@ -32,7 +32,7 @@ std::vector<double> wandering(std::mt19937& random, int count, double sigmaPx) {
   return out;
 }
 
-/// A stroke along an S of two wide arcs whose two borders wander by themselves.
+/// A stroke along a wide arch whose two borders wander by themselves.
 ConstructContour sketched(double borderSigmaPx, std::uint32_t seed, bool hasWidths = true, double wavePx = 0.0) {
   std::mt19937 random(seed);
   const int count = static_cast<int>(kStrokeLengthPx);
@@ -88,7 +88,7 @@ TEST(StrokeGrain, IsNoShapeOfTheLine) {
     with += extremaOf(sketched(1.2, seed));
     without += extremaOf(sketched(1.2, seed, false));
   }
-  EXPECT_LE(with, 5 * 3) << "the S has one";
+  EXPECT_LE(with, 5 * 3) << "the arch has one";
   EXPECT_GT(without, 5 * 6);
 }
 
@@ -97,6 +97,22 @@ TEST(StrokeGrain, AWaveThatWasDrawnStays) {
   const int drawn = extremaOf(sketched(1.2, 3, true, 4.0));
   EXPECT_GE(drawn, 10);
   EXPECT_LE(drawn, 16);
+}
+
+TEST(StrokeGrain, APenThatSwellsKeepsItsLine) {
+  // Both borders move, one against the other: the centre is known as well as before.
+  ConstructContour swelling = sketched(0.0, 5);
+  std::mt19937 random(7);
+  const auto swell = wandering(random, static_cast<int>(kStrokeLengthPx), 1.5);
+  for (std::size_t i = 0; i < swell.size(); ++i)
+    *swelling.pieces[0].points[i].widthPx += static_cast<float>(2.0 * swell[i]);
+  EXPECT_LT(strokeGrain(swelling).density, 0.1) << "what the arch bends within three widths";
+}
+
+TEST(StrokeGrain, MergedStrokesHaveNone) {
+  ConstructContour merged = sketched(1.2, 1);
+  for (PiecePoint& p : merged.pieces[0].points) p.spreadPx = 3.0f;
+  EXPECT_EQ(strokeGrain(merged).density, 0.0);
 }
 
 }  // namespace
