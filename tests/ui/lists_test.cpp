@@ -161,6 +161,7 @@ TEST_F(Lists, NothingJumpsWhenATargetNeedsMoreTolerance) {
     wave.cubicTo({200, 20}, {400, 600}, {600, 60});
     painter.drawPath(wave);
   }));
+  window_->resize(1366, 768);
   window_->setStage(PanelStage::Fairing);
   QTest::mouseClick(find<QAbstractButton>("fairing.mode.target"), Qt::LeftButton);
   type(find<QLineEdit>("fairing.tolerance.field"), QStringLiteral("0.03"));
