@@ -100,6 +100,7 @@ struct ContourReport {
   int droppedHoles = 0;           ///< Inner borders, in outline mode without them.
   int droppedMargins = 0;         ///< Lines along the border of the page: the margin of the scanner.
   int droppedFaint = 0;           ///< Specks much fainter than the strokes around.
+  int droppedGrain = 0;           ///< Short lines that are the grain of a tone.
   double refinedShare = 0;        ///< Part of the points that were placed on the grey values, 0..1.
   std::optional<double> widthPx;  ///< [px] Stroke width, the unit of EdgeParams::mergeWidths; absent: no strokes.
   bool isGrouped = false;         ///< The lines are intended curves of lines drawn over more than once.
@@ -110,7 +111,6 @@ struct ContourReport {
 struct ContourSet {
   std::vector<Contour> contours;
   std::vector<StrokeJunction> junctions;  ///< Of the strokes; none where lines were made of several.
-  std::vector<Contour> grain;             ///< Short lines that were dropped, being the grain of a tone.
   ContourReport report;
 };
 

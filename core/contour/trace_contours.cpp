@@ -63,8 +63,8 @@ void tellDropped(ContourSet& set, const EdgeParams& edges) {
   if (report.droppedFaint > 0)
     addNote(set, countedWere(report.droppedFaint, "speck", "specks") +
                      " dropped, much fainter than the strokes around; contours.min_widths=2 keeps them.");
-  if (!set.grain.empty())
-    addNote(set, countedWere(static_cast<int>(set.grain.size()), "short line", "short lines") +
+  if (report.droppedGrain > 0)
+    addNote(set, countedWere(report.droppedGrain, "short line", "short lines") +
                      " dropped, no darker than the grain of the tone around; contours.min_widths=2 keeps them.");
   if (report.droppedMargins > 0)
     addNote(set, countedWere(report.droppedMargins, "line along the page border", "lines along the page border") +
@@ -134,6 +134,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.droppedHoles += from.report.droppedHoles;
   to.report.droppedMargins += from.report.droppedMargins;
   to.report.droppedFaint += from.report.droppedFaint;
+  to.report.droppedGrain += from.report.droppedGrain;
   to.report.isGrouped = to.report.isGrouped || from.report.isGrouped;
   to.report.widthPx = std::max(to.report.widthPx, from.report.widthPx);
   if (to.report.note.empty()) to.report.note = std::move(from.report.note);

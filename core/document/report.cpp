@@ -70,7 +70,7 @@ ReportJson countsOf(StageId stage, const PipelineOutput& out) {
               {"dropped_holes", out.contours->report.droppedHoles},
               {"dropped_margins", out.contours->report.droppedMargins},
               {"dropped_faint", out.contours->report.droppedFaint},
-              {"dropped_grain", out.contours->grain.size()},
+              {"dropped_grain", out.contours->report.droppedGrain},
               {"junctions", out.contours->junctions.size()},
               {"doubtful_junctions", doubtfulCount(*out.contours)},
               {"refined_share", numberToJson(out.contours->report.refinedShare)},

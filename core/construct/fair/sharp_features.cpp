@@ -102,6 +102,9 @@ std::vector<double> turning(const Course& course, double arm) {
   return angle;
 }
 
+/// [px] By which grain may put a point beside its line.
+double grainReach(const ConstructPiece& piece) { return kGrainSigmas * piece.grain.sigmaPx; }
+
 /// [px] Length of the chords whose directions are compared.
 double armOf(const Course& course, const ConstructPiece& piece) {
   const double longest = course.total / (2.0 * kFewestArms);  // a short piece has turns, too
@@ -277,8 +280,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
     PointOffset& offset = result.points.emplace_back();
     offset.offPx = d.distance;
     // Between merged strokes the line may lie anywhere, and grain scatters the points of a single one.
-    const double allowed =
-        std::max(static_cast<double>(point.spreadPx.value_or(0.0f)), kGrainSigmas * piece.grain.sigmaPx);
+    const double allowed = std::max(static_cast<double>(point.spreadPx.value_or(0.0f)), grainReach(piece));
     offset.distancePx = std::max(0.0, d.distance - allowed);
     const int low = std::min(static_cast<int>(d.place), static_cast<int>(parameter.size()) - 2);
     offset.parameter = std::lerp(parameter[low], parameter[low + 1], d.place - low);
@@ -321,7 +323,7 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
     int a = i, b = i;
     const auto isOff = [&](int k) {
       // What is cut out of a fit ends where the fit itself is back on the points.
-      return (whole ? close.points[k].offPx - kGrainSigmas * piece.grain.sigmaPx : middle(k)) > kBackPx;
+      return (whole ? close.points[k].offPx - grainReach(piece) : middle(k)) > kBackPx;
     };
     while (a > 0 && isOff(a - 1)) --a;
     while (b + 1 < n && isOff(b + 1)) ++b;

@@ -289,8 +289,9 @@ void dropGrain(ContourSet& set, const GreyImage& grey, const std::optional<BitIm
   for (std::size_t i = 0; i < isGrain.size(); ++i) {
     Contour& c = set.contours[i];
     const bool isPainted = isGrain[i] && painted && anyInDisc(*painted, placeOnInk(c), kOnPaintPx);
-    (isGrain[i] && !isPainted ? set.grain : kept).push_back(std::move(c));
+    if (!isGrain[i] || isPainted) kept.push_back(std::move(c));
   }
+  set.report.droppedGrain += static_cast<int>(set.contours.size() - kept.size());
   set.contours = std::move(kept);
 }
 

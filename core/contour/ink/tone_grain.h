@@ -24,7 +24,7 @@ namespace batten {
 /// ground around it that is not a shape.
 std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, const RunContext& context);
 
-/// Moves such lines to ContourSet::grain, but for those on ink that the user painted.
+/// Drops such lines and counts them in the report, but for those on ink that the user painted.
 void dropGrain(ContourSet& set, const GreyImage& grey, const std::optional<BitImage>& painted,
                const RunContext& context);
 

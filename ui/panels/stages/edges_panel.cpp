@@ -179,9 +179,9 @@ void EdgesPanel::refresh() {
     rows.push_back({tr("Faint specks dropped"),
                     {{grouped(report.droppedFaint)}},
                     tr("Much fainter than the strokes around them.")});
-  if (!set->grain.empty())
+  if (report.droppedGrain > 0)
     rows.push_back({tr("Grain of tones dropped"),
-                    {{grouped(static_cast<int>(set->grain.size()))}},
+                    {{grouped(report.droppedGrain)}},
                     tr("Short lines no darker than the grain of the shading around them.")});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines dropped"), {{grouped(report.droppedHoles)}}, {}});
   qint64 fallback = 0;
