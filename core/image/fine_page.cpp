@@ -14,6 +14,7 @@
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/ink_grain.h"
 #include "core/image/bits/run_pieces.h"
+#include "core/image/narrow_paper.h"
 
 namespace batten {
 namespace {
@@ -88,6 +89,10 @@ Result<std::optional<FinePage>> makeFinePage(const GreyImage& grey, const BitIma
   // What was left out of the ink of the page stays out.
   fine.ink = both(std::move(filtered->ink), grown(page, kFineFactor, context));
   fine.ink = withLostLines(std::move(fine.ink), page, context);
+  if (context.isCancelled()) return cancelled();
+  fine.ink = withoutNarrowPaper(std::move(fine.ink), *fine.grey, thresholds->paper, context);
+  if (context.isCancelled()) return cancelled();
+  if (!thresholds->holesArePaper) fillHoles(fine.ink, params.holeArea, context);
   if (context.isCancelled()) return cancelled();
   return std::optional(std::move(fine));
 }

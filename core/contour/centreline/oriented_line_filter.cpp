@@ -291,10 +291,10 @@ StepSums stepSums() {
   return sumStepsPlain;
 }
 
-OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
-                                  double widthPx, const RunContext& context, int pixelsPerPx) {
-  OrientedLines found{BitImage(body.width, body.height), BitImage(body.width, body.height)};
-  if (widthPx > kWidestPx * pixelsPerPx) return found;
+BitImage gapsBetweenLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain, double widthPx,
+                          const RunContext& context, int pixelsPerPx) {
+  BitImage gaps(body.width, body.height);
+  if (widthPx > kWidestPx * pixelsPerPx) return gaps;
   const LineFilter filter = filterFor(widthPx, pixelsPerPx);
   const LineSearch search{grey, grain, filter};
   const int columns = body.wordsPerRow, rows = (body.height + kTile - 1) / kTile;
@@ -308,15 +308,13 @@ OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, c
     });
   };
   const BitImage near = grown(body, filter.halfPx, context);
-  overTiles(found.gaps, [&](int x0, int y0) { return search.gaps(near, x0, y0); });
-  if (context.isCancelled()) return found;
+  overTiles(gaps, [&](int x0, int y0) { return search.gaps(near, x0, y0); });
+  if (context.isCancelled()) return gaps;
   // A gap runs on as far as the lines that it was seen between.
-  found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(filter.halfPx)}, context);
-  // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both fail.
-  const BitImage beside = both(grown(found.gaps, 2 * filter.halfPx, context), near);
-  overTiles(found.lines, [&](int x0, int y0) { return search.lines(beside, x0, y0); });
-  found.gaps = without(std::move(found.gaps), found.lines);
-  return found;
+  gaps = both(keepPieces(gaps, {.minArea = 0, .minDiagonal = static_cast<double>(filter.halfPx)}, context), body);
+  BitImage lines(body.width, body.height);
+  overTiles(lines, [&](int x0, int y0) { return search.lines(gaps, x0, y0); });
+  return without(std::move(gaps), lines);
 }
 
 }  // namespace batten

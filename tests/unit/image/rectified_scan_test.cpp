@@ -23,7 +23,7 @@ using test::PhotoCamera;
 using test::PhotoPose;
 using test::PhotoStyle;
 
-constexpr int kPhotoWidth = 600, kPhotoHeight = 800;
+constexpr int kTiltedWidth = 600, kTiltedHeight = 800;
 constexpr double kGapMm = 30.0, kLineMm = 1.2;
 
 /// Lines at every 30 mm across and down, none near the border of the sheet.
@@ -91,7 +91,7 @@ const std::vector<PhotoPose> kPoses = {
 
 TEST(RectifiedScan, LinesAreStraightParallelAndAtRightAnglesAgain) {
   for (const PhotoPose& pose : kPoses) {
-    const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
+    const PhotoCamera camera(pose, kTiltedWidth, kTiltedHeight);
     RectifyParams params = withCorners({}, camera.corners());
     const auto page = rectified(photoOf(camera), params, {});
     ASSERT_TRUE(page) << page.error().message;
@@ -105,7 +105,7 @@ TEST(RectifiedScan, TheCornersAreFoundToAPartOfAPixel) {
   for (const bool isColour : {false, true}) {
     for (const PhotoPose& pose : kPoses) {
       if (isColour && pose.rollDeg == 0.0) continue;  // three of them
-      const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
+      const PhotoCamera camera(pose, kTiltedWidth, kTiltedHeight);
       PhotoStyle style;
       style.isColour = isColour;
       const auto page = rectified(photoOf(camera, style), automatic(), {});
@@ -126,8 +126,8 @@ TEST(RectifiedScan, TheAspectRatioFollowsFromThePerspective) {
   for (const double focal : {20.0, 27.0, 35.0, 50.0}) {
     for (const double width : {210.0, 297.0, 150.0}) {
       const PhotoPose pose{.widthMm = width, .tiltDeg = 28.0, .panDeg = 24.0, .rollDeg = 5.0, .focal35Mm = focal};
-      const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
-      const SheetAspect seen = sheetAspect(camera.corners(), {kPhotoWidth, kPhotoHeight, std::nullopt});
+      const PhotoCamera camera(pose, kTiltedWidth, kTiltedHeight);
+      const SheetAspect seen = sheetAspect(camera.corners(), {kTiltedWidth, kTiltedHeight, std::nullopt});
       EXPECT_NEAR(seen.aspect / (width / pose.heightMm), 1.0, 0.01) << focal;
       EXPECT_LT(seen.error, 0.02);
     }
@@ -137,19 +137,19 @@ TEST(RectifiedScan, TheAspectRatioFollowsFromThePerspective) {
 // Tilted about one side: only the focal length tells how far.
 TEST(RectifiedScan, TheFocalLengthOfTheFileCountsWhereThePerspectiveSaysLittle) {
   const PhotoPose pose{.tiltDeg = 35.0, .focal35Mm = 50.0};
-  const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
+  const PhotoCamera camera(pose, kTiltedWidth, kTiltedHeight);
   const double truth = pose.widthMm / pose.heightMm;
-  const SheetAspect stated = sheetAspect(camera.corners(), {kPhotoWidth, kPhotoHeight, 50.0});
+  const SheetAspect stated = sheetAspect(camera.corners(), {kTiltedWidth, kTiltedHeight, 50.0});
   EXPECT_NEAR(stated.aspect / truth, 1.0, 0.01);
   EXPECT_LT(stated.error, 0.015);
-  const SheetAspect usual = sheetAspect(camera.corners(), {kPhotoWidth, kPhotoHeight, std::nullopt});
+  const SheetAspect usual = sheetAspect(camera.corners(), {kTiltedWidth, kTiltedHeight, std::nullopt});
   EXPECT_GT(usual.error, 0.03) << "it is not known, and says so";
   EXPECT_LT(std::abs(std::log(usual.aspect / truth)), 4.0 * usual.error);
 }
 
 TEST(RectifiedScan, AKnownFormatSetsAspectRatioAndResolution) {
   const PhotoPose pose{.tiltDeg = 30.0, .focal35Mm = 40.0};
-  const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
+  const PhotoCamera camera(pose, kTiltedWidth, kTiltedHeight);
   RectifyParams params = withCorners({}, camera.corners());
   params.format = PaperFormat::A4;
   const auto page = rectified(photoOf(camera), params, {});
@@ -167,7 +167,7 @@ TEST(RectifiedScan, AKnownFormatSetsAspectRatioAndResolution) {
 }
 
 TEST(RectifiedScan, ASheetThatIsOnlyTurnedKeepsItsResolution) {
-  const PhotoCamera camera({.rollDeg = 7.0}, kPhotoWidth, kPhotoHeight);
+  const PhotoCamera camera({.rollDeg = 7.0}, kTiltedWidth, kTiltedHeight);
   Scan scan = photoOf(camera);
   scan.dpi = 300.0;
   const auto made = rectificationOf(scan, camera.corners(), PaperFormat::Unknown);
@@ -179,7 +179,7 @@ TEST(RectifiedScan, ASheetThatIsOnlyTurnedKeepsItsResolution) {
 
 TEST(RectifiedScan, NoPartOfThePageIsCoarserThanThePicture) {
   for (const PhotoPose& pose : kPoses) {
-    const PhotoCamera camera(pose, kPhotoWidth, kPhotoHeight);
+    const PhotoCamera camera(pose, kTiltedWidth, kTiltedHeight);
     const auto made = rectificationOf(photoOf(camera), camera.corners(), PaperFormat::Unknown);
     ASSERT_TRUE(made);
     const SheetMap map(*made);
@@ -194,7 +194,7 @@ TEST(RectifiedScan, NoPartOfThePageIsCoarserThanThePicture) {
 }
 
 TEST(RectifiedScan, PlacesGoForthAndBack) {
-  const PhotoCamera camera(kPoses[3], kPhotoWidth, kPhotoHeight);
+  const PhotoCamera camera(kPoses[3], kTiltedWidth, kTiltedHeight);
   const SheetMap map(camera.corners(), 210.0, 297.0);
   for (const Vec2& mm : {Vec2(0, 0), Vec2(210, 297), Vec2(33, 120), Vec2(-20, 310)}) {
     EXPECT_LT((map.toPicture(mm) - camera.toPicture(mm)).norm(), 1e-7);
@@ -207,7 +207,7 @@ TEST(RectifiedScan, PlacesGoForthAndBack) {
     }
   }
   // Far above the horizon of the plane.
-  const PhotoCamera steep({.tiltDeg = -50.0, .fill = 0.5}, kPhotoWidth, kPhotoHeight);
+  const PhotoCamera steep({.tiltDeg = -50.0, .fill = 0.5}, kTiltedWidth, kTiltedHeight);
   const SheetMap seen(steep.corners(), 210.0, 297.0);
   int beyond = 0;
   for (double y = -40000.0; y <= 40000.0; y += 500.0) beyond += seen.toPage({600.0, y}) ? 0 : 1;
@@ -272,7 +272,7 @@ TEST(RectifiedScan, BadCornersAreRefusedWithAReason) {
 }
 
 TEST(RectifiedScan, ASheetSeenAtAnAngleIsOfferedAndWhatWasCutIsTold) {
-  const PhotoCamera camera(kPoses[2], kPhotoWidth, kPhotoHeight);
+  const PhotoCamera camera(kPoses[2], kTiltedWidth, kTiltedHeight);
   const Scan picture = photoOf(camera);
   const auto before = preparePage(picture, {}, {});
   ASSERT_TRUE(before && before->view);
@@ -295,7 +295,7 @@ TEST(RectifiedScan, ASheetSeenAtAnAngleIsOfferedAndWhatWasCutIsTold) {
 }
 
 TEST(RectifiedScan, EdgesOfPaperAreToldFromDrawnLines) {
-  const PhotoCamera camera({.tiltDeg = 15.0, .panDeg = 8.0}, kPhotoWidth, kPhotoHeight);
+  const PhotoCamera camera({.tiltDeg = 15.0, .panDeg = 8.0}, kTiltedWidth, kTiltedHeight);
   const Vec2 low(40, 60), high(170, 240), middle = 0.5 * (low + high), half = 0.5 * (high - low);
   const auto frame = [&](const Vec2& mm) {
     const Vec2 off = (mm - middle).cwiseAbs() - half;
@@ -321,7 +321,7 @@ TEST(RectifiedScan, EdgesOfPaperAreToldFromDrawnLines) {
 
 TEST(RectifiedScan, ASheetSeenFromTheFrontIsNotOffered) {
   for (const double roll : {0.0, 5.0}) {
-    const PhotoCamera camera({.rollDeg = roll}, kPhotoWidth, kPhotoHeight);
+    const PhotoCamera camera({.rollDeg = roll}, kTiltedWidth, kTiltedHeight);
     const auto page = preparePage(photoOf(camera), {}, {});
     ASSERT_TRUE(page && page->sheet);
     EXPECT_FALSE(page->view) << roll;
@@ -329,7 +329,7 @@ TEST(RectifiedScan, ASheetSeenFromTheFrontIsNotOffered) {
 }
 
 TEST(RectifiedScan, InkThatCrossesTheEdgeAndThingsUponItDoNotMoveTheCorners) {
-  const PhotoCamera camera({.tiltDeg = 18.0, .panDeg = 10.0}, kPhotoWidth, kPhotoHeight);
+  const PhotoCamera camera({.tiltDeg = 18.0, .panDeg = 10.0}, kTiltedWidth, kTiltedHeight);
   const auto darkness = [](const Vec2& mm) {
     const bool isBar = mm.y() > 40.0 && mm.y() < 80.0 && mm.x() > 150.0;  // runs off at the right
     const bool isClip = mm.y() < 12.0 && mm.x() > 90.0 && mm.x() < 120.0;

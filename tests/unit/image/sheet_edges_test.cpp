@@ -31,7 +31,7 @@ Scan photoOf(const std::function<double(double, double)>& greyAt) {
   return scan;
 }
 
-std::optional<PaperSheet> sheetOf(const Scan& scan) { return findPaperSheet(scan.grey, scan.colour, {}); }
+std::optional<PaperSheet> sheetOnPhoto(const Scan& scan) { return findPaperSheet(scan.grey, scan.colour, {}); }
 
 // Into the sheet, whose sides run near those of the picture and lean by one and a half degrees. [px]
 double depthIn(double x, double y) {
@@ -42,7 +42,7 @@ double shading(double x, double y) { return 228.0 - 18.0 * x / kWidth + 9.0 * y 
 bool isDrawing(double x, double y) { return std::fabs(std::hypot(x - 410.0, y - 320.0) - 150.0) < 2.0; }
 
 TEST(SheetEdges, AFaintStepAllAlongIsTheEdgeOfASheet) {
-  const auto sheet = sheetOf(photoOf([](double x, double y) {
+  const auto sheet = sheetOnPhoto(photoOf([](double x, double y) {
     const double depth = depthIn(x, y);
     const double edge = std::fabs(depth) < 1.0 ? 12.0 : 0.0;  // the shadow in the crack
     return (isDrawing(x, y) ? 60.0 : shading(x, y)) + (depth < 0.0 ? kTableStep : 0.0) - edge;
@@ -65,14 +65,14 @@ TEST(SheetEdges, DrawnLinesAndSolidsNearTheSidesAreNone) {
     const double depth = std::min({x - 45.0, kWidth - 45.0 - x, y - 45.0, kHeight - 45.0 - y});
     return std::fabs(depth) < 1.5 ? 80.0 : shading(x, y);
   };
-  EXPECT_FALSE(sheetOf(photoOf(frame)));
+  EXPECT_FALSE(sheetOnPhoto(photoOf(frame)));
   const auto ruled = [](double x, double y) { return std::fmod(y, 24.0) < 2.0 ? 190.0 : shading(x, y); };
-  EXPECT_FALSE(sheetOf(photoOf(ruled)));
+  EXPECT_FALSE(sheetOnPhoto(photoOf(ruled)));
   const auto tail = [](double x, double y) {
     const bool isTail = std::fabs(x - 70.0) < 25.0 && y > 160.0 && y < 540.0;
     return isTail || std::hypot(x - 440.0, y - 320.0) < 160.0 ? 40.0 : shading(x, y);
   };
-  EXPECT_FALSE(sheetOf(photoOf(tail)));
+  EXPECT_FALSE(sheetOnPhoto(photoOf(tail)));
 }
 
 // Paper that is clearly brighter than what its edge encloses lies round a drawn solid, however faint and large that is.
@@ -82,16 +82,16 @@ TEST(SheetEdges, FaintSolidsWithStraightSidesAreNone) {
     const bool isInk = x > 80.0 && x < 740.0 && y < 585.0 && y > 360.0 - 150.0 * std::sin(x / 130.0);
     return shading(x, y) - (isInk ? kFaintInk : 0.0);
   };
-  EXPECT_FALSE(sheetOf(photoOf(solid)));
+  EXPECT_FALSE(sheetOnPhoto(photoOf(solid)));
 }
 
 TEST(SheetEdges, ShadingIsNone) {
-  EXPECT_FALSE(sheetOf(photoOf([](double x, double y) { return shading(x, y) + 25.0 * x / kWidth; })));
+  EXPECT_FALSE(sheetOnPhoto(photoOf([](double x, double y) { return shading(x, y) + 25.0 * x / kWidth; })));
   const auto vignette = [](double x, double y) {
     const double r = std::hypot(x - 410.0, y - 320.0) / 520.0;
     return 235.0 - 60.0 * r * r * r * r;
   };
-  EXPECT_FALSE(sheetOf(photoOf(vignette)));
+  EXPECT_FALSE(sheetOnPhoto(photoOf(vignette)));
 }
 
 TEST(SheetEdges, WhatIsDrawnOnBothSidesIsOneSheet) {
@@ -100,7 +100,7 @@ TEST(SheetEdges, WhatIsDrawnOnBothSidesIsOneSheet) {
     const bool isLine = std::fabs(std::fmod(x + 0.3 * y, 60.0) - 30.0) < 1.5;
     return isLine ? 70.0 : shading(x, y) - (y < 70.0 ? kTableStep : 0.0);
   };
-  EXPECT_FALSE(sheetOf(photoOf(stripe)));
+  EXPECT_FALSE(sheetOnPhoto(photoOf(stripe)));
 }
 
 }  // namespace

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Thin strokes close together on a fine page, blurred as a scanner does: what a low threshold fills between them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/image/bits/bit_steps.h"
+#include "core/image/narrow_paper.h"
+
+namespace batten {
+namespace {
+
+constexpr int kFineSide = 120;
+constexpr double kPaperGrey = 230.0, kInkDepth = 150.0, kBlurPx = 1.6, kThinStrokePx = 4.5;
+
+double riseOfBlur(double x) { return 0.5 * std::erfc(-x / (std::sqrt(2.0) * kBlurPx)); }
+
+/// 0..1 of a stroke whose middle is `offPx` away; those of strokes side by side add up.
+double strokeCover(double offPx) {
+  return riseOfBlur(0.5 * kThinStrokePx - offPx) * riseOfBlur(0.5 * kThinStrokePx + offPx);
+}
+
+using CoverAt = std::function<double(double x, double y)>;
+
+struct FineInk {
+  GreyImage grey{kFineSide, kFineSide};
+  BitImage ink{kFineSide, kFineSide};
+};
+
+/// Ink by a threshold of an eighth of the depth, as a page with faint lines besides has it.
+FineInk fineInkOf(const CoverAt& cover) {
+  constexpr double kThreshold = 0.125;
+  FineInk page;
+  for (int y = 0; y < kFineSide; ++y) {
+    for (int x = 0; x < kFineSide; ++x) {
+      const double c = std::clamp(cover(x + 0.5, y + 0.5), 0.0, 1.0);
+      page.grey.row(y)[x] = static_cast<std::uint16_t>((kPaperGrey - kInkDepth * c) * GreyImage::kGreyUnit);
+      page.ink.set(x, y, c > kThreshold);
+    }
+  }
+  return page;
+}
+
+PaperBackground evenPaper() {
+  PaperBackground paper;
+  paper.columns = paper.rows = kFineSide / paper.cellPx;
+  paper.grey.assign(static_cast<std::size_t>(paper.columns) * paper.rows, static_cast<float>(kPaperGrey));
+  return paper;
+}
+
+BitImage opened(const FineInk& page) { return withoutNarrowPaper(page.ink, page.grey, evenPaper(), {}); }
+
+TEST(NarrowPaper, OpensTheCounterOfALetterAndKeepsItsStroke) {
+  constexpr double kRadius = 4.6;
+  const FineInk page = fineInkOf([](double x, double y) {
+    const double off = std::hypot(x - 60.0, y - 60.0);
+    return strokeCover(kRadius - off) + strokeCover(kRadius + off);
+  });
+  ASSERT_TRUE(page.ink.at(60, 60));
+  const BitImage ink = opened(page);
+  EXPECT_FALSE(ink.at(60, 60));
+  for (double a = 0.0; a < 6.28; a += 0.1)
+    EXPECT_TRUE(ink.at(static_cast<int>(60.0 + kRadius * std::cos(a)), static_cast<int>(60.0 + kRadius * std::sin(a))))
+        << a;
+}
+
+TEST(NarrowPaper, PartsParallelStrokesAllAlong) {
+  constexpr double kPitch = 7.5, kSlope = 0.4;
+  const auto off = [](double x, double y) { return (y - 60.0 - kSlope * (x - 60.0)) / std::hypot(1.0, kSlope); };
+  const FineInk page = fineInkOf([&](double x, double y) {
+    return strokeCover(off(x, y) - 0.5 * kPitch) + strokeCover(off(x, y) + 0.5 * kPitch);
+  });
+  const BitImage ink = opened(page);
+  for (int x = 12; x < kFineSide - 12; ++x) {
+    const double middle = 60.0 + kSlope * (x + 0.5 - 60.0), away = 0.5 * kPitch * std::hypot(1.0, kSlope);
+    EXPECT_TRUE(page.ink.at(x, static_cast<int>(middle))) << x;
+    EXPECT_FALSE(ink.at(x, static_cast<int>(middle))) << x;
+    EXPECT_TRUE(ink.at(x, static_cast<int>(middle + away))) << x;
+    EXPECT_TRUE(ink.at(x, static_cast<int>(middle - away))) << x;
+  }
+}
+
+/// Along the bar both sides are darker, too; across it they are paper.
+TEST(NarrowPaper, KeepsTheFaintBarOfAnH) {
+  constexpr double kBarDepth = 0.5;
+  const FineInk page = fineInkOf([](double x, double y) {
+    const double stems = strokeCover(x - 53.0) + strokeCover(x - 67.0);
+    return std::max(stems, x > 53.0 && x < 67.0 ? kBarDepth * strokeCover(y - 60.0) : 0.0);
+  });
+  const BitImage ink = opened(page);
+  for (int x = 53; x < 67; ++x) EXPECT_TRUE(ink.at(x, 60)) << x;
+}
+
+TEST(NarrowPaper, LeavesAStrokeAsItIsWhosePressureVaries) {
+  const FineInk page = fineInkOf(
+      [](double x, double y) { return (0.75 + 0.25 * std::sin(x)) * strokeCover(y - 60.0 - 0.2 * (x - 60.0)); });
+  EXPECT_EQ(without(page.ink, opened(page)).count(), 0);
+}
+
+TEST(NarrowPaper, EndsAtTheBorderOfThePage) {
+  const FineInk page = fineInkOf([](double x, double) { return strokeCover(x); });
+  EXPECT_EQ(without(page.ink, opened(page)).count(), 0);
+}
+
+}  // namespace
+}  // namespace batten
