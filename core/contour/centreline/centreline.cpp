@@ -130,8 +130,8 @@ BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vec
     body = either(without(std::move(body), ownPens), strokes);
   }
   if (context.isCancelled()) return strokes;
-  const BitImage gaps = gapsBetweenLines(without(body, ownPens), grey, grain, width, context, pixelsPerPx);
-  const BitImage carved = without(body, gaps);
+  const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context, pixelsPerPx);
+  const BitImage carved = either(without(body, found.gaps), without(found.lines, ownPens));
   return either(carved, grainHoles(without(std::move(body), carved), carved, strokes, width, context));
 }
 

@@ -26,6 +26,7 @@ constexpr double kDirectionsPerPx = 2.5;  // of half a line: the ends of neighbo
 constexpr double kSideStepWidths = 0.1, kLeastSideStepPx = 0.5;  // between the places at a side
 constexpr double kAbsoluteToSigma = 1.25;  // standard deviation over mean absolute value, of a normal variable
 constexpr double kLineDepth = 0.5;         // of the strokes' depth: a fainter ridge is no line
+constexpr double kPaperRank = 0.8;         // of the greys of a tile: brighter ones are so by noise
 constexpr double kGrainLengthPx = 3.0;     // [px] along which grain is alike
 constexpr double kClear = 2.0;             // [standard deviations]
 constexpr float kHalf = 1.4142135f;        // half as long a line tells less
@@ -163,6 +164,15 @@ class Tile {
     std::fill(best_.begin(), best_.end(), 255.0f);
   }
 
+  // Nothing counts as darker than `depth` [grey] below the paper, which most of a tile is.
+  void limitDarkness(float depth) {
+    std::vector<float> sorted = grey_;
+    const auto paper = sorted.begin() + static_cast<std::ptrdiff_t>(kPaperRank * static_cast<double>(sorted.size()));
+    std::nth_element(sorted.begin(), paper, sorted.end());
+    const float darkest = *paper - depth;
+    for (float& grey : grey_) grey = std::max(grey, darkest);
+  }
+
   void meanAlong(const Direction& d, int reach) {
     const int from = margin_ - reach, count = kTile + 2 * reach;
     const auto weight = 1.0f / static_cast<float>(d.ahead.size());
@@ -264,6 +274,8 @@ struct LineSearch {
     if (pixels.empty()) return found;
     Tile tile(grey, x0, y0, filter);
     const Vec2 middle = middleOf(x0, y0);
+    // Across darker strokes, as letters beside faint lines, a mean would be as dark as along a line.
+    tile.limitDarkness(static_cast<float>(grain.depthAt(middle)));
     const float least =
         std::max(kHalf * clearAt(grain, filter, middle), static_cast<float>(kLineDepth * grain.depthAt(middle)));
     for (const Direction& d : filter.directions) {
@@ -291,10 +303,10 @@ StepSums stepSums() {
   return sumStepsPlain;
 }
 
-BitImage gapsBetweenLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain, double widthPx,
-                          const RunContext& context, int pixelsPerPx) {
-  BitImage gaps(body.width, body.height);
-  if (widthPx > kWidestPx * pixelsPerPx) return gaps;
+OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
+                                  double widthPx, const RunContext& context, int pixelsPerPx) {
+  OrientedLines found{BitImage(body.width, body.height), BitImage(body.width, body.height)};
+  if (widthPx > kWidestPx * pixelsPerPx) return found;
   const LineFilter filter = filterFor(widthPx, pixelsPerPx);
   const LineSearch search{grey, grain, filter};
   const int columns = body.wordsPerRow, rows = (body.height + kTile - 1) / kTile;
@@ -308,13 +320,15 @@ BitImage gapsBetweenLines(const BitImage& body, const GreyImage& grey, const Gra
     });
   };
   const BitImage near = grown(body, filter.halfPx, context);
-  overTiles(gaps, [&](int x0, int y0) { return search.gaps(near, x0, y0); });
-  if (context.isCancelled()) return gaps;
+  overTiles(found.gaps, [&](int x0, int y0) { return search.gaps(near, x0, y0); });
+  if (context.isCancelled()) return found;
   // A gap runs on as far as the lines that it was seen between.
-  gaps = both(keepPieces(gaps, {.minArea = 0, .minDiagonal = static_cast<double>(filter.halfPx)}, context), body);
-  BitImage lines(body.width, body.height);
-  overTiles(lines, [&](int x0, int y0) { return search.lines(gaps, x0, y0); });
-  return without(std::move(gaps), lines);
+  found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(filter.halfPx)}, context);
+  // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both fail.
+  const BitImage beside = both(grown(found.gaps, 2 * filter.halfPx, context), near);
+  overTiles(found.lines, [&](int x0, int y0) { return search.lines(beside, x0, y0); });
+  found.gaps = without(std::move(found.gaps), found.lines);
+  return found;
 }
 
 }  // namespace batten

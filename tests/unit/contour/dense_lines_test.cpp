@@ -167,19 +167,19 @@ TEST(DenseLines, ABroadPencilStrokeAmongNarrowOnesHasOneLineInItsMiddle) {
   }
 }
 
-TEST(GapsBetweenLines, LieBetweenThemAndNotWithinOne) {
+TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
   for (const bool pencil : {false, true}) {
     const DenseLines two = test::hatchLines({240, 180}, 30.0, 2, 9.0, 240.0, 0.0);
     std::vector<float> cover = test::coverageOf(two, 5.0, kDenseWidth, kDenseHeight);
     if (pencil) test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
     const DensePage page = densePage(std::move(cover), 150.0, 7);
     const GraininessMap grain(rawStrokePaths(page), page.grey, {});
-    const BitImage gaps = gapsBetweenLines(closeInk(page.ink, 6.0, {}), page.grey, grain, 5.0, {});
+    const OrientedLines comb = filterOrientedLines(closeInk(page.ink, 6.0, {}), page.grey, grain, 5.0, {});
     const Vec2 across(-std::sin(30.0 * std::numbers::pi / 180.0), std::cos(30.0 * std::numbers::pi / 180.0));
     int inGap = 0;
     for (int y = 0; y < kDenseHeight; ++y) {
       for (int x = 0; x < kDenseWidth; ++x) {
-        if (!gaps.at(x, y)) continue;
+        if (!comb.gaps.at(x, y)) continue;
         EXPECT_LE(std::abs((Vec2(x + 0.5, y + 0.5) - Vec2(240, 180)).dot(across)), 3.5) << x << " " << y;
         ++inGap;
       }
@@ -193,7 +193,8 @@ TEST(GapsBetweenLines, LieBetweenThemAndNotWithinOne) {
     test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
     const DensePage page = densePage(std::move(cover), 150.0, 7);
     const GraininessMap grain(rawStrokePaths(page), page.grey, {});
-    EXPECT_EQ(gapsBetweenLines(closeInk(page.ink, 0.75 * width + 1.0, {}), page.grey, grain, width, {}).count(), 0)
+    EXPECT_EQ(filterOrientedLines(closeInk(page.ink, 0.75 * width + 1.0, {}), page.grey, grain, width, {}).gaps.count(),
+              0)
         << width;
   }
 }
