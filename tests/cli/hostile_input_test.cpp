@@ -211,11 +211,11 @@ TEST_F(HostileInput, TinyFilesTakeLittleMemory) {
 }
 
 TEST_F(HostileInput, ControlCharactersOfANameStayInTheName) {
-  const std::string name = file("a\x1b[31m\xc2\x9b\x7f\n.png");
+  const std::string name = file("a\x1b[31m\xc2\x9b\x7f\n\xe2\x80\xae.png");
   write(std::filesystem::path(name).filename().string(), test::readFile(scene()));
   const auto isClean = [](const std::string& text) {
     return text.find('\x1b') == std::string::npos && text.find("\xc2\x9b") == std::string::npos &&
-           text.find('\x7f') == std::string::npos;
+           text.find('\x7f') == std::string::npos && text.find("\xe2\x80\xae") == std::string::npos;
   };
   const Outcome done = run("trace '" + name + "' -o " + file("o.svg"));
   ASSERT_EQ(done.code, 0) << done.err;
@@ -227,6 +227,18 @@ TEST_F(HostileInput, ControlCharactersOfANameStayInTheName) {
   const Outcome missing = run("trace '" + name + "x' -o " + file("o.svg"));
   EXPECT_EQ(missing.code, 3);
   EXPECT_TRUE(isClean(missing.err)) << missing.err;
+  // A batch says the same of its pages, wherever its lines go.
+  const std::string batch = "batch '" + name + "' --formats svg --to " + file("out");
+  const Outcome told = run(batch);
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_TRUE(isClean(told.out)) << told.out;
+  EXPECT_EQ(json::parse(told.out)["scan"], name);
+  const Outcome manifest = run(batch + " --write-manifest -");
+  EXPECT_TRUE(isClean(manifest.out)) << manifest.out;
+  write("m.jsonl", manifest.out);
+  ASSERT_EQ(run("batch " + file("m.jsonl") + " --results " + file("r.jsonl") + " --existing overwrite").code, 0);
+  EXPECT_TRUE(isClean(test::readFile(file("r.jsonl"))));
+  EXPECT_EQ(json::parse(test::readFile(file("r.jsonl")))["scan"], name);
 }
 
 TEST_F(HostileInput, OutputsThatAreOneFileByLinksAreRefused) {
