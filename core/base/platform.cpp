@@ -16,7 +16,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -35,8 +37,25 @@ std::optional<int> threadsWithinLimits() {
   return static_cast<int>(std::min<rlim_t>(all.rlim_cur / kLeftToWork / each, std::numeric_limits<int>::max()));
 }
 
-bool isProcessRunning(std::int64_t processId) {
-  return processId > 0 && (::kill(static_cast<pid_t>(processId), 0) == 0 || errno == EPERM);
+std::string processMark(std::int64_t processId) {
+  const bool exists = processId > 0 && (::kill(static_cast<pid_t>(processId), 0) == 0 || errno == EPERM);
+  if (!exists) return {};
+  std::string mark = std::to_string(processId);
+#if defined(__linux__)
+  constexpr int kFieldsToStart = 19;  // from the state to the time at which it began (proc(5), fields 3 and 22)
+  std::ifstream file("/proc/" + mark + "/stat"), bootFile("/proc/sys/kernel/random/boot_id");
+  std::string line, state, word, boot;
+  std::getline(file, line);
+  const auto name = line.rfind(')');  // the program's name may hold anything, also brackets
+  if (name == std::string::npos) return mark;
+  std::istringstream fields(line.substr(name + 1));
+  fields >> state;
+  if (state == "Z" || state == "X") return {};
+  for (int i = 0; i < kFieldsToStart; ++i) fields >> word;
+  bootFile >> boot;
+  mark += " " + word + " " + boot;
+#endif
+  return mark;
 }
 
 bool stderrIsTerminal() { return isatty(STDERR_FILENO) == 1; }

@@ -20,8 +20,10 @@ namespace batten {
 /// system by anything but standard C++ and Qt, so that another system is a matter of one file. Where a system has no
 /// answer, there is none.
 
-/// Whether there is a process of this number, whoever's it is.
-bool isProcessRunning(std::int64_t processId);
+/// What tells a running process from all that run, ran or will run: its number and, where the system says it, when it
+/// began and in which start of the system, since numbers are given again. Empty if no process of this number runs; one
+/// that has ended does not run, though its parent may not have taken note of it.
+std::string processMark(std::int64_t processId);
 
 /// Whether a person looks at what goes to stderr.
 bool stderrIsTerminal();

@@ -118,11 +118,17 @@ void keepFewHeaps() {}
 
 std::optional<int> threadsWithinLimits() { return std::nullopt; }
 
-bool isProcessRunning(std::int64_t processId) {
-  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return false;
-  const OpenFile process = owned(OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(processId)));
-  if (!process) return GetLastError() == ERROR_ACCESS_DENIED;
-  return WaitForSingleObject(process->handle, 0) == WAIT_TIMEOUT;  // an ended one has its number while it is held open
+std::string processMark(std::int64_t processId) {
+  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return {};
+  const std::string mark = std::to_string(processId);
+  const OpenFile process =
+      owned(OpenProcess(SYNCHRONIZE | PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(processId)));
+  if (!process) return GetLastError() == ERROR_ACCESS_DENIED ? mark : std::string();
+  // An ended one has its number while it is held open.
+  if (WaitForSingleObject(process->handle, 0) != WAIT_TIMEOUT) return {};
+  FILETIME created, ended, kernel, user;
+  if (GetProcessTimes(process->handle, &created, &ended, &kernel, &user) == 0) return mark;
+  return mark + " " + std::to_string(created.dwHighDateTime) + " " + std::to_string(created.dwLowDateTime);
 }
 
 double processorSeconds() {
