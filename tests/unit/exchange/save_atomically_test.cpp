@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/exchange/model/scratch_file.h"
 #include "core/exchange/picture.h"
 
 namespace batten {
@@ -153,6 +154,19 @@ TEST_F(SaveAtomically, WhatAnEndedProgramLeftGoesAndWhatARunningOneWritesStays) 
   removeLeftoversOf(target);
   EXPECT_FALSE(fs::exists(left));
   EXPECT_EQ(read(target), "x");
+}
+
+TEST_F(SaveAtomically, AScratchFileGoesWithItsObject) {
+  std::string path;
+  {
+    const auto scratch = ScratchFile::create("abc");
+    ASSERT_TRUE(scratch);
+    path = scratch->path();
+    EXPECT_EQ(read(path), "abc");
+    std::ofstream(path) << "written by name";
+    EXPECT_EQ(scratch->read(), "written by name");
+  }
+  EXPECT_FALSE(fs::exists(path));
 }
 
 TEST(Picture, DrawsLinesAndEncodesPng) {
