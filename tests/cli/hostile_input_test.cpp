@@ -301,7 +301,7 @@ TEST_F(HostileInput, EveryNumberIsReadInOneWay) {
       {start + "--dpi ", "--dpi takes a number from 1 to 100000"},
       {start + "--threads ", "--threads takes a whole number from 0 to 1024"},
       {"suggest " + scan + " --threads ", "--threads takes a whole number from 0 to 1024"},
-      {start + "--scale ", "--scale takes a number above 0"},
+      {start + "--scale ", "--scale takes a number from 0.000001 to 1000000"},
       {start + "--tolerance ", "--tolerance takes a length in mm"},
       {start + "--curves ", "umbers such as 1,3-5"},
       {start + "--corner ", "--corner takes X,Y"},
