@@ -223,7 +223,7 @@ TEST_F(HostileInput, ControlCharactersOfANameStayInTheName) {
   EXPECT_EQ(json::parse(done.out)["scan"], name) << "escaped, not lost";
   const std::string svg = test::readFile(file("o.svg"));
   EXPECT_TRUE(isClean(svg));
-  EXPECT_NE(svg.find("<title>a?[31m???.png</title>"), std::string::npos) << svg.substr(0, 600);
+  EXPECT_NE(svg.find("<title>a?[31m????.png</title>"), std::string::npos) << svg.substr(0, 600);
   const Outcome missing = run("trace '" + name + "x' -o " + file("o.svg"));
   EXPECT_EQ(missing.code, 3);
   EXPECT_TRUE(isClean(missing.err)) << missing.err;
@@ -251,6 +251,14 @@ TEST_F(HostileInput, OutputsThatAreOneFileByLinksAreRefused) {
   fs::create_symlink("a.svg", file("b.svg"));
   expectRefused("trace " + scan + " -o " + file("a.svg"), 5, "form a loop");
   EXPECT_TRUE(fs::is_symlink(file("a.svg")));
+  expectRefused("batch " + scan + " --to " + file("out") + " --formats svg --sheet " + file("a.svg"), 5, "form a loop");
+  EXPECT_TRUE(fs::is_empty(file("out"))) << "it is known before the work";
+  expectRefused("trace " + file("a.svg") + " -o " + file("o.svg"), 3, "form a loop");
+  fs::create_symlink("turn", file("turn"));
+  expectRefused("trace " + scan + " -o " + file("turn/o.svg"), 5, "folder form a loop");
+  fs::create_symlink("b.png", file("a.png"));
+  fs::create_symlink("a.png", file("b.png"));
+  expectRefused("trace " + file("a.png") + " -o " + file("o.svg"), 3, "form a loop");
 }
 
 TEST_F(HostileInput, AFileThatGrowsTooLargeGivesFiveAndKeepsTheOldOne) {
