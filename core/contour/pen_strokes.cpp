@@ -114,7 +114,7 @@ std::string noteOf(const PenReport& report) {
     note += std::to_string(kMostPenStrokes);
     note += " pen strokes of ";
     note += std::to_string(kMostPenPoints);
-    note += " px and as many points together: remove some strokes.";
+    note += " px and as many points together: remove some strokes, or shorten them.";
   }
   return note;
 }
@@ -193,6 +193,7 @@ Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStro
     contour = std::move(laid);
   }
   const std::string note = noteOf(report);
+  if (points == 0 && set.contours.empty() && report.tooMany > 0) return fail(ErrorCode::NoCurve, note);
   if (points == 0 && set.contours.empty()) {
     return fail(ErrorCode::NoCurve, "No line lies on the page: draw on it, or make the page larger.", note);
   }

@@ -163,6 +163,9 @@ TEST(PenStrokes, ThatRunToAndFroCountByTheirLength) {
   EXPECT_TRUE(set->contours[0].points.empty());
   EXPECT_FALSE(set->contours[1].points.empty());
   EXPECT_NE(set->report.note.find("1 pen stroke is left out"), std::string::npos) << set->report.note;
+  const auto none = withPenStrokes({}, std::vector<PenStroke>{zigzag}, kLargePage);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("1 pen stroke is left out"), std::string::npos) << none.error().message;
 }
 
 TEST(PenStrokes, BeyondTheLargestNumberAreLeftOut) {
