@@ -29,7 +29,19 @@ Function* next(const char* name) {
 
 extern "C" pid_t fork() { return isRefused() ? -1 : next<pid_t()>("fork")(); }
 
-// By which Qt makes its children.
+// Qt makes its children by one of these two.
+extern "C" int clone(int (*child)(void*), void* stack, int flags, void* words, ...) {
+  if (isRefused()) return -1;
+  va_list list;
+  va_start(list, words);
+  void* const parentId = va_arg(list, void*);
+  void* const storage = va_arg(list, void*);
+  void* const childId = va_arg(list, void*);
+  va_end(list);
+  using Clone = int(int (*)(void*), void*, int, void*, void*, void*, void*);
+  return next<Clone>("clone")(child, stack, flags, words, parentId, storage, childId);
+}
+
 extern "C" long syscall(long number, ...) {
   constexpr int kMostWords = 6;
   long words[kMostWords];
