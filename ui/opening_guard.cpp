@@ -13,7 +13,13 @@ namespace {
 
 const QString kPathKey = QStringLiteral("opening/path"), kProgramKey = QStringLiteral("opening/program");
 
-bool isRunning(qint64 program) { return isProcessRunning(program) && program != QCoreApplication::applicationPid(); }
+QString ownMark() { return QString::fromStdString(processMark(QCoreApplication::applicationPid())); }
+
+/// Whether the program of this mark runs and is another than this one.
+bool isOther(const QString& mark) {
+  const std::string running = processMark(mark.section(QLatin1Char(' '), 0, 0).toLongLong());
+  return !mark.isEmpty() && QString::fromStdString(running) == mark && mark != ownMark();
+}
 
 }  // namespace
 
@@ -32,14 +38,14 @@ void OpeningGuard::begin(const QString& path) {
   path_ = path;
   QSettings settings;
   settings.setValue(kPathKey, storedPath(path));
-  settings.setValue(kProgramKey, QCoreApplication::applicationPid());
+  settings.setValue(kProgramKey, ownMark());
   settings.sync();  // Now: there may be no later.
 }
 
 bool OpeningGuard::hasFailed(const QString& path) {
   const QSettings settings;
   return !path.isEmpty() && settings.value(kPathKey).toString() == storedPath(path) &&
-         !isRunning(settings.value(kProgramKey).toLongLong());
+         !isOther(settings.value(kProgramKey).toString());
 }
 
 void OpeningGuard::end() {

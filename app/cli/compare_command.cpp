@@ -9,9 +9,9 @@
 
 #include "app/cli/exit_codes.h"
 #include "app/cli/shown_digits.h"
+#include "core/base/json_text.h"
 #include "core/base/name_text.h"
 #include "core/base/regular_file.h"
-#include "core/base/shown_text.h"
 #include "core/exchange/curve_file.h"
 #include "core/exchange/model/export_settings.h"
 #include "core/fairing/profile/curve_comparison.h"
@@ -80,7 +80,7 @@ int runCompare(const std::string& first, const std::string& second) {
     return x.at("similarity").get<double>() > y.at("similarity").get<double>();
   });
   const Json result{{"first", nameText(first)}, {"second", nameText(second)}, {"pairs", pairs}};
-  std::cout << withoutControls(result.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
+  std::cout << jsonLine(result) << '\n';
   return endOutput();
 }
 

@@ -114,7 +114,7 @@ void addFormatOptions(CLI::App& trace, TraceArguments& a) {
   trace
       .add_option_function<std::string>(
           "--scale", [&a](const std::string& text) { a.scale = text; },
-          "Scale factor of the curves, above 0, up to 1000000")
+          "Scale factor of the curves, from 0.000001 to 1000000")
       ->type_name("N");
   trace
       .add_option_function<std::string>(

@@ -48,7 +48,9 @@ Result<OutputPlan::Output> outputOf(const std::string& path, const TraceArgument
   if (arguments.unit == "in") settings.unit = LengthUnit::Inch;
   if (arguments.scale) {
     const auto scale = numberFromText(*arguments.scale);
-    if (!scale) return wrong("--scale takes a number above 0, such as 0.5 or 2, not \"" + *arguments.scale + "\".");
+    if (!scale)
+      return wrong("--scale takes a number from 0.000001 to 1000000, such as 0.5 or 2, not \"" + *arguments.scale +
+                   "\".");
     settings.scale = *scale;
   }
   if (arguments.tolerance) {

@@ -15,9 +15,9 @@
 #include "app/cli/shown_digits.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/angle.h"
+#include "core/base/json_text.h"
 #include "core/base/name_text.h"
 #include "core/base/platform.h"
-#include "core/base/shown_text.h"
 #include "core/contour/corner/corner_certainty.h"
 #include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/corner_places.h"
@@ -135,7 +135,7 @@ int runSuggest(const TraceArguments& given) {
       {"doubtful_junctions", junctionsToJson(advice->junctions)},
       {"rectify", sheetToJson(advice->sheet)},
       {"notes", advice->notes}};
-  std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
+  std::cout << jsonLine(json) << '\n';
   return endOutput();
 }
 

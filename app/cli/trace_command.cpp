@@ -16,11 +16,11 @@
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
+#include "core/base/json_text.h"
 #include "core/base/name_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/platform_memory.h"
-#include "core/base/shown_text.h"
 #include "core/document/explain/explanation.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
@@ -127,7 +127,7 @@ class Trace {
     if (scan_.rectification) json["rectified"] = rectificationFigures(*scan_.rectification);
     if (explanation_) json["explanation"] = explanationFigures(*explanation_);
     json["notes"] = notes();
-    return withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    return jsonLine(json);
   }
 
  private:
@@ -321,7 +321,7 @@ int reportPage(const TraceArguments& arguments, Error error) {
                                     {"files", nlohmann::ordered_json::array()},
                                     {"exit", code},
                                     {"error", why}};
-  std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
+  std::cout << jsonLine(json) << '\n';
   const int written = endOutput();
   return written == kDone ? code : written;
 }

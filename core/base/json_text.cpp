@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/shown_text.h"
+
 namespace batten {
 namespace {
 
@@ -117,5 +119,7 @@ Result<Json> parseJson(std::string_view text, const RunContext& context, const J
   Json::sax_parse(text, &builder);
   return builder.result();
 }
+
+std::string jsonLine(const Json& json) { return shownJson(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
 }  // namespace batten

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <string_view>
 
 #include "core/base/result.h"
@@ -24,5 +25,9 @@ struct JsonLimits {
 /// @return BadParameter; its message is the end of a sentence: "it is nested more than 64 levels deep". Cancelled.
 Result<nlohmann::ordered_json> parseJson(std::string_view text, const RunContext& context = {},
                                          const JsonLimits& limits = {});
+
+/// The value as one line without its line break, for stdout and for files of lines: whatever its names hold, a terminal
+/// shows it (shownJson).
+std::string jsonLine(const nlohmann::ordered_json&);
 
 }  // namespace batten

@@ -16,7 +16,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -35,8 +37,25 @@ std::optional<int> threadsWithinLimits() {
   return static_cast<int>(std::min<rlim_t>(all.rlim_cur / kLeftToWork / each, std::numeric_limits<int>::max()));
 }
 
-bool isProcessRunning(std::int64_t processId) {
-  return processId > 0 && (::kill(static_cast<pid_t>(processId), 0) == 0 || errno == EPERM);
+std::string processMark(std::int64_t processId) {
+  const bool exists = processId > 0 && (::kill(static_cast<pid_t>(processId), 0) == 0 || errno == EPERM);
+  if (!exists) return {};
+  std::string mark = std::to_string(processId);
+#if defined(__linux__)
+  constexpr int kFieldsToStart = 19;  // from the state to the time at which it began (proc(5), fields 3 and 22)
+  std::ifstream file("/proc/" + mark + "/stat"), bootFile("/proc/sys/kernel/random/boot_id");
+  std::string line, state, word, boot;
+  std::getline(file, line);
+  const auto name = line.rfind(')');  // the program's name may hold anything, also brackets
+  if (name == std::string::npos) return mark;
+  std::istringstream fields(line.substr(name + 1));
+  fields >> state;
+  if (state == "Z" || state == "X") return {};
+  for (int i = 0; i < kFieldsToStart; ++i) fields >> word;
+  bootFile >> boot;
+  mark += " " + word + " " + boot;
+#endif
+  return mark;
 }
 
 bool stderrIsTerminal() { return isatty(STDERR_FILENO) == 1; }
@@ -94,7 +113,10 @@ void CloseSystemFile::operator()(SystemFile* file) const {
 
 namespace {
 
-std::error_code systemError() { return {errno, std::generic_category()}; }
+std::error_code systemError() {
+  if (errno == EDQUOT) return std::make_error_code(std::errc::no_space_on_device);
+  return {errno, std::generic_category()};
+}
 
 /// Takes what open() gave; null where it failed, which errno tells.
 OpenFile owned(int descriptor) { return OpenFile(descriptor < 0 ? nullptr : new SystemFile{descriptor}); }
@@ -155,6 +177,15 @@ std::error_code ReadableFile::read(std::span<std::byte> bytes, std::uint64_t fro
   return {};
 }
 
+std::optional<std::string> nameOfOpenFile(int descriptor) {
+#if defined(__linux__)
+  std::string name = "/proc/self/fd/" + std::to_string(descriptor);
+  struct stat info {};
+  if (descriptor >= 0 && ::stat(name.c_str(), &info) == 0) return name;
+#endif
+  return std::nullopt;
+}
+
 ReplacingFile::ReplacingFile(OpenFile folder, OpenFile file, std::filesystem::path target, std::string name)
     : folder_(std::move(folder)), file_(std::move(file)), target_(std::move(target)), name_(std::move(name)) {}
 
@@ -195,21 +226,30 @@ std::error_code ReplacingFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(file_->descriptor, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0 && errno == EDQUOT) return std::make_error_code(std::errc::no_space_on_device);
     if (count < 0) return systemError();
     bytes.remove_prefix(count);
   }
   return {};
 }
 
-std::error_code ReplacingFile::takePlace() {
+tl::expected<OpenFile, std::error_code> ReplacingFile::takePlace() {
   // A disk that is told of the name before it has the bytes leaves an empty file where a whole one was, should the
   // power fail.
-  if (const auto error = reachDisk(file_->descriptor)) return error;
+  if (const auto error = reachDisk(file_->descriptor)) return tl::unexpected(error);
   const std::string last = target_.filename().native();
-  if (::renameat(folder_->descriptor, name_.c_str(), folder_->descriptor, last.c_str()) != 0) return systemError();
+  if (::renameat(folder_->descriptor, name_.c_str(), folder_->descriptor, last.c_str()) != 0)
+    return tl::unexpected(systemError());
   name_.clear();
-  return {};
+  return std::move(file_);
+}
+
+OpenFile takeAlone(const std::filesystem::path& path) {
+  OpenFile file = owned(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
+  struct stat info {};
+  if (!file || ::fstat(file->descriptor, &info) != 0 || !S_ISREG(info.st_mode)) return nullptr;
+  // Its holder may have replaced it between the two calls: then this is a lock on nothing.
+  if (::flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 || !isNamed(*file, path)) return nullptr;
+  return file;
 }
 
 void removeLeftover(const std::filesystem::path& path) {

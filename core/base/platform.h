@@ -20,8 +20,10 @@ namespace batten {
 /// system by anything but standard C++ and Qt, so that another system is a matter of one file. Where a system has no
 /// answer, there is none.
 
-/// Whether there is a process of this number, whoever's it is.
-bool isProcessRunning(std::int64_t processId);
+/// What tells a running process from all that run, ran or will run: its number and, where the system says it, when it
+/// began and in which start of the system, since numbers are given again. Empty if no process of this number runs; one
+/// that has ended does not run, though its parent may not have taken note of it.
+std::string processMark(std::int64_t processId);
 
 /// Whether a person looks at what goes to stderr.
 bool stderrIsTerminal();
@@ -93,6 +95,10 @@ class ReadableFile {
   std::uint64_t size_;
 };
 
+/// A name by which code of this program can open once more what is open already, though it may have no name in any
+/// folder; nullopt where the system knows none. @param descriptor as the C library counts open files.
+std::optional<std::string> nameOfOpenFile(int descriptor);
+
 /// A file that takes the place of another, or of none, once it is whole. While it is written no other program takes it
 /// for a leftover (removeLeftover); it goes with this object unless it has taken the place. The folder is the one that
 /// had its name at the beginning, even if it is renamed meanwhile, where the system allows that at all.
@@ -109,8 +115,9 @@ class ReplacingFile {
 
   /// Adds to the file. A full disk is std::errc::no_space_on_device, be it the disk's size or the user's share of it.
   std::error_code write(std::string_view bytes);
-  /// Waits for the disk to have the bytes, then gives the file the target's name. To be called once.
-  std::error_code takePlace();
+  /// Waits for the disk to have the bytes, then gives the file the target's name. To be called once. While the result
+  /// lives, takeAlone finds the file taken; there was no moment in which it did not.
+  tl::expected<OpenFile, std::error_code> takePlace();
 
  private:
   ReplacingFile(OpenFile folder, OpenFile file, std::filesystem::path target, std::string name);
@@ -122,6 +129,11 @@ class ReplacingFile {
 /// Removes an ordinary file of this user that a ReplacingFile has left whose program was ended; leaves one that is
 /// still written, and whatever else has that name.
 void removeLeftover(const std::filesystem::path&);
+
+/// Takes an ordinary file, no link, for one holder in this or any program while the result lives: whoever asks
+/// meanwhile gets null, as for a file that is not there or cannot be locked. It may be read, written and replaced all
+/// the same.
+OpenFile takeAlone(const std::filesystem::path&);
 
 /// A file to which several programs add whole lines at the same time.
 class SharedLines {

@@ -118,11 +118,17 @@ void keepFewHeaps() {}
 
 std::optional<int> threadsWithinLimits() { return std::nullopt; }
 
-bool isProcessRunning(std::int64_t processId) {
-  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return false;
-  const OpenFile process = owned(OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(processId)));
-  if (!process) return GetLastError() == ERROR_ACCESS_DENIED;
-  return WaitForSingleObject(process->handle, 0) == WAIT_TIMEOUT;  // an ended one has its number while it is held open
+std::string processMark(std::int64_t processId) {
+  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return {};
+  const std::string mark = std::to_string(processId);
+  const OpenFile process =
+      owned(OpenProcess(SYNCHRONIZE | PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(processId)));
+  if (!process) return GetLastError() == ERROR_ACCESS_DENIED ? mark : std::string();
+  // An ended one has its number while it is held open.
+  if (WaitForSingleObject(process->handle, 0) != WAIT_TIMEOUT) return {};
+  FILETIME created, ended, kernel, user;
+  if (GetProcessTimes(process->handle, &created, &ended, &kernel, &user) == 0) return mark;
+  return mark + " " + std::to_string(created.dwHighDateTime) + " " + std::to_string(created.dwLowDateTime);
 }
 
 double processorSeconds() {
@@ -213,6 +219,8 @@ std::error_code ReadableFile::read(std::span<std::byte> bytes, std::uint64_t fro
   return {};
 }
 
+std::optional<std::string> nameOfOpenFile(int /*descriptor*/) { return std::nullopt; }
+
 ReplacingFile::ReplacingFile(OpenFile folder, OpenFile file, fs::path target, std::string name)
     : folder_(std::move(folder)), file_(std::move(file)), target_(std::move(target)), name_(std::move(name)) {}
 
@@ -259,8 +267,8 @@ std::error_code ReplacingFile::write(std::string_view bytes) {
   return {};
 }
 
-std::error_code ReplacingFile::takePlace() {
-  if (FlushFileBuffers(file_->handle) == 0) return systemError();
+tl::expected<OpenFile, std::error_code> ReplacingFile::takePlace() {
+  if (FlushFileBuffers(file_->handle) == 0) return tl::unexpected(systemError());
   const std::wstring name = target_.native();
   std::vector<std::byte> memory(sizeof(FILE_RENAME_INFO) + name.size() * sizeof(wchar_t));
   auto* const info = new (memory.data()) FILE_RENAME_INFO{};
@@ -268,9 +276,21 @@ std::error_code ReplacingFile::takePlace() {
   info->FileNameLength = static_cast<DWORD>(name.size() * sizeof(wchar_t));
   std::memcpy(info->FileName, name.data(), info->FileNameLength);
   if (SetFileInformationByHandle(file_->handle, FileRenameInfo, info, static_cast<DWORD>(memory.size())) == 0)
-    return systemError();
+    return tl::unexpected(systemError());
   name_.clear();
-  return {};
+  file_.reset();  // it shares the file with nobody
+  return takeAlone(target_);
+}
+
+OpenFile takeAlone(const fs::path& path) {
+  OpenFile file = owned(CreateFileW(path.c_str(), GENERIC_READ, kShareAll, nullptr, OPEN_EXISTING,
+                                    FILE_FLAG_OPEN_REPARSE_POINT, nullptr));
+  // A byte far behind the end is locked: the file itself stays free.
+  OVERLAPPED at{};
+  at.OffsetHigh = 0x40000000;
+  const bool isTaken =
+      file && LockFileEx(file->handle, LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &at) != 0;
+  return isTaken ? std::move(file) : nullptr;
 }
 
 void removeLeftover(const fs::path& path) {

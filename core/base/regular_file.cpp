@@ -11,8 +11,9 @@ using Problem = tl::unexpected<FileProblem>;
 FileProblem openingProblem(std::error_code error) {
   if (error == std::errc::permission_denied || error == std::errc::operation_not_permitted)
     return FileProblem::NotAllowed;
-  for (const std::errc missing : {std::errc::no_such_file_or_directory, std::errc::not_a_directory,
-                                  std::errc::too_many_symbolic_link_levels, std::errc::filename_too_long}) {
+  if (error == std::errc::too_many_symbolic_link_levels) return FileProblem::LinksInCircle;
+  for (const std::errc missing :
+       {std::errc::no_such_file_or_directory, std::errc::not_a_directory, std::errc::filename_too_long}) {
     if (error == missing) return FileProblem::Missing;
   }
   // A socket that took the name meanwhile.
@@ -25,6 +26,8 @@ std::string describe(FileProblem problem) {
   switch (problem) {
     case FileProblem::Missing:
       return "does not exist";
+    case FileProblem::LinksInCircle:
+      return "is reached by symbolic links that form a loop";
     case FileProblem::Folder:
       return "is a folder";
     case FileProblem::NotOrdinary:

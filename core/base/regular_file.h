@@ -16,6 +16,7 @@ namespace batten {
 /// Why a file cannot be read as a whole.
 enum class FileProblem {
   Missing,
+  LinksInCircle,
   Folder,
   NotOrdinary,  ///< A pipe, a device or a socket: reading it may wait for ever or never end.
   NotAllowed,

@@ -35,9 +35,24 @@ bool isControl(std::uint32_t code) { return code < 0x20 || (code >= 0x7f && code
 
 bool isShown(std::uint32_t code) {
   const bool isLineMark = code == 0x2028 || code == 0x2029;
-  const bool setsDirection = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+  const bool setsDirection = code == 0x061c || code == 0x200e || code == 0x200f || (code >= 0x202a && code <= 0x202e) ||
+                             (code >= 0x2066 && code <= 0x2069);
+  const bool hasNoWidth = code == 0x200b || code == 0x2060 || code == 0xfeff;  // but for joiners, which scripts need
   const bool isNoCharacter = (code & 0xfffeu) == 0xfffe || (code >= 0xfdd0 && code <= 0xfdef);
-  return !isControl(code) && !isLineMark && !setsDirection && !isNoCharacter;
+  return !isControl(code) && !isLineMark && !setsDirection && !hasNoWidth && !isNoCharacter;
+}
+
+/// JSON spells a character beyond U+FFFF as two halves.
+void addEscape(std::string& json, std::uint32_t code) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  constexpr std::uint32_t kPairFrom = 0x10000, kHigh = 0xd800, kLow = 0xdc00;
+  if (code >= kPairFrom) {
+    addEscape(json, kHigh + ((code - kPairFrom) >> 10u));
+    addEscape(json, kLow + ((code - kPairFrom) & 0x3ffu));
+    return;
+  }
+  json.append("\\u");
+  for (const unsigned shift : {12u, 8u, 4u, 0u}) json.push_back(kHex[(code >> shift) & 0xfu]);
 }
 
 }  // namespace
@@ -59,15 +74,15 @@ std::string shownText(std::string_view bytes) {
 
 std::size_t characterBytes(std::string_view text) { return firstOf(text).bytes; }
 
-std::string withoutControls(std::string_view json) {
-  constexpr std::string_view kHex = "0123456789abcdef";
+std::string shownJson(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
   while (!json.empty()) {
     const Character c = firstOf(json);
     const std::size_t length = c.bytes == 0 ? 1 : c.bytes;
-    if (c.bytes != 0 && c.code >= 0x7f && c.code <= 0x9f)
-      safe.append("\\u00").append(1, kHex[c.code >> 4]).append(1, kHex[c.code & 0xfu]);
+    constexpr std::uint32_t kFirst = 0x7f;  // below it only the layout of the text itself has controls
+    if (c.bytes != 0 && c.code >= kFirst && !isShown(c.code))
+      addEscape(safe, c.code);
     else
       safe.append(json.substr(0, length));
     json.remove_prefix(length);

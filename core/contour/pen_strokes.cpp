@@ -114,7 +114,7 @@ std::string noteOf(const PenReport& report) {
     note += std::to_string(kMostPenStrokes);
     note += " pen strokes of ";
     note += std::to_string(kMostPenPoints);
-    note += " points together, about one a pixel: remove some strokes.";
+    note += " px and as many points together: remove some strokes, or shorten them.";
   }
   return note;
 }
@@ -175,17 +175,25 @@ Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStro
       ++report.tooMany;
       continue;
     }
+    const std::int64_t left = kMostPenPoints - points;
+    const double lengthPx = polylineLength(kept->points, kept->closed);
+    // A stroke that runs to and fro may have few points and be longer than any that a hand draws.
+    if (lengthPx > kStepPx * static_cast<double>(left)) {
+      ++report.tooMany;
+      continue;
+    }
     Contour laid = penContour(*kept);
-    if (points + std::ssize(laid.points) > kMostPenPoints) {
+    if (std::ssize(laid.points) > left) {
       ++report.tooMany;
       continue;
     }
     if (!isWhole) ++report.cut;
     ++count;
-    points += std::ssize(laid.points);
+    points += std::max(std::ssize(laid.points), static_cast<std::ptrdiff_t>(lengthPx / kStepPx));
     contour = std::move(laid);
   }
   const std::string note = noteOf(report);
+  if (points == 0 && set.contours.empty() && report.tooMany > 0) return fail(ErrorCode::NoCurve, note);
   if (points == 0 && set.contours.empty()) {
     return fail(ErrorCode::NoCurve, "No line lies on the page: draw on it, or make the page larger.", note);
   }

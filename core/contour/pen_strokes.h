@@ -29,8 +29,9 @@ struct PageExtent {
   double widthPx = 0.0, heightPx = 0.0;
 };
 
-/// Largest number of contour points of all pen strokes of a drawing together. At one point a pixel that is a page full
-/// of lines.
+/// Largest number of contour points of all pen strokes of a drawing together, and [px] of their length: a stroke has
+/// about one point a pixel, and takes the time of it also where its points lie farther apart. That is a page full of
+/// lines.
 inline constexpr int kMostPenPoints = 1'000'000;
 
 /// Largest number of pen strokes of a drawing, as of the lines of an imported file: each becomes a curve, which takes

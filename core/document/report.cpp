@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/name_text.h"
+#include "core/base/shown_text.h"
 #include "core/document/report_contours.h"
 #include "core/document/report_curves.h"
 #include "core/document/report_values.h"
@@ -142,7 +143,7 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   }
   json["peak_memory_bytes"] = extras.peakMemoryBytes ? ReportJson(*extras.peakMemoryBytes) : ReportJson(nullptr);
   // Texts of other programs may hold anything: what is not UTF-8 is replaced, never thrown over.
-  return json.dump(1, ' ', false, ReportJson::error_handler_t::replace) + "\n";
+  return shownJson(json.dump(1, ' ', false, ReportJson::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace batten

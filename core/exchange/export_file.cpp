@@ -97,6 +97,7 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
   if (!bytes) return fail(bytes.error());
   if (context.isCancelled()) return cancelled();
   const auto back = cadBack(*bytes, settings.format);
+  if (!back && back.error().code == ErrorCode::CannotWrite) return fail(back.error());  // it was not even tried
   if (!back) return readsBackOtherwise(back.error().message);
   const auto difference = largestDifference(made->drawing, *back);
   if (!difference) return fail(difference.error());

@@ -191,6 +191,15 @@ void makeNamesShown(ImportedLine& line) {
   for (ImportedCurve& curve : line.curves) shown(curve.name);
 }
 
+Result<void> checkSharpTurns(const ImportedFile& file) {
+  std::size_t turns = 0;
+  for (const ImportedLine& line : file.lines) turns += sharpTurnsOf(line);
+  if (turns <= kMostSharpTurns) return {};
+  return fail(ErrorCode::BadParameter, "The points of a file may turn sharply at " + std::to_string(kMostSharpTurns) +
+                                           " places at most, but do so at " + std::to_string(turns) +
+                                           ": put them in the order in which the line runs.");
+}
+
 }  // namespace
 
 bool isImportName(const std::filesystem::path& path) {
@@ -227,6 +236,7 @@ Result<ImportReport> readImportFile(const std::filesystem::path& path, std::opti
   if (taken) {
     if (auto wrong = validate(report.file)) taken = fail(std::move(*wrong));
   }
+  if (taken) taken = checkSharpTurns(report.file);
   if (!taken && taken.error().code == ErrorCode::Cancelled) return cancelled();
   if (!taken) return fail(taken.error().code, name + ": " + taken.error().message, taken.error().detail);
   return report;

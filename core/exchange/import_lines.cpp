@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -27,7 +28,6 @@ constexpr double kMostTremor = 1.0 / 200.0, kCertainTurn = 60.0 * kRadPerDeg;
 /// chords of its length.
 constexpr double kStandsOut = 8.0;
 constexpr std::ptrdiff_t kLongestChord = 64;  // points
-constexpr std::size_t kMostCorners = 50'000;  // of a polygon; a file of more is refused
 
 /// DXF puts what has no layer on layer 0.
 std::string layerOf(const CadEntity& entity) { return entity.layer == "0" ? std::string() : entity.layer; }
@@ -234,10 +234,25 @@ std::vector<int> sharpPoints(const std::vector<Vec2>& points, bool closed) {
   return corners;
 }
 
+std::size_t sharpTurnsOf(const ImportedLine& line) {
+  std::size_t turns = line.corners.size();
+  const auto sideOf = [](const NurbsCurve& curve) -> std::optional<Vec2> {
+    if (curve.controlPointCount() != 2) return std::nullopt;
+    return curve.controlPoints()[1] - curve.controlPoints()[0];
+  };
+  std::optional<Vec2> before;
+  for (const ImportedCurve& each : line.curves) {
+    const std::optional<Vec2> side = sideOf(each.curve);
+    if (before && side && std::abs(std::atan2(cross(*before, *side), before->dot(*side))) >= kSharpTurn) ++turns;
+    before = side;
+  }
+  return turns;
+}
+
 void findCorners(ImportedLine& line) {
   line.corners = sharpPoints(line.points, line.closed);
   const std::size_t n = line.points.size(), sides = line.closed ? n : n - 1;
-  if (std::ssize(line.points) <= kFewPoints || 2 * line.corners.size() <= n || line.corners.size() > kMostCorners)
+  if (std::ssize(line.points) <= kFewPoints || 2 * line.corners.size() <= n || line.corners.size() > kMostSharpTurns)
     return;
   std::vector<ImportedCurve> curves;
   for (std::size_t i = 0; i < sides; ++i) {

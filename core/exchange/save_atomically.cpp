@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/save_atomically.h"
 
-#include <system_error>
-
 #include "core/base/content_hash.h"
-#include "core/base/platform.h"
 #include "core/base/shown_text.h"
 
 namespace batten {
@@ -23,28 +20,8 @@ tl::unexpected<Error> cannotWrite(const fs::path& path, const std::string& why, 
   return fail(ErrorCode::CannotWrite, "Cannot write " + shownName(path) + ": " + why, std::move(detail));
 }
 
-std::string reason(std::error_code error) {
-  static constexpr struct {
-    std::errc cause;
-    const char* words;
-  } kReasons[] = {
-      {std::errc::no_space_on_device, "the disk is full. Free some space or choose another place."},
-      {std::errc::file_too_large, "the file would exceed the file size limit. Choose another place."},
-      {std::errc::permission_denied, "there is no permission to write there. Choose another place."},
-      {std::errc::operation_not_permitted, "there is no permission to write there. Choose another place."},
-      {std::errc::read_only_file_system, "the disk is write-protected. Choose another place."},
-      {std::errc::filename_too_long, "the name is too long. Choose a shorter one."},
-      {std::errc::too_many_files_open, "too many files are open. Close other programs and try again."},
-      {std::errc::too_many_files_open_in_system, "too many files are open. Close other programs and try again."},
-  };
-  for (const auto& one : kReasons) {
-    if (error == one.cause) return one.words;
-  }
-  return "the disk or its connection failed. Choose another place.";
-}
-
 tl::unexpected<Error> failedCall(const fs::path& path, std::error_code error) {
-  return cannotWrite(path, reason(error), error.message());
+  return cannotWrite(path, whyNotWritten(error), error.message());
 }
 
 /// What stands in the way before anything is written; nullopt if nothing is known to.
@@ -53,8 +30,10 @@ std::optional<std::string> obstacle(const fs::path& path) {
   if (path.empty() || path.filename().empty()) return "the file has no name. Add a file name.";
   if (fs::is_directory(path, code)) return "it is a folder. Add a file name.";
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::exists(folder, code))
-    return "the folder " + shownName(folder) + " does not exist. Create it or choose another.";
+  const bool isThere = fs::exists(folder, code);
+  if (code == std::errc::too_many_symbolic_link_levels)
+    return "the symbolic links of its folder form a loop. Choose another folder.";
+  if (!isThere) return "the folder " + shownName(folder) + " does not exist. Create it or choose another.";
   if (!fs::is_directory(folder, code)) return shownName(folder) + " is not a folder. Choose another place.";
   if (fs::exists(path, code) && !fs::is_regular_file(path, code))
     return "it is not a regular file. Choose another name.";
@@ -74,6 +53,20 @@ fs::path folderOf(const fs::path& target) { return target.has_parent_path() ? ta
 /// Programs that save one target at the same time take these names one after another. More than a few never do.
 constexpr int kNamesInUse = 4;
 
+/// Removes what programs left in the folder that were ended while they saved any file.
+void removeLeftoversIn(const fs::path& folder) {
+  constexpr int kMostNames = 10'000;  // that are looked at: a folder of an archive may have a million
+  std::error_code code;
+  int names = 0;
+  for (fs::directory_iterator one(folder, code), end; !code && one != end && names < kMostNames; one.increment(code)) {
+    ++names;
+    const std::string name = one->path().filename().string();
+    if (name.size() == kPrefix.size() + kDigits + kSuffix.size() && name.starts_with(kPrefix) &&
+        name.ends_with(kSuffix))
+      removeLeftover(one->path());
+  }
+}
+
 /// An empty file beside the target, under a name that nothing has.
 tl::expected<ReplacingFile, std::error_code> fileBeside(const fs::path& target) {
   constexpr int kAttempts = 100;  // at a name that is free
@@ -88,6 +81,26 @@ tl::expected<ReplacingFile, std::error_code> fileBeside(const fs::path& target) 
 }
 
 }  // namespace
+
+std::string whyNotWritten(std::error_code error) {
+  static constexpr struct {
+    std::errc cause;
+    const char* words;
+  } kReasons[] = {
+      {std::errc::no_space_on_device, "the disk is full. Free some space or choose another place."},
+      {std::errc::file_too_large, "the file would exceed the file size limit. Choose another place."},
+      {std::errc::permission_denied, "there is no permission to write there. Choose another place."},
+      {std::errc::operation_not_permitted, "there is no permission to write there. Choose another place."},
+      {std::errc::read_only_file_system, "the disk is write-protected. Choose another place."},
+      {std::errc::filename_too_long, "the name is too long. Choose a shorter one."},
+      {std::errc::too_many_files_open, "too many files are open. Close other programs and try again."},
+      {std::errc::too_many_files_open_in_system, "too many files are open. Close other programs and try again."},
+  };
+  for (const auto& one : kReasons) {
+    if (error == one.cause) return one.words;
+  }
+  return "the disk or its connection failed. Choose another place.";
+}
 
 std::optional<fs::path> saveTarget(const fs::path& path) {
   fs::path target = path;
@@ -107,16 +120,31 @@ void removeLeftoversOf(const fs::path& path) {
     removeLeftover(folderOf(target) / savingName(target, attempt));
 }
 
-Result<void> saveAtomically(const fs::path& path, std::string_view bytes) {
+Result<void> checkSaving(const fs::path& path) {
   const auto target = saveTarget(path);
   if (!target) return cannotWrite(path, "its symbolic links form a loop. Choose another name.");
   if (const auto why = obstacle(*target)) return cannotWrite(path, *why);
+  return {};
+}
+
+Result<void> saveAtomically(const fs::path& path, std::string_view bytes) {
+  const auto saved = saveAndHold(path, bytes);
+  if (!saved) return fail(saved.error());
+  return {};
+}
+
+Result<OpenFile> saveAndHold(const fs::path& path, std::string_view bytes) {
+  if (auto checked = checkSaving(path); !checked) return fail(checked.error());
+  const auto target = saveTarget(path);
+  if (!target) return failedCall(path, std::make_error_code(std::errc::too_many_symbolic_link_levels));
+  removeLeftoversIn(folderOf(*target));
   removeLeftoversOf(*target);
   auto file = fileBeside(*target);
   if (!file) return failedCall(path, file.error());
   if (const auto error = file->write(bytes)) return failedCall(path, error);
-  if (const auto error = file->takePlace()) return failedCall(path, error);
-  return {};
+  auto held = file->takePlace();
+  if (!held) return failedCall(path, held.error());
+  return std::move(*held);
 }
 
 }  // namespace batten

@@ -3,17 +3,30 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <system_error>
 
+#include "core/base/platform.h"
 #include "core/base/result.h"
 
 namespace batten {
 
 /// Writes all bytes or nothing: to a file beside the target, which takes its name once the disk has it. The name is the
 /// path's bytes, whatever they spell. A link is followed, the file that it leads to is replaced and keeps its
-/// permissions. What a program left that was ended while it saved this file is removed.
+/// permissions. What programs left in the folder that were ended while they saved is removed, of this file in any case,
+/// of others as far as a short look finds it.
 /// @return CannotWrite says why and what to do.
 Result<void> saveAtomically(const std::filesystem::path& path, std::string_view bytes);
+/// The same; takeAlone finds the file taken, from the moment that it has its name on and while the result lives.
+Result<OpenFile> saveAndHold(const std::filesystem::path& path, std::string_view bytes);
+
+/// Whether anything is known beforehand to stand in the way of saving: for work that takes long before it saves.
+/// @return the error that saveAtomically would give.
+Result<void> checkSaving(const std::filesystem::path& path);
+
+/// The end of the message "Cannot write NAME: …": why, and what to do.
+std::string whyNotWritten(std::error_code);
 
 /// Removes what programs left that were ended while they saved this file; the file itself stays.
 void removeLeftoversOf(const std::filesystem::path& path);

@@ -24,6 +24,8 @@ constexpr double kSpacingError = 0.15;                          // of the spacin
 constexpr double kCellError = 1.0;                              // [cells]
 constexpr double kLeastEven = 0.8;                              // of the distances are one spacing, or two or three
 constexpr int kMostMissing = 2;                                 // holes between two that were found
+constexpr double kMarginDepths = 2.0;                           // of a hole: the margin is no narrower
+constexpr double kMostBeside = 0.5;                             // of the dark of the holes: what a drawing leaves there
 constexpr int kRimCells = 1;                                    // of a hole: its blurred edge
 
 struct Hole {
@@ -102,6 +104,29 @@ bool isEvenRow(const std::vector<Hole>& holes, int side) {
   return static_cast<double>(even) >= kLeastEven * static_cast<double>(distances.size());
 }
 
+/// Whether hardly anything but the holes is dark between them and in the margin behind, which is as wide as from one to
+/// the next. A row or column of letters or words has others there.
+bool isMarginEmpty(const cv::Mat1b& dark, const std::vector<Hole>& holes, bool acrossPage, bool isFar) {
+  cv::Mat1b others = dark.clone();
+  for (const Hole& hole : holes) {
+    const cv::Size rim(2 * kRimCells, 2 * kRimCells);
+    const cv::Rect inside(0, 0, dark.cols, dark.rows);
+    others(cv::Rect(hole.box.tl() - cv::Point(kRimCells, kRimCells), hole.box.size() + rim) & inside).setTo(0);
+  }
+  int own = 0, beside = 0;
+  for (std::size_t i = 0; i + 1 < holes.size(); ++i) {
+    const Hole &a = holes[i], &b = holes[i + 1];
+    const double into = std::max(b.along - a.along, kMarginDepths * std::max(a.depth, b.depth));
+    const double outer = std::min(a.deep - 0.5 * a.depth, b.deep - 0.5 * b.depth) - (isFar ? into : 0.0);
+    const double inner = std::max(a.deep + 0.5 * a.depth, b.deep + 0.5 * b.depth) + (isFar ? 0.0 : into);
+    const cv::Point2d from = acrossPage ? cv::Point2d(a.along, outer) : cv::Point2d(outer, a.along);
+    const cv::Point2d to = acrossPage ? cv::Point2d(b.along, inner) : cv::Point2d(inner, b.along);
+    beside += cv::countNonZero(others(cv::Rect(cv::Point(from), cv::Point(to)) & cv::Rect({}, dark.size())));
+    own += cv::countNonZero(dark(a.box));
+  }
+  return beside <= kMostBeside * own;
+}
+
 }  // namespace
 
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
@@ -123,6 +148,7 @@ std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
     keepEqual(holes);
     keepStraight(holes);
     if (!isEvenRow(holes, acrossPage ? cells.columns : cells.rows)) continue;
+    if (!isMarginEmpty(dark, holes, acrossPage, side >= 2)) continue;
     if (!found.empty()) return std::nullopt;
     found = std::move(holes);
   }

@@ -15,7 +15,8 @@ struct BindingHoles {
 };
 
 /// Finds a row of at least eight dark holes of one size at one distance, straight along one side of the page and near
-/// it. Absent where two sides have such a row: that is a frame that was drawn or printed.
+/// it, in a margin that is empty otherwise: letters have others beside them. Absent where two sides have such a row:
+/// that is a frame that was drawn or printed.
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells);
 
 }  // namespace batten

@@ -338,9 +338,35 @@ TEST_F(Batch, AStdoutThatTakesNothingEndsIt) {
   for (const char* name : {"a", "b", "c", "d"}) drawPage(name);
   write("pages.jsonl", line("a") + line("b") + line("c") + line("d"));
   const auto done = runInto(">/dev/full", "batch " + file("pages.jsonl") + " --jobs 1");
-  EXPECT_EQ(done.code, 7);
+  EXPECT_EQ(done.code, 5) << "an output is lost, as elsewhere";
   EXPECT_NE(done.err.find("stdout"), std::string::npos) << done.err;
   EXPECT_FALSE(fs::exists(file("d.svg")));
+  const auto results = run("batch " + file("pages.jsonl") + " --jobs 1 --results /dev/full");
+  EXPECT_EQ(results.code, 5);
+  EXPECT_NE(results.err.find("disk is full"), std::string::npos) << results.err;
+  // Through a pipe: a file for what it says would have the same limit.
+  const std::string limited = "(ulimit -f 0; '" BATTEN_CLI "' batch " + file("pages.jsonl") + " --jobs 1 --results " +
+                              file("r.jsonl") + " 2>&1; echo code $?) | cat >'" + file("limit.txt") + "'";
+  ASSERT_EQ(std::system(limited.c_str()), 0);
+  const std::string says = test::readFile(file("limit.txt"));
+  EXPECT_NE(says.find("file size limit"), std::string::npos) << says;
+  EXPECT_NE(says.find("code 5"), std::string::npos) << says;
+}
+
+TEST_F(Batch, RunsAsManyPagesAsTheSystemStarts) {
+  for (const char* name : {"a", "b", "c"}) drawPage(name);
+  write("pages.jsonl", line("a") + line("b") + line("c"));
+  // A system that starts no second process while a first one runs.
+  const std::string words = "LD_PRELOAD='" BATTEN_FEW_PROCESSES "' '" BATTEN_CLI "' batch " + file("pages.jsonl") +
+                            " --existing overwrite --jobs 8 >'" + file("out.txt") + "' 2>'" + file("err.txt") + "'";
+  const int status = std::system(words.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0) << test::readFile(file("err.txt"));
+  EXPECT_EQ(statusesOf(test::readFile(file("out.txt"))), (Statuses{"a done", "b done", "c done"}));
+  const int none = std::system(("BATTEN_NO_PROCESSES=1 " + words).c_str());
+  ASSERT_TRUE(WIFEXITED(none));
+  EXPECT_EQ(WEXITSTATUS(none), 6);
+  EXPECT_NE(test::readFile(file("out.txt")).find("Allow more processes"), std::string::npos);
 }
 
 }  // namespace

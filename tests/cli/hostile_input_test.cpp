@@ -211,11 +211,11 @@ TEST_F(HostileInput, TinyFilesTakeLittleMemory) {
 }
 
 TEST_F(HostileInput, ControlCharactersOfANameStayInTheName) {
-  const std::string name = file("a\x1b[31m\xc2\x9b\x7f\n.png");
+  const std::string name = file("a\x1b[31m\xc2\x9b\x7f\n\xe2\x80\xae.png");
   write(std::filesystem::path(name).filename().string(), test::readFile(scene()));
   const auto isClean = [](const std::string& text) {
     return text.find('\x1b') == std::string::npos && text.find("\xc2\x9b") == std::string::npos &&
-           text.find('\x7f') == std::string::npos;
+           text.find('\x7f') == std::string::npos && text.find("\xe2\x80\xae") == std::string::npos;
   };
   const Outcome done = run("trace '" + name + "' -o " + file("o.svg"));
   ASSERT_EQ(done.code, 0) << done.err;
@@ -223,10 +223,22 @@ TEST_F(HostileInput, ControlCharactersOfANameStayInTheName) {
   EXPECT_EQ(json::parse(done.out)["scan"], name) << "escaped, not lost";
   const std::string svg = test::readFile(file("o.svg"));
   EXPECT_TRUE(isClean(svg));
-  EXPECT_NE(svg.find("<title>a?[31m???.png</title>"), std::string::npos) << svg.substr(0, 600);
+  EXPECT_NE(svg.find("<title>a?[31m????.png</title>"), std::string::npos) << svg.substr(0, 600);
   const Outcome missing = run("trace '" + name + "x' -o " + file("o.svg"));
   EXPECT_EQ(missing.code, 3);
   EXPECT_TRUE(isClean(missing.err)) << missing.err;
+  // A batch says the same of its pages, wherever its lines go.
+  const std::string batch = "batch '" + name + "' --formats svg --to " + file("out");
+  const Outcome told = run(batch);
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_TRUE(isClean(told.out)) << told.out;
+  EXPECT_EQ(json::parse(told.out)["scan"], name);
+  const Outcome manifest = run(batch + " --write-manifest -");
+  EXPECT_TRUE(isClean(manifest.out)) << manifest.out;
+  write("m.jsonl", manifest.out);
+  ASSERT_EQ(run("batch " + file("m.jsonl") + " --results " + file("r.jsonl") + " --existing overwrite").code, 0);
+  EXPECT_TRUE(isClean(test::readFile(file("r.jsonl"))));
+  EXPECT_EQ(json::parse(test::readFile(file("r.jsonl")))["scan"], name);
 }
 
 TEST_F(HostileInput, OutputsThatAreOneFileByLinksAreRefused) {
@@ -239,6 +251,14 @@ TEST_F(HostileInput, OutputsThatAreOneFileByLinksAreRefused) {
   fs::create_symlink("a.svg", file("b.svg"));
   expectRefused("trace " + scan + " -o " + file("a.svg"), 5, "form a loop");
   EXPECT_TRUE(fs::is_symlink(file("a.svg")));
+  expectRefused("batch " + scan + " --to " + file("out") + " --formats svg --sheet " + file("a.svg"), 5, "form a loop");
+  EXPECT_TRUE(fs::is_empty(file("out"))) << "it is known before the work";
+  expectRefused("trace " + file("a.svg") + " -o " + file("o.svg"), 3, "form a loop");
+  fs::create_symlink("turn", file("turn"));
+  expectRefused("trace " + scan + " -o " + file("turn/o.svg"), 5, "folder form a loop");
+  fs::create_symlink("b.png", file("a.png"));
+  fs::create_symlink("a.png", file("b.png"));
+  expectRefused("trace " + file("a.png") + " -o " + file("o.svg"), 3, "form a loop");
 }
 
 TEST_F(HostileInput, AFileThatGrowsTooLargeGivesFiveAndKeepsTheOldOne) {
@@ -289,7 +309,7 @@ TEST_F(HostileInput, EveryNumberIsReadInOneWay) {
       {start + "--dpi ", "--dpi takes a number from 1 to 100000"},
       {start + "--threads ", "--threads takes a whole number from 0 to 1024"},
       {"suggest " + scan + " --threads ", "--threads takes a whole number from 0 to 1024"},
-      {start + "--scale ", "--scale takes a number above 0"},
+      {start + "--scale ", "--scale takes a number from 0.000001 to 1000000"},
       {start + "--tolerance ", "--tolerance takes a length in mm"},
       {start + "--curves ", "umbers such as 1,3-5"},
       {start + "--corner ", "--corner takes X,Y"},

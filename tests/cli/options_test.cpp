@@ -95,7 +95,8 @@ TEST_F(Options, APresetTakesEveryFormatOfItsReceiver) {
 
 TEST_F(Options, NumbersThatAreNoneAreSaidToBe) {
   const std::string start = "trace " + scene() + " --dpi 254 -o " + file("a.svg");
-  expectError(start + " --scale abc", 2, "--scale takes a number above 0, such as 0.5 or 2, not \"abc\"");
+  expectError(start + " --scale abc", 2,
+              "--scale takes a number from 0.000001 to 1000000, such as 0.5 or 2, not \"abc\"");
   expectError(start + " --scale nan", 2, "--scale takes");
   expectError(start + " --tolerance x", 2, "--tolerance takes a length in mm, such as 0.005, not \"x\"");
 }

@@ -92,6 +92,35 @@ TEST_F(Journal, LiveWorkIsNeitherOfferedNorDiscardedWhenTheLockFileGoes) {
   EXPECT_EQ(strokesIn(journal.file()), 1u);
 }
 
+TEST_F(Journal, LiveWorkIsNotOfferedBeforeTheLockIsRenewed) {
+  RecipeJournal journal(session_, folder());  // no tick comes while this test runs
+  ASSERT_NO_FATAL_FAILURE(draw(20));
+  ASSERT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+  ASSERT_TRUE(waitUntil([&] { return !takeAlone(journal.file().toStdString()); }, 5000));
+  ASSERT_TRUE(QFile::remove(journal.file() + QStringLiteral(".lock")));
+  EXPECT_FALSE(leftToAnother());
+  EXPECT_EQ(strokesIn(journal.file()), 1u);
+}
+
+TEST_F(Journal, WorkThatWasTakenOverIsHeldFromThenOn) {
+  const QString file = folder() + QStringLiteral("/left.journal");
+  ASSERT_TRUE(QDir().mkpath(folder()));
+  Recipe recipe = session_.recipe();
+  recipe.penStrokes.push_back({{Vec2(10, 20), Vec2(60, 25)}, false});
+  const std::string bytes = unsavedWorkToJson({"", recipe});
+  QFile out(file);
+  ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+  out.write(bytes.data(), static_cast<qint64>(bytes.size()));
+  out.close();
+  EditorSession another;
+  RecipeJournal journal(another, folder());
+  const auto left = journal.left();
+  ASSERT_TRUE(left);
+  journal.takeOver(*left);
+  ASSERT_TRUE(QFile::remove(file + QStringLiteral(".lock")));
+  EXPECT_FALSE(leftToAnother());
+}
+
 TEST_F(Journal, ASessionWhoseFileAnotherHoldsGoesOnInAFileOfItsOwn) {
   RecipeJournal journal(session_, folder());
   journal.setIntervalMs(20);

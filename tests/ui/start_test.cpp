@@ -7,6 +7,7 @@
 #include <QDir>
 #include <QSettings>
 
+#include "core/base/platform.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/error_strip.h"
 #include "ui/opening_guard.h"
@@ -62,11 +63,21 @@ TEST_F(Start, AFileOnWhichTheLastStartEndedIsNotOpenedByItself) {
 
 TEST_F(Start, AFileThatAnotherWindowIsOpeningHasNotFailed) {
   const QString path = folder_.filePath(QStringLiteral("a.png"));
-  QSettings settings;
-  settings.setValue(QStringLiteral("opening/path"), path);
-  settings.setValue(QStringLiteral("opening/program"), static_cast<qint64>(getppid()));
-  settings.sync();
-  EXPECT_FALSE(OpeningGuard::hasFailed(path));
+  const QString parent = QString::fromStdString(processMark(getppid()));
+  const auto hasFailed = [&](const QString& program) {
+    QSettings settings;
+    settings.setValue(QStringLiteral("opening/path"), path);
+    settings.setValue(QStringLiteral("opening/program"), program);
+    settings.sync();
+    return OpeningGuard::hasFailed(path);
+  };
+  EXPECT_FALSE(hasFailed(parent));
+  // Numbers are given again: the same one of another time or another start of the system is another program.
+  QStringList words = parent.split(QLatin1Char(' '));
+  ASSERT_EQ(words.size(), 3);
+  EXPECT_TRUE(hasFailed(words[0]));
+  EXPECT_TRUE(hasFailed(words[0] + QStringLiteral(" 1 ") + words[2]));
+  EXPECT_TRUE(hasFailed(words[0] + QLatin1Char(' ') + words[1] + QStringLiteral(" other-start")));
 }
 
 }  // namespace

@@ -70,14 +70,19 @@ void RecipeJournal::write() {
        file = file_](const CancelToken&) {
         const std::string bytes = unsavedWorkToJson({scan.toStdString(), recipe});
         // Should it fail there is nothing to tell: the drawing is where it was, and the next tick tries again.
-        if (!saveAtomically(nativePath(file), bytes)) return;
-        inbox_.post([this, generation, recipe] { written(generation, recipe); });
+        auto saved = saveAndHold(nativePath(file), bytes);
+        if (!saved) return;
+        inbox_.post([this, generation, recipe, held = std::shared_ptr<SystemFile>(std::move(*saved))] {
+          written(generation, recipe, held);
+        });
       },
       BackgroundWorker::Running::Finish);
 }
 
-void RecipeJournal::written(int generation, const Recipe& recipe) {
-  if (generation == generation_) written_ = recipe;
+void RecipeJournal::written(int generation, const Recipe& recipe, std::shared_ptr<SystemFile> held) {
+  if (generation != generation_) return;
+  written_ = recipe;
+  held_ = std::move(held);  // now only the one before may go: there is always one that is held
 }
 
 void RecipeJournal::forget() {
@@ -93,10 +98,14 @@ std::optional<RecipeJournal::Left> RecipeJournal::left() {
   for (const QFileInfo& info : files) {
     const QString path = info.absoluteFilePath();
     if (path == QFileInfo(file_).absoluteFilePath()) continue;
+    // The work of a window that runs is not even asked for its lock, which the window may be about to renew.
+    std::shared_ptr<SystemFile> held = takeAlone(nativePath(path));
+    if (!held) continue;
     auto lock = lockOf(path);
     if (!lock->hold()) continue;
     if (auto left = readJournal(path)) {
       leftLock_ = std::move(lock);
+      leftHeld_ = std::move(held);
       return left;
     }
   }
@@ -108,6 +117,7 @@ void RecipeJournal::takeOver(const Left& left) {
   if (file_ != left.file) forget();
   file_ = left.file;
   lock_ = std::move(leftLock_);
+  held_ = std::move(leftHeld_);
   written_.reset();
   ++generation_;
 }
@@ -115,6 +125,7 @@ void RecipeJournal::takeOver(const Left& left) {
 void RecipeJournal::discard(const Left& left) {
   if (leftLock_ && leftLock_->hold()) QFile::remove(left.file);
   leftLock_.reset();
+  leftHeld_.reset();
 }
 
 }  // namespace batten

@@ -15,11 +15,13 @@
 namespace batten {
 
 class LockFile;
+struct SystemFile;
 
 /// Keeps unsaved work on disk, so that a crash loses at most half a minute of it. A file of its own while the session
 /// has unsaved changes, written in the background, gone once they are saved, discarded or the program ends as it
 /// should. A write that fails is tried again at the next tick. What a program left that did not end so is offered by
-/// left(); a lock, renewed at every tick, keeps live work from being taken for that. Belongs to the GUI thread.
+/// left(); two locks keep live work from being taken for that: the open file itself, and before it is there one beside
+/// it, renewed at every tick. Belongs to the GUI thread.
 class RecipeJournal : public QObject {
   Q_OBJECT
  public:
@@ -46,13 +48,14 @@ class RecipeJournal : public QObject {
 
  private:
   void write();
-  void written(int generation, const Recipe& recipe);
+  void written(int generation, const Recipe& recipe, std::shared_ptr<SystemFile> held);
   void forget();
   QString newFile() const;
 
   EditorSession& session_;
   QString folder_, file_;
-  std::unique_ptr<LockFile> lock_, leftLock_;  ///< Of the journal at X: "X.lock".
+  std::unique_ptr<LockFile> lock_, leftLock_;    ///< Of the journal at X: "X.lock".
+  std::shared_ptr<SystemFile> held_, leftHeld_;  ///< The journal, taken alone.
   QTimer timer_{this};
   std::optional<Recipe> written_;  ///< What is on disk, as far as known.
   int generation_ = 0;             ///< Of the file: what an older write reports is of no use any more.

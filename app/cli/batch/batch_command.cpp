@@ -139,6 +139,15 @@ Result<void> checkSideFiles(const BatchArguments& arguments, const std::vector<B
   return {};
 }
 
+/// What is written last is known to be writable before all the work, once the folders are there.
+Result<void> checkLastFiles(const BatchArguments& arguments) {
+  for (const std::string& file : {arguments.failures, arguments.sheet}) {
+    if (file.empty()) continue;
+    if (auto checked = checkSaving(file); !checked) return checked;
+  }
+  return {};
+}
+
 BatchSettings settingsOf(const BatchArguments& arguments) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   BatchSettings settings;
@@ -192,7 +201,7 @@ int finish(const BatchArguments& arguments, const std::vector<BatchPage>& pages,
   }
   if (!run.whyStopped().empty()) {
     std::cerr << "batten-cli: " << run.whyStopped() << std::endl;
-    return kStopped;
+    return run.isResultLost() ? kCannotWrite : kStopped;
   }
   if (run.counts().failed == 0) return kDone;
   std::cerr << "batten-cli: " << failedPages(run.counts().failed, pages.size())
@@ -218,6 +227,7 @@ int runBatch(const BatchArguments& arguments, char* program) {
   const auto settings = settingsOf(arguments);
   if (auto checked = checkExisting(settings, *pages); !checked) return reportError(checked.error());
   if (auto made = makeFolders(arguments, *pages); !made) return reportError(made.error());
+  if (auto checked = checkLastFiles(arguments); !checked) return reportError(checked.error());
   if (!arguments.writeManifest.empty()) return writeManifest(arguments.writeManifest, *pages);
   auto lines = ResultLines::open(arguments.results);
   if (!lines) return reportError(lines.error());

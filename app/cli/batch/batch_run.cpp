@@ -70,11 +70,12 @@ struct BatchRun::Running {
   std::vector<std::optional<FileId>> outputs;  ///< What was there before.
   bool wasBegun = false;                       ///< By an earlier run, which may have reported the page.
   std::uint64_t resultsFrom = 0;               ///< As in its record.
+  bool isAlone = false;                        ///< No other ran when it was started.
   std::unique_ptr<PageCall> call;
 };
 
 BatchRun::BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines)
-    : settings_(settings), pages_(pages), lines_(lines), showsProgress_(stderrIsTerminal()) {
+    : settings_(settings), pages_(pages), lines_(lines), most_(settings.jobs), showsProgress_(stderrIsTerminal()) {
   QObject::connect(&tick_, &QTimer::timeout, &tick_, [this] {
     again_.insert(again_.end(), busy_.begin(), busy_.end());
     busy_.clear();
@@ -105,14 +106,16 @@ void BatchRun::run() {
   std::signal(SIGTERM, beforeTerm);
 }
 
-bool BatchRun::isLeft() const { return next_ < pages_.size() || candidate_ || !busy_.empty() || !again_.empty(); }
+bool BatchRun::isLeft() const {
+  return next_ < pages_.size() || candidate_ || !unstarted_.empty() || !busy_.empty() || !again_.empty();
+}
 
 void BatchRun::startMore() {
   QElapsedTimer clock;
   clock.start();
   while (clock.elapsed() < kLongestStartsMs) {
     hearSignals();
-    if (!whyStopped_.empty() || std::ssize(running_) >= settings_.jobs) return;
+    if (!whyStopped_.empty() || std::ssize(running_) >= most_) return;
     if (!takeNext()) return;
   }
   QTimer::singleShot(0, &tick_, [this] { startMore(); });
@@ -129,6 +132,10 @@ std::optional<std::size_t> BatchRun::nextIndex() {
 
 /// Settles the next page without a call, or starts its call; false if it has to wait for memory or none is left.
 bool BatchRun::takeNext() {
+  if (!candidate_ && !unstarted_.empty()) {
+    candidate_ = std::move(unstarted_.front());
+    unstarted_.pop_front();
+  }
   if (!candidate_) {
     const auto index = nextIndex();
     if (!index) return false;
@@ -211,6 +218,7 @@ void BatchRun::start(std::unique_ptr<Candidate> candidate) {
   const BatchPage& page = pages_[index];
   auto running = std::make_unique<Running>();
   running->needs = memoryNeeded(page);
+  running->isAlone = running_.empty();
   for (const std::string& output : page.outputs) running->outputs.push_back(fileId(output));
   // So that a later call knows the outputs for its own even if this one is killed between them. A folder that takes no
   // record takes no output either, and the call says so in its own words.
@@ -233,18 +241,31 @@ void BatchRun::start(std::unique_ptr<Candidate> candidate) {
 void BatchRun::settle(std::size_t index, PageResult result) {
   const auto place =
       std::find_if(running_.begin(), running_.end(), [&](const auto& one) { return one->page->index == index; });
-  if (place == running_.end()) return;  // ended by a second signal
-  const BatchPage& page = pages_[index];
-  const std::unique_ptr<Running> ended = std::move(*place);  // with the page's lock, until all is written
+  if (place == running_.end()) return;                       // ended by a second signal
+  const std::unique_ptr<Running> ended = std::move(*place);  // with the page's lock until all is written
   running_.erase(place);
-  result.key = ended->page->key;
+  if (result.isUnstarted && !ended->isAlone) {
+    most_ = std::max(1, static_cast<int>(running_.size()));
+    unstarted_.push_back(std::move(ended->page));
+    return startMore();
+  }
+  if (!result.isUnstarted) most_ = std::min(most_ + 1, settings_.jobs);  // what stood in the way may be gone
+  conclude(*ended, std::move(result));
+  startMore();
+}
+
+/// Records and reports a page whose call has ended.
+void BatchRun::conclude(const Running& ended, PageResult result) {
+  const std::size_t index = ended.page->index;
+  const BatchPage& page = pages_[index];
+  result.key = ended.page->key;
   PageRecord record;
   record.key = result.key;
   record.isEnded = true;
   record.isEmpty = result.status == PageStatus::Empty;
   record.seconds = result.seconds;
   record.figures = result.figures;
-  record.resultsFrom = ended->resultsFrom;
+  record.resultsFrom = ended.resultsFrom;
   if (record.isEmpty) record.note = result.error;
   if (result.status == PageStatus::Done) {
     for (const std::string& output : page.outputs) record.outputHashes.push_back(fileHash(output).value_or(""));
@@ -257,14 +278,13 @@ void BatchRun::settle(std::size_t index, PageResult result) {
     }
   }
   if (result.status == PageStatus::Failed) {
-    for (std::size_t i = 0; i < page.outputs.size(); ++i) removeOutput(page.outputs[i], ended->outputs[i]);
+    for (std::size_t i = 0; i < page.outputs.size(); ++i) removeOutput(page.outputs[i], ended.outputs[i]);
     std::error_code code;
     if (!anyOutputExists(page)) fs::remove(recordName(page), code);  // nothing was made, so nothing is left
-  } else if (ended->wasBegun) {
-    result.isTold = lines_.isTold(result.key, ended->resultsFrom);
+  } else if (ended.wasBegun) {
+    result.isTold = lines_.isTold(result.key, ended.resultsFrom);
   }
   report(index, result);
-  startMore();
 }
 
 void BatchRun::report(std::size_t index, const PageResult& result) {
@@ -285,7 +305,10 @@ void BatchRun::report(std::size_t index, const PageResult& result) {
   }
   if (!result.isTold) {
     if (!lines_.isFile()) hideProgress();  // a terminal would show both in one line
-    if (const auto written = lines_.write(pages_[index], result); !written) stop(written.error().message);
+    if (const auto written = lines_.write(pages_[index], result); !written) {
+      isResultLost_ = true;
+      stop(written.error().message);
+    }
   }
   const double share = static_cast<double>(counts_.failed) / static_cast<double>(pages_.size());
   if (share > settings_.maxFailures) {

@@ -40,7 +40,8 @@ struct BatchCounts {
 
 /// Runs over the pages in their order, several at once, each in a process of its own. SIGINT or SIGTERM: no page is
 /// started any more and the running ones end; a second time ends them as well. A page is started beside others only
-/// while free memory holds it, and never while another call works on it: then it waits, and finds the page done.
+/// while free memory holds it and the system starts a process for it, else once another has ended; and never while
+/// another call works on it: then it waits, and finds the page done.
 class BatchRun {
  public:
   BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines);
@@ -52,6 +53,8 @@ class BatchRun {
   const BatchCounts& counts() const { return counts_; }
   /// Why it ended before the last page; empty if it did not.
   const std::string& whyStopped() const { return whyStopped_; }
+  /// It ended because a result could not be written.
+  bool isResultLost() const { return isResultLost_; }
   /// What went wrong with the pages that failed, by their index.
   const std::map<std::size_t, std::string>& failed() const { return failed_; }
 
@@ -66,6 +69,7 @@ class BatchRun {
   std::optional<PageResult> resultWithoutCall(const BatchPage& page, const std::optional<std::string>& key);
   void start(std::unique_ptr<Candidate> candidate);
   void settle(std::size_t index, PageResult result);
+  void conclude(const Running& ended, PageResult result);
   void report(std::size_t index, const PageResult& result);
   bool isRoomFor(const BatchPage& page) const;
   void hearSignals();
@@ -77,15 +81,17 @@ class BatchRun {
   const std::vector<BatchPage>& pages_;
   ResultLines& lines_;
   std::size_t next_ = 0;
-  std::unique_ptr<Candidate> candidate_;  ///< The page that waits for memory.
-  std::deque<std::size_t> busy_,
-      again_;  ///< Pages that another call works on: heard of this turn, or to be asked again.
+  int most_;                                          ///< Pages at once that the system lets run; at most the jobs.
+  std::unique_ptr<Candidate> candidate_;              ///< The page that waits for memory.
+  std::deque<std::unique_ptr<Candidate>> unstarted_;  ///< They wait for another page to end.
+  /// Pages that another call works on: heard of this turn, or to be asked again.
+  std::deque<std::size_t> busy_, again_;
   std::list<std::unique_ptr<Running>> running_;
   BatchCounts counts_;
   std::map<std::size_t, std::string> failed_;
   std::string whyStopped_;
   int signalsHeard_ = 0;
-  bool showsProgress_ = false;
+  bool isResultLost_ = false, showsProgress_ = false;
   double shownAtSeconds_ = 0.0;  ///< [s] When progress was shown last.
   QElapsedTimer clock_;
   QTimer tick_;

@@ -316,7 +316,7 @@ std::string manifestLine(const BatchPage& page) {
   if (!page.settings.empty()) json["set"] = settings;
   if (page.dpi) json["dpi"] = *page.dpi;
   if (page.page != 1) json["page"] = page.page;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return jsonLine(json);
 }
 
 std::string recordName(const BatchPage& page) { return page.outputs.front() + ".batch.json"; }

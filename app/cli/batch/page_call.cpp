@@ -79,7 +79,9 @@ PageResult PageCall::result() {
   constexpr double kMsInASecond = 1000.0;  // divided, so that the quotient prints with three digits
   result.seconds = static_cast<double>(clock_.elapsed()) / kMsInASecond;
   if (process_.error() == QProcess::FailedToStart) {
-    result.error = "Cannot start a subprocess: " + process_.errorString().toStdString();
+    result.isUnstarted = true;
+    result.error = "Cannot start a subprocess (" + process_.errorString().toStdString() +
+                   "). Allow more processes, or free some memory.";
     return result;
   }
   if (isTooSlow_) {

@@ -34,8 +34,6 @@ const char* wordOf(PageStatus status) {
   return "failed";
 }
 
-std::string lineOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 }  // namespace
 
 std::string resultLine(const BatchPage& page, const PageResult& result) {
@@ -48,7 +46,7 @@ std::string resultLine(const BatchPage& page, const PageResult& result) {
   if (!result.error.empty()) json["error"] = result.error;
   for (const auto& [key, value] : result.figures.items()) json[key] = value;
   if (!result.key.empty()) json["key"] = result.key;
-  return lineOf(json);
+  return jsonLine(json);
 }
 
 std::optional<std::string> fileHash(const std::string& name) {
@@ -109,7 +107,7 @@ Result<void> writeRecord(const BatchPage& page, const PageRecord& record) {
                   {"seconds", record.seconds},     {"results_from", record.resultsFrom},
                   {"note", record.note},           {"outputs_sha256", record.outputHashes},
                   {"figures", record.figures}};
-  return saveAtomically(recordName(page), lineOf(json) + "\n");
+  return saveAtomically(recordName(page), jsonLine(json) + "\n");
 }
 
 bool hasForeignOutput(const BatchPage& page, const PageRecord& record) {

@@ -28,6 +28,7 @@ struct PageResult {
   std::string key;                 ///< See pageKey.
   double seconds = 0.0;            ///< [s] From the start of the call to its end.
   bool isTold = false;             ///< An earlier line of the results tells of it: none is to be written.
+  bool isUnstarted = false;        ///< The system started no process for it. Beside fewer others it might.
 };
 
 /// {"line", "scan", "outputs", "status", "exit", …}: one line of JSON without a line break.

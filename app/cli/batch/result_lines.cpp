@@ -6,6 +6,7 @@
 
 #include "core/base/json_text.h"
 #include "core/base/shown_text.h"
+#include "core/exchange/save_atomically.h"
 
 namespace batten::cli {
 namespace {
@@ -88,13 +89,14 @@ void ResultLines::readOn() {
 
 Result<void> ResultLines::write(const BatchPage& page, const PageResult& result) {
   const std::string line = resultLine(page, result) + "\n";
-  const bool isWritten =
-      file_ ? !file_->add(line)
-            : std::fwrite(line.data(), 1, line.size(), stdout) == line.size() && std::fflush(stdout) == 0;
-  if (isWritten) return {};
-  return fail(ErrorCode::CannotWrite,
-              name_.empty() ? "Cannot write the result to stdout. Redirect it to a disk with free space."
-                            : "Cannot write " + shownText(name_) + ": the disk may be full. Free some space.");
+  if (file_) {
+    const auto error = file_->add(line);
+    if (!error) return {};
+    return fail(ErrorCode::CannotWrite, "Cannot write " + shownText(name_) + ": " + whyNotWritten(error),
+                error.message());
+  }
+  if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size() && std::fflush(stdout) == 0) return {};
+  return fail(ErrorCode::CannotWrite, "Cannot write the result to stdout. Redirect it to a disk with free space.");
 }
 
 }  // namespace batten::cli

@@ -92,7 +92,10 @@ PieceSegments toSegments(const MeasuredPiece& piece, const std::vector<FittedSta
 
 int stationCount(const MeasuredPiece& piece, const SegmentParams& params) {
   const int fewest = piece.closed() ? kFewestClosed : kFewestOpen;
-  if (params.count > 0) return std::clamp(params.count, piece.closed() ? fewest : kFewestGiven, kMostStations);
+  // As groups need two points each: of stations between the points there is nothing to measure, and the curve over them
+  // only takes longer.
+  const int most = std::min(kMostStations, std::max(fewest, piece.count() / 2));
+  if (params.count > 0) return std::clamp(params.count, piece.closed() ? fewest : kFewestGiven, most);
   const double spacings = std::min(piece.length() / params.spacingPx, static_cast<double>(kMostStations));
   return std::clamp(static_cast<int>(std::lround(spacings)) + (piece.closed() ? 0 : 1), fewest, kMostStations);
 }

@@ -3,14 +3,15 @@
 
 #include <dxflib/dl_dxf.h>
 
-#include <QFile>
-#include <QTemporaryDir>
+#include <QString>
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 #include "core/base/angle.h"
 #include "core/base/conventions.h"
+#include "core/exchange/model/scratch_file.h"
 
 namespace batten {
 namespace {
@@ -184,19 +185,15 @@ class Writer {
 }  // namespace
 
 Result<std::string> writeDxf(const CadDrawing& drawing, DxfProfile profile) {
-  const auto failed = [] {
-    return fail(ErrorCode::CannotWrite, "The folder for temporary files cannot be written to. Free some space there.");
-  };
   // The library writes to files only.
-  const QTemporaryDir folder;
-  if (!folder.isValid()) return failed();
-  const QString path = folder.filePath(QStringLiteral("drawing.dxf"));
-  if (!Writer(drawing, profile).write(path.toStdString())) return failed();
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) return failed();
-  const QByteArray bytes = file.readAll();
-  if (!bytes.trimmed().endsWith("EOF")) return failed();
-  return bytes.toStdString();
+  const auto file = ScratchFile::create();
+  if (!file) return fail(file.error());
+  const bool isWritten = Writer(drawing, profile).write(file->path());
+  std::string bytes = file->read();
+  const auto last = bytes.find_last_not_of(" \r\n");
+  if (!isWritten || last == std::string::npos || !std::string_view(bytes).substr(0, last + 1).ends_with("EOF"))
+    return fail(ErrorCode::CannotWrite, "The folder for temporary files cannot be written to. Free some space there.");
+  return bytes;
 }
 
 }  // namespace batten

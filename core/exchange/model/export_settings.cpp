@@ -183,9 +183,10 @@ const ExportPreset* findPreset(std::string_view id) {
 std::optional<Error> validate(const ExportSettings& settings) {
   const auto wrong = [](std::string message) { return Error{ErrorCode::BadParameter, std::move(message), {}}; };
   const auto isAbove = [](double value, double least) { return std::isfinite(value) && value > least; };
-  constexpr double kLargestScale = 1e6;  // limit of input
-  if (!isAbove(settings.scale, 0.0) || settings.scale > kLargestScale)
-    return wrong("The scale of an export must be above 0 and at most 1000000.");
+  // At the least one a drawing of a metre is as small as the places that files hold apart.
+  constexpr double kLeastScale = 1e-6, kLargestScale = 1e6;
+  if (!(settings.scale >= kLeastScale && settings.scale <= kLargestScale))
+    return wrong("The scale of an export must be from 0.000001 to 1000000.");
   if (settings.toleranceMm && !(std::isfinite(*settings.toleranceMm) && *settings.toleranceMm >= kLeastTolerance))
     return wrong("The tolerance of an export must be at least 0.000001 mm.");
   if (!isAbove(settings.strokeWidthMm, 0.0)) return wrong("The stroke width of an export must be larger than 0 mm.");

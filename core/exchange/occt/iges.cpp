@@ -16,7 +16,6 @@
 #include <IGESSelect_WorkLibrary.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <Interface_FloatWriter.hxx>
-#include <QTemporaryFile>
 #include <Standard_Failure.hxx>
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColgp_HArray1OfXYZ.hxx>
@@ -28,6 +27,8 @@
 #include <sstream>
 
 #include "core/base/conventions.h"
+#include "core/base/shown_text.h"
+#include "core/exchange/model/scratch_file.h"
 #include "core/exchange/occt/open_cascade.h"
 
 namespace batten {
@@ -93,7 +94,8 @@ double largestCoordinate(const CadDrawing& drawing) {
   return std::ceil(most);
 }
 
-void describe(const Handle(IGESData_IGESModel) & model, const CadDrawing& drawing, const std::string& title) {
+void describe(const Handle(IGESData_IGESModel) & model, const CadDrawing& drawing, const std::string& scan) {
+  const std::string title = shownText(scan);  // a line break within a string would end the line of the file
   IGESData_GlobalSection global = model->GlobalSection();
   global.SetSendName(text(title));
   global.SetFileName(text(title + ".igs"));
@@ -224,14 +226,12 @@ Result<CadDrawing> readIges(std::string_view bytes) {
                 std::move(detail));
   };
   // The library reads files only.
-  QTemporaryFile file;
-  const auto size = static_cast<qint64>(bytes.size());
-  if (!file.open() || file.write(bytes.data(), size) != size || !file.flush())
-    return fail(ErrorCode::CannotWrite, "The folder for temporary files cannot be written to. Free some space there.");
+  const auto file = ScratchFile::create(bytes);
+  if (!file) return fail(file.error());
   const OcctSession session;
   try {
     IGESControl_Reader reader;
-    if (reader.ReadFile(file.fileName().toUtf8().constData()) != IFSelect_RetDone) return damaged("not read");
+    if (reader.ReadFile(file->path().c_str()) != IFSelect_RetDone) return damaged("not read");
     const Handle(IGESData_IGESModel) model = reader.IGESModel();
     if (model.IsNull() || model->NbEntities() == 0) return damaged("no entity");
     return drawingOf(model);

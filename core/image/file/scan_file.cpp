@@ -14,6 +14,8 @@ tl::unexpected<Error> problemOf(const std::filesystem::path& path, FileProblem p
   switch (problem) {
     case FileProblem::Missing:
       return unreadable(path, "does not exist; check the path.");
+    case FileProblem::LinksInCircle:
+      return unreadable(path, "is reached by symbolic links that form a loop; check the links.");
     case FileProblem::Folder:
       return unreadable(path, "is a directory; choose an image file in it.");
     case FileProblem::NotOrdinary:

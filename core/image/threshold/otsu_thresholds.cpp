@@ -2,6 +2,7 @@
 #include "core/image/threshold/otsu_thresholds.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/base/parallel.h"
 #include "core/image/push_pull.h"
@@ -19,6 +20,9 @@ constexpr double kMinFineSeparation = 0.73;
 /// Of the pixels of a region: lines that are brighter than their paper leave it more of them. Of hatching whose lines
 /// are as wide as their gaps, pixels that are part of both can make up to two thirds dark.
 constexpr float kMostlyDark = 0.7f;
+
+/// [px] So much leaves the gaps between hairlines that are 2 to 3 px from middle to middle.
+constexpr double kHairSmoothingPx = 0.5;
 
 using GreyCounts = std::array<int, 256>;
 
@@ -101,24 +105,92 @@ OtsuThresholds otsuThresholds(const Plane& smoothed, double smoothingPx, double 
   return found;
 }
 
-OtsuThresholds fineOtsuThresholds(const GreyImage& image, double strength, const RunContext& context) {
-  const std::vector<float> kernel = gaussianKernel(kFineSmoothingPx * kFineSmoothingPx);
+namespace {
+
+/// The grey of a region.
+Plane partOf(const GreyImage& image, const RegionBounds& b) {
+  Plane part(b.x1 - b.x0, b.y1 - b.y0);
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) part.row(y)[x] = static_cast<float>(image.level(b.x0 + x, b.y0 + y));
+  }
+  return part;
+}
+
+/// How much pixels differ that lie so far apart, of what two that know nothing of each other do: about 1 for these, 0
+/// along a line.
+double differenceOver(const Plane& part, int right, int down, double variance) {
+  constexpr int kStep = 2;  // of the rows that are looked at
+  const int first = std::max(0, -right), last = std::min(part.width, part.width - right);
+  double sum = 0.0;
+  int count = 0;
+  for (int y = 0; y + down < part.height; y += kStep) {
+    const float *row = part.row(y), *other = part.row(y + down);
+    for (int x = first; x < last; ++x, ++count) {
+      const auto difference = static_cast<double>(row[x] - other[x + right]);
+      sum += difference * difference;
+    }
+  }
+  return count > 0 ? sum / (2.0 * count * variance) : 1.0;
+}
+
+/// Whether the grey stays along one direction and changes across it within a few pixels.
+bool isHatching(const Plane& part) {
+  constexpr int kReach = 7, kNear = 4;  // [px] far enough to tell directions apart; less says nothing of lines
+  constexpr double kMostAlong = 0.3, kLeastAcross = 0.7;
+  double sum = 0.0, squares = 0.0;
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) {
+      const double grey = part.row(y)[x];
+      sum += grey;
+      squares += grey * grey;
+    }
+  }
+  const double count = static_cast<double>(part.width) * part.height;
+  if (std::min(part.width, part.height) <= 2 * kReach) return false;
+  const double variance = squares / count - (sum / count) * (sum / count);
+  if (!(variance > 0.0)) return false;
+  double least = 1.0, most = 0.0;
+  for (int down = 0; down <= kReach; ++down) {
+    for (int right = -kReach; right <= kReach; ++right) {
+      if (std::max(std::abs(right), down) < kNear || (down == 0 && right < 0)) continue;
+      const double difference = differenceOver(part, right, down, variance);
+      least = std::min(least, difference);
+      most = std::max(most, difference);
+    }
+  }
+  return least <= kMostAlong && most >= kLeastAcross;
+}
+
+/// @param mayCount whether the grey of a region counts.
+template <class MayCount>
+OtsuThresholds fineThresholds(const GreyImage& image, double smoothingPx, double strength, const MayCount& mayCount,
+                              const RunContext& context) {
+  const std::vector<float> kernel = gaussianKernel(smoothingPx * smoothingPx);
   const auto countsOf = [&](int region) {
     const RegionBounds b = regionBounds(image.width, image.height, region);
     GreyCounts counts{};
     if (b.x0 == b.x1 || b.y0 == b.y1) return counts;
-    Plane part(b.x1 - b.x0, b.y1 - b.y0);
-    for (int y = 0; y < part.height; ++y) {
-      for (int x = 0; x < part.width; ++x) part.row(y)[x] = static_cast<float>(image.level(b.x0 + x, b.y0 + y));
-    }
+    const Plane part = partOf(image, b);
+    if (!mayCount(part)) return counts;
     RunContext alone = context;  // regions run in parallel already
     alone.threads = 1;
     addCounts(smooth(part, kernel, alone), {0, 0, part.width, part.height}, counts);
     return counts;
   };
   OtsuThresholds found = splitRegions(countsOf, kMinFineSeparation, strength, context);
-  found.thresholds.smoothingPx = kFineSmoothingPx;
+  found.thresholds.smoothingPx = smoothingPx;
   return found;
+}
+
+}  // namespace
+
+OtsuThresholds fineOtsuThresholds(const GreyImage& image, double strength, const RunContext& context) {
+  return fineThresholds(
+      image, kFineSmoothingPx, strength, [](const Plane&) { return true; }, context);
+}
+
+OtsuThresholds hatchingThresholds(const GreyImage& image, double strength, const RunContext& context) {
+  return fineThresholds(image, kHairSmoothingPx, strength, isHatching, context);
 }
 
 }  // namespace batten

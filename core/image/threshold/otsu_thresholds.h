@@ -27,4 +27,8 @@ OtsuThresholds otsuThresholds(const Plane& smoothed, double smoothingPx, double 
 /// Asks for a clearer parting, since noise is smoothed less, too.
 OtsuThresholds fineOtsuThresholds(const GreyImage&, double strength, const RunContext& context);
 
+/// The same with hardly any smoothing, for hairlines closer than that: in regions whose grey runs along lines, as that
+/// of hatching does and noise does not.
+OtsuThresholds hatchingThresholds(const GreyImage&, double strength, const RunContext& context);
+
 }  // namespace batten

@@ -191,18 +191,32 @@ RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, 
   return out;
 }
 
+RegionThresholds ofCloseLines(RegionThresholds out) {
+  out.holesArePaper = true;
+  out.note =
+      "The lines are too close together to measure the paper between them; each region was "
+      "thresholded between its two grey levels.";
+  return out;
+}
+
 /// Where lines stand so close all over the page that hardly any paper shows between them, neither the paper nor its
 /// noise can be measured: then the two greys of every region tell ink from paper, as without flattening, if most
 /// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions. Bright lines on
 /// dark paper are told by the greys, too: most of such a page is dark, and the bright part is no net's meshes. Of two
 /// smoothings the lesser counts if it parts the greys more clearly, so that it is not noise, and shows more pieces.
+/// Where neither parts them, hatching may be finer still: it is known by its direction, which noise has not.
 /// @return absent: the page is none of these, or the run was cancelled.
 std::optional<RegionThresholds> thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, double strength,
                                                        bool areLinesBrighter, const RunContext& context) {
   OtsuThresholds coarse = otsuThresholds(smoothed, kSmoothings.front(), strength, context);
   OtsuThresholds fine = fineOtsuThresholds(image, strength, context);
   const auto isSplit = [](const OtsuThresholds& regions) { return 2 * regions.split >= kRegions; };
-  if (context.isCancelled() || (!isSplit(coarse) && !isSplit(fine))) return std::nullopt;
+  if (context.isCancelled()) return std::nullopt;
+  if (!isSplit(coarse) && !isSplit(fine)) {
+    OtsuThresholds hatching = hatchingThresholds(image, strength, context);
+    if (context.isCancelled() || !isSplit(hatching) || 2 * hatching.mostlyDark >= hatching.split) return std::nullopt;
+    return ofCloseLines(std::move(hatching.thresholds));
+  }
   const GreyParts coarseParts = greyPartsOf(image, coarse.thresholds, context),
                   fineParts = greyPartsOf(image, fine.thresholds, context);
   if (context.isCancelled()) return std::nullopt;
@@ -213,12 +227,7 @@ std::optional<RegionThresholds> thresholdsWithoutPaper(const GreyImage& image, c
   if (!isCoarse && !isFine) return std::nullopt;
   const bool isFiner = fine.separation > coarse.separation &&
                        static_cast<double>(fineParts.pieces) > kMorePieces * static_cast<double>(coarseParts.pieces);
-  RegionThresholds out = std::move((isFine && (!isCoarse || isFiner) ? fine : coarse).thresholds);
-  out.holesArePaper = true;
-  out.note =
-      "The lines are too close together to measure the paper between them; each region was "
-      "thresholded between its two grey levels.";
-  return out;
+  return ofCloseLines(std::move((isFine && (!isCoarse || isFiner) ? fine : coarse).thresholds));
 }
 
 Plane statisticsPlane(const Plane& grey, int shrink, const RunContext& context) {

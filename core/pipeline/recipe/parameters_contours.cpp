@@ -131,8 +131,8 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   Parameter count = integer(
       kSegments,
       {"segments.count", "Number of segments", "",
-       "Segments per line; auto (0) derives the number from the length, otherwise at least 2. "
-       "More segments follow the line more closely."},
+       "Segments per line; auto (0) derives the number from the length, otherwise at least 2, and "
+       "one for every two points of the line at most. More segments follow the line more closely."},
       {0, 2000, 1}, [](auto& r) -> auto& { return r.segments.count; });
   count.set = [inRange = count.set, name = count.name](Recipe& r, std::string_view text) -> Result<void> {
     const auto value = integerFromText(text);

@@ -30,15 +30,20 @@ TEST(Platform, MemoryThatIsTakenIsSeen) {
   EXPECT_FALSE(residentMemoryBytes(-1));
 }
 
-TEST(Platform, AProcessIsKnownByItsNumber) {
-  EXPECT_TRUE(isProcessRunning(getpid()));
-  EXPECT_TRUE(isProcessRunning(1));  // of somebody else, perhaps
+TEST(Platform, AProcessIsKnownByItsMark) {
+  const std::string own = processMark(getpid());
+  EXPECT_EQ(own.find(std::to_string(getpid()) + " "), 0u) << own;
+  EXPECT_EQ(processMark(getpid()), own);
+  EXPECT_FALSE(processMark(1).empty());  // of somebody else, perhaps
   const pid_t child = fork();
   if (child == 0) _exit(0);
+  siginfo_t info{};
+  ASSERT_EQ(waitid(P_PID, child, &info, WEXITED | WNOWAIT), 0);
+  EXPECT_EQ(processMark(child), "") << "it has ended, though nobody has asked how";
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
-  EXPECT_FALSE(isProcessRunning(child));
-  EXPECT_FALSE(isProcessRunning(0));
-  EXPECT_FALSE(isProcessRunning(-1));
+  EXPECT_EQ(processMark(child), "");
+  EXPECT_EQ(processMark(0), "");
+  EXPECT_EQ(processMark(-1), "");
 }
 
 TEST(Platform, NoMoreMemoryIsFreeThanThereIs) {

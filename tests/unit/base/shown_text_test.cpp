@@ -30,9 +30,15 @@ TEST(ShownText, ControlCharactersAndBrokenBytesBecomeQuestionMarks) {
   EXPECT_EQ(shownText(std::string_view("a\0b", 3)), "a?b");
 }
 
+TEST(ShownText, SpacesWithoutWidthDoNotHide) {
+  EXPECT_EQ(shownText("a\xe2\x80\x8b|\xe2\x81\xa0|\xef\xbb\xbf|\xe2\x80\x8f"), "a?|?|?|?");
+  EXPECT_EQ(shownText("\xe2\x80\x8d"), "\xe2\x80\x8d") << "a joiner of letters";
+}
+
 TEST(ShownText, JsonKeepsItsValueWithoutControls) {
-  EXPECT_EQ(withoutControls("{\"a\":\"ä\x7f\xc2\x9b\"}"), "{\"a\":\"ä\\u007f\\u009b\"}");
-  EXPECT_EQ(withoutControls("\xc2\xa0"), "\xc2\xa0");
+  EXPECT_EQ(shownJson("{\n\"a\":\"ä\x7f\xc2\x9b\"}"), "{\n\"a\":\"ä\\u007f\\u009b\"}");
+  EXPECT_EQ(shownJson("\xc2\xa0"), "\xc2\xa0");
+  EXPECT_EQ(shownJson("\xe2\x80\xae|\xf0\x9f\xbf\xbe"), "\\u202e|\\ud83f\\udffe");
 }
 
 }  // namespace

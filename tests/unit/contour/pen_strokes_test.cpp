@@ -152,6 +152,22 @@ TEST(PenStrokes, OfADrawingHaveALimitTogether) {
       << set->report.note;
 }
 
+TEST(PenStrokes, ThatRunToAndFroCountByTheirLength) {
+  constexpr PageExtent kLargePage{20'000.0, 20'000.0};
+  constexpr int kTurns = 10'000;
+  PenStroke zigzag;
+  for (int i = 0; i < kTurns; ++i) zigzag.points.emplace_back(20'000.0 * (i % 2), 2.0 * i);
+  const std::vector<PenStroke> strokes{zigzag, {{{0.0, 0.0}, {20'000.0, 20'000.0}}, false}};
+  const auto set = withPenStrokes({}, strokes, kLargePage);
+  ASSERT_TRUE(set.has_value());
+  EXPECT_TRUE(set->contours[0].points.empty());
+  EXPECT_FALSE(set->contours[1].points.empty());
+  EXPECT_NE(set->report.note.find("1 pen stroke is left out"), std::string::npos) << set->report.note;
+  const auto none = withPenStrokes({}, std::vector<PenStroke>{zigzag}, kLargePage);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("1 pen stroke is left out"), std::string::npos) << none.error().message;
+}
+
 TEST(PenStrokes, BeyondTheLargestNumberAreLeftOut) {
   constexpr int kTooMany = 7;
   std::vector<PenStroke> strokes(kMostPenStrokes + kTooMany, PenStroke{{{10.0, 10.0}, {13.0, 10.0}}, false});

@@ -113,6 +113,15 @@ TEST(Stations, TwoAndThreeMayBeAsked) {
   }
 }
 
+TEST(Stations, AreNoMoreThanTheirPointsCanTellApart) {
+  SegmentParams params;
+  params.count = 500;
+  const Piece dot = arc(6.0, 2.0 * std::numbers::pi, true);
+  EXPECT_EQ(std::ssize(segments(dot, params).stations), std::ssize(dot.points) / 2);
+  const Piece ring = arc(200.0, 2.0 * std::numbers::pi, true);
+  EXPECT_EQ(segments(ring, params).stations.size(), 500u);
+}
+
 TEST(Sturges, CountsThePointsOfAPenStrokeThatWereDrawn) {
   SegmentParams params;
   params.mode = SegmentMode::Sturges;

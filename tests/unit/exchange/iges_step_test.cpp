@@ -57,6 +57,13 @@ class IgesAndStep : public testing::TestWithParam<std::tuple<ExportFormat, Lengt
   LengthUnit unit() const { return std::get<1>(GetParam()); }
 };
 
+TEST_P(IgesAndStep, TakeAnyNameOfAScan) {
+  ExportDocument document = exportOfAllDegrees();
+  document.title = "a\nb\x1b\xff.png";
+  const auto file = exportedFile(document, cad(format(), unit()));
+  EXPECT_TRUE(file) << file.error().message;
+}
+
 TEST_P(IgesAndStep, HoldEveryDegreeExactly) {
   const ExportDocument document = exportOfAllDegrees();
   const FoundFile file = parsed(fileOf(document, cad(format(), unit())), format());

@@ -170,8 +170,14 @@ TEST_F(Import, AScatterOfPointsIsRefusedAboveALimitThatIsNamed) {
   std::string text = "x_mm,y_mm\n";
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(0.0, 200.0);
-  for (int i = 0; i < 60'000; ++i) text += std::to_string(place(random)) + "," + std::to_string(place(random)) + "\n";
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200mm\" height=\"200mm\"><path d=\"M0 0";
+  for (int i = 0; i < 60'000; ++i) {
+    const std::string x = std::to_string(place(random)), y = std::to_string(place(random));
+    text += x + "," + y + "\n";
+    svg += " L" + x + " " + y;
+  }
   EXPECT_THAT(refusal("scatter.csv", text), HasSubstr("50000 places at most"));
+  EXPECT_THAT(refusal("scatter.svg", svg + "\"/></svg>"), HasSubstr("50000 places at most"));
 }
 
 TEST_F(Import, TheUnitIsThatOfTheFileElseMillimetresElseWhatTheUserSays) {

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/exchange/model/scratch_file.h"
 #include "core/exchange/picture.h"
 
 namespace batten {
@@ -118,7 +119,7 @@ TEST_F(SaveAtomically, KeepsThePermissionsOfWhatItReplaces) {
 }
 
 TEST_F(SaveAtomically, WhatAnEndedProgramLeftGoesAndWhatARunningOneWritesStays) {
-  // A child that is killed while it saves leaves its file; the next save of the same name removes it.
+  // A child that is killed while it saves leaves its file; the next save in that folder removes it.
   const fs::path target = folder_ / "a.svg";
   const auto handler = std::signal(SIGXFSZ, SIG_DFL);
   const pid_t child = fork();
@@ -137,13 +138,15 @@ TEST_F(SaveAtomically, WhatAnEndedProgramLeftGoesAndWhatARunningOneWritesStays) 
   ASSERT_EQ(filesInFolder(), 1u);
   const fs::path left = fs::directory_iterator(folder_)->path(), foreign = folder_ / ".batten-notes.saving";
   std::ofstream(foreign) << "half";
-  ASSERT_TRUE(saveAtomically(folder_ / "other.svg", "x"));
-  EXPECT_TRUE(fs::exists(left)) << "it is of another file, and folders may be large";
   const int running = open(left.c_str(), O_RDONLY);
   ASSERT_EQ(flock(running, LOCK_EX), 0);
   ASSERT_TRUE(saveAtomically(target, "x"));
+  ASSERT_TRUE(saveAtomically(folder_ / "other.svg", "x"));
   EXPECT_TRUE(fs::exists(left)) << "a program writes it";
   close(running);
+  ASSERT_TRUE(saveAtomically(folder_ / "other.svg", "x"));
+  EXPECT_FALSE(fs::exists(left)) << "also where another file is saved";
+  std::ofstream(left) << "half";
   ASSERT_TRUE(saveAtomically(target, "x"));
   EXPECT_FALSE(fs::exists(left));
   EXPECT_TRUE(fs::exists(foreign));
@@ -151,6 +154,19 @@ TEST_F(SaveAtomically, WhatAnEndedProgramLeftGoesAndWhatARunningOneWritesStays) 
   removeLeftoversOf(target);
   EXPECT_FALSE(fs::exists(left));
   EXPECT_EQ(read(target), "x");
+}
+
+TEST_F(SaveAtomically, AScratchFileGoesWithItsObject) {
+  std::string path;
+  {
+    const auto scratch = ScratchFile::create("abc");
+    ASSERT_TRUE(scratch);
+    path = scratch->path();
+    EXPECT_EQ(read(path), "abc");
+    std::ofstream(path) << "written by name";
+    EXPECT_EQ(scratch->read(), "written by name");
+  }
+  EXPECT_FALSE(fs::exists(path));
 }
 
 TEST(Picture, DrawsLinesAndEncodesPng) {

@@ -74,5 +74,24 @@ TEST(BindingHoles, AreNoUnevenMarksAndNoneFarFromTheSide) {
   EXPECT_TRUE(preparePage(letters, {}, {})->isUntouched()) << "letters";
 }
 
+/// Letters of 4 to 6 by 7 px, in words and ragged lines over the upper half of the page.
+bool isLetter(double x, double y) {
+  constexpr double kPitch = 8.0, kLine = 12.0, kFirst = 4.0, kLast = 500.0;
+  const int line = static_cast<int>(y / kLine);
+  const double first = 8.0 + line * 37 % 40, last = kBoundWidth - 8.0 - line * 53 % 60;
+  if (y < kFirst || y > kLast || x < first || x > last) return false;
+  const int letter = static_cast<int>((x - first) / kPitch);
+  const double right = x - first - kPitch * letter, down = y - kLine * line;
+  return letter % 6 != 5 && right < 4.0 + (letter * 7 + line) % 3 && down > 2.0 && down < 9.0;
+}
+
+TEST(BindingHoles, AreNoLettersOfAPageOfText) {
+  const Scan text = boundPage(isLetter);
+  const auto page = preparePage(text, {}, {});
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->bindingHoles, 0);
+  EXPECT_FALSE(page->sheet);
+}
+
 }  // namespace
 }  // namespace batten

@@ -171,6 +171,15 @@ TEST(Thresholds, FindRulingsGridsAndHatchingAFewPixelsApart) {
       fine.row(y)[x] = static_cast<std::uint16_t>((x % 4 == 0 || y % 4 == 0 ? 20 : 235) * 257);
   }
   expectLines(fine, 6, "fine grid");
+  // Hatching whose lines are 2.1 and 2.8 px apart.
+  for (const int pitch : {3, 4}) {
+    GreyImage hatched(600, 400);
+    for (int y = 0; y < 400; ++y) {
+      for (int x = 0; x < 600; ++x)
+        hatched.row(y)[x] = static_cast<std::uint16_t>(((x + (pitch - 1) * y) % pitch == 0 ? 20 : 235) * 257);
+    }
+    expectLines(hatched, 50, "hatching every " + std::to_string(pitch) + " px");
+  }
   // Black and white pixels at random are no lines.
   std::mt19937 random(3);
   for (const double share : {0.1, 0.3, 0.5, 0.7}) {

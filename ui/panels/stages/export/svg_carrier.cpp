@@ -83,8 +83,9 @@ void SvgCarrier::carry(const ExportedFile& made, Transfer transfer, const QStrin
     return;
   }
   if (!(QApplication::mouseButtons() & Qt::LeftButton)) return;
-  QFile file(folder_.filePath(name + QStringLiteral(".svg")));
-  if (!folder_.isValid() || !file.open(QIODevice::WriteOnly) || file.write(svg) != svg.size()) {
+  if (!folder_) folder_.emplace();
+  QFile file(folder_->filePath(name + QStringLiteral(".svg")));
+  if (!folder_->isValid() || !file.open(QIODevice::WriteOnly) || file.write(svg) != svg.size()) {
     emit failed({ErrorCode::CannotWrite, "The temporary file for dragging cannot be written. Is the disk full?", {}});
     return;
   }

@@ -37,7 +37,9 @@ class SvgCarrier : public QObject {
   void carry(const ExportedFile&, Transfer, const QString& name);
 
   QWidget* window_;
-  QTemporaryDir folder_;  ///< Of the files that are dragged: receivers read them after the drop.
+  /// Of the files that are dragged: receivers read them after the drop. Made for the first one, because a window that
+  /// is ended by force leaves it behind.
+  std::optional<QTemporaryDir> folder_;
   Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
 };
