@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/fairing_figures.h"
 
+#include <cmath>
+
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/target_advice.h"
 #include "ui/panels/stages/fairing_panel.h"
@@ -15,6 +17,12 @@ using Cell = FigureTable::Cell;
 Cell noFigure() { return {QStringLiteral("–")}; }
 
 QString millimetresOfMove(double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); }
+
+/// A tolerance as it is shown and set: never less than what is needed.
+double roundedUp(double mm) {
+  const double steps = mm < 0.1 ? 1000.0 : 100.0;  // a millimetre: the decimals of millimetres()
+  return std::ceil(mm * steps - 1e-9) / steps;
+}
 
 /// What to take where a target is too far away.
 QString insteadOf(FairingTarget target) {
@@ -101,7 +109,7 @@ FairingNote fairingNote(const TracedCurve& curve) {
   const double needed = report.neededMm.value_or(0.0);
   const bool isMore = needed > curve.fairingUsed.toleranceMm;
   const bool isSensible = needed <= mostSensibleToleranceMm(curve.sketched);
-  if (isMore && isSensible) said.neededMm = needed;
+  if (isMore && isSensible) said.neededMm = roundedUp(needed);
   if (isMore && !isSensible && curve.fairingUsed.mode == FairingMode::Target)
     said.text += FairingPanel::tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
                      .arg(millimetres(needed), insteadOf(curve.fairingUsed.target));

@@ -6,7 +6,6 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <cmath>
 
 #include "core/pipeline/recipe/parameter_table.h"
 #include "ui/panels/controls/panel_parts.h"
@@ -22,6 +21,7 @@
 #include "ui/panels/stages/profile_shelf.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
+#include "ui/session/tolerance_offer.h"
 
 namespace batten {
 namespace {
@@ -75,6 +75,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
                                   this)),
       note_(note({}, this)),
       raise_(linkButton(tr("Raise the tolerance"), QStringLiteral("fairing.raise"), this)),
+      offer_(new ToleranceOffer(this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
       followAll_(linkButton(tr("Use the common setting"), QStringLiteral("fairing.followAll"), this)),
       whole_(linkButton({}, QStringLiteral("fairing.whole"), this)),
@@ -215,6 +216,7 @@ void FairingPanel::buildLinks() {
 void FairingPanel::buildScopeLinks() {
   for (QPushButton* link : {useForAll_, followAll_}) links_->addWidget(link, 0, Qt::AlignLeft);
   connect(raise_, &QPushButton::clicked, this, &FairingPanel::raiseTolerance);
+  connect(offer_, &ToleranceOffer::changed, this, &FairingPanel::refreshFigures);
   connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
   connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
 }
@@ -323,10 +325,10 @@ void FairingPanel::setHold(int end, EndHold hold) {
 
 void FairingPanel::raiseTolerance() {
   const TracedCurve* curve = session_.selected();
-  if (!curve || !curve->fairing.neededMm) return;
+  const auto offered = offer_->enough();
+  if (!curve || !offered) return;
   Recipe after = session_.recipe();
-  // Rounded up to what the field shows, so that the target really fits.
-  const double needed = std::ceil(*curve->fairing.neededMm * 1000.0) / 1000.0;
+  const double needed = *offered;
   if (hasOwnFairing(session_, session_.selectedCurve()))
     after =
         withChoice(session_, session_.selectedCurve(), [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
@@ -394,8 +396,10 @@ void FairingPanel::refreshFigures() {
                      ? tr("Fairing is off: the curves stay as they are in Curves.")
                      : said.text);
   note_->setVisible(!note_->text().isEmpty());
-  if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
-  raise_->setVisible(said.neededMm.has_value());
+  offer_->ask(curve, said.neededMm);
+  const auto enough = offer_->enough();
+  if (enough) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*enough)));
+  raise_->setVisible(enough.has_value());
 }
 
 }  // namespace batten

@@ -18,6 +18,7 @@ class FigureTable;
 class ParameterEditor;
 class ParameterRow;
 class SegmentedControl;
+class ToleranceOffer;
 
 /// How curves are faired: for all of them or for the selected one alone; the tolerance; before and after.
 class FairingPanel : public QWidget {
@@ -67,6 +68,7 @@ class FairingPanel : public QWidget {
   QLabel* note_;
   QWidget* said_ = nullptr;
   QPushButton* raise_;
+  ToleranceOffer* offer_;  ///< Only what is enough is offered.
   QVBoxLayout* links_ = nullptr;
   QPushButton* useForAll_;
   QPushButton* followAll_;
