@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/ui/window_fixture.h"
+#include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/fairing_figures.h"
 #include "ui/session/curve_names.h"
 
@@ -71,6 +72,25 @@ TEST_F(Promise, TheToleranceThatATargetNeedsIsEnough) {
     }
   }
   EXPECT_GE(offers_, 4);
+}
+
+TEST_F(Promise, TheTileOfTheTargetThatIsFollowedSaysWhatTheTableSays) {
+  ASSERT_NO_FATAL_FAILURE(openFile(QStringLiteral(BATTEN_SAMPLE)));
+  window_->setStage(PanelStage::Fairing);
+  QTest::mouseClick(find<QAbstractButton>("fairing.mode.target"), Qt::LeftButton);
+  for (const int number : {7, 8}) {
+    const auto curve = curveOfNumber(session(), number);
+    ASSERT_TRUE(curve);
+    session().selectCurve(*curve);
+    for (const int degree : {4, 6}) {
+      ASSERT_NO_FATAL_FAILURE(pressTarget(degree));
+      const FairingReport& report = session().selected()->fairing;
+      ASSERT_EQ(report.targetDegree, degree);
+      const QString tip = find<QAbstractButton>(("target." + std::to_string(degree)).c_str())->toolTip();
+      EXPECT_TRUE(tip.contains(QStringLiteral("at most ") + millimetres(report.maxDeviationMm)))
+          << tip.toStdString() << " beside " << report.maxDeviationMm;
+    }
+  }
 }
 
 }  // namespace
