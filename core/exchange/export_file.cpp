@@ -293,19 +293,16 @@ Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSe
 
 namespace {
 
-std::string jumpText(double percent) {
-  constexpr double kLeastSaid = 1e-3;  // %; below it is what rounding leaves
-  if (percent < kLeastSaid) return ", no jumps of curvature";
-  return ", curvature jumps by " + shortNumber(percent) + " % at most";
-}
-
 /// What follows the number of curves.
 std::string resultOf(const ExportReport& report) {
   std::string text;
   if (report.vertices > 0) text += " as " + counted(report.vertices, "vertex", "vertices");
   if (report.cubics > 0) text += " as " + counted(report.cubics, "cubic", "cubics");
   if (report.largestErrorMm) text += ", within " + shortNumber(*report.largestErrorMm) + " mm of the exact ones";
-  if (report.largestJump) text += jumpText(100.0 * *report.largestJump);
+  constexpr double kLeastJump = 1e-5;  // below it is what rounding leaves
+  if (report.largestJump.value_or(1.0) < kLeastJump) text += ", no jumps of curvature";
+  if (report.largestJump.value_or(0.0) >= kLeastJump)
+    text += ", curvature jumps by " + shortNumber(100.0 * *report.largestJump) + " % at most";
   if (report.outlines > 0) {
     text += ", " + counted(report.outlines, "stroke outlined within ", "strokes outlined within ") +
             shortNumber(report.largestWidthErrorMm) + " mm of " + (report.outlines == 1 ? "its" : "their") + " width";
