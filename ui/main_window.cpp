@@ -128,6 +128,7 @@ QWidget* MainWindow::makeCentre() {
   p.splitter->setChildrenCollapsible(false);
   connect(p.splitter, &QSplitter::splitterMoved, this, [this] {
     if (parts_->plots->isVisible()) parts_->lowerPx = parts_->lower->height();
+    parts_->canvas->setFitHeight(parts_->canvas->height());
   });
   return p.splitter;
 }
@@ -208,6 +209,7 @@ void MainWindow::connectSession() {
   });
   connect(&session_, &EditorSession::scanOpened, this, &MainWindow::scanOpened);
   connect(session_.undoStack(), &QUndoStack::cleanChanged, this, &MainWindow::refreshTitle);
+  connect(&session_, &EditorSession::recipeChanged, this, &MainWindow::refreshTitle);
   connect(&session_, &EditorSession::workingChanged, this, &MainWindow::refreshActions);
   connect(&session_, &EditorSession::pinChanged, this, &MainWindow::refreshActions);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::runFinished,
@@ -250,6 +252,9 @@ void MainWindow::enterStage(PanelStage stage) {
   // Marks that a click changes are shown where curves are judged, not where they would be in the way.
   if (stage != PanelStage::Curves && stage != PanelStage::Fairing) turn(false, {Layer::Extrema});
   view_.setShowsMaskUncleaned(stage == PanelStage::Threshold);
+  // What is not compared is not drawn over: a faired curve in Export would look like a pinned one.
+  view_.setComparesPinned(stage == PanelStage::Curves || stage == PanelStage::Fairing);
+  parts_->topBar->setExportIsPrimary(stage != PanelStage::Export);
   switch (stage) {
     case PanelStage::Scan:
       parts_->log = session_.recipe().log;

@@ -47,7 +47,7 @@ class MainWindow : public QMainWindow {
   QAction* action(ActionId id) const;
   void setThemeChoice(ThemeChoice choice);
   static ThemeChoice storedTheme();
-  /// Files opened lately, newest first, as they were remembered.
+  /// Files opened or saved lately, newest first, as they were remembered.
   static QStringList recentFiles();
   /// Where journals of unsaved work lie.
   static QString journalFolder();
@@ -82,14 +82,15 @@ class MainWindow : public QMainWindow {
   bool saveRecipeAs();
   bool saveRecipeTo(const QString& path);
   QString proposedRecipePath() const;
-  void readRecipe(const QString& path);
+  /// @param withScan opened as the drawing that the recipe was saved for; empty: used on the one that is open.
+  void readRecipe(const QString& path, const QString& withScan = {});
   void chooseImport();
   /// Takes the lines of a file over: into the open drawing, or as a drawing of their own.
   void readImport(const QString& path, bool intoDrawing);
   void useImport(const ImportReport& report, bool intoDrawing);
   void openPage(const PageChoice& page);
   void pasteScan();
-  void useRecipe(const QString& path, const Result<Recipe>& recipe);
+  void useRecipe(const QString& path, const Result<Recipe>& recipe, const QString& withScan);
   /// True when nothing unsaved is left that would be lost.
   bool maybeDiscard();
   void scanOpened();
@@ -108,7 +109,12 @@ class MainWindow : public QMainWindow {
   void refreshActions();
   void refreshTitle();
   void refreshRecent();
-  void rememberFile(const QString& path);
+  /// @param scan of a recipe: that it was saved for.
+  void rememberFile(const QString& path, const QString& scan = {});
+  /// The scan that a recent recipe was saved for; empty: not known, or none.
+  static QString scanOfRecipe(const QString& path);
+  void openRecent(const QString& path);
+  void offerSavedRecipe();
   /// Where file dialogs open: at the drawing, else where the last one was.
   QString startFolder() const;
   void enterStage(PanelStage stage);

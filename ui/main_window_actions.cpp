@@ -15,6 +15,7 @@
 #include "ui/panels/stages/export/export_panel.h"
 #include "ui/panels/targets/shape_window.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/change_view.h"
 #include "ui/session/edits/direction_edits.h"
 #include "ui/session/edits/piece_choice.h"
 #include "ui/session/edits/region_edits.h"
@@ -360,8 +361,10 @@ void MainWindow::stepBack(bool isUndo) {
   QUndoStack& stack = *session_.undoStack();
   const QString what = isUndo ? stack.undoText() : stack.redoText();
   const Recipe before = session_.recipe();
+  const SuggestionSettings suggestedBy = suggestionSettings(view_);
   isUndo ? stack.undo() : stack.redo();
-  const auto changed = stageOfChange(before, session_.recipe());
+  auto changed = stageOfChange(before, session_.recipe());
+  if (!changed && !(suggestedBy == suggestionSettings(view_))) changed = PanelStage::Corners;
   if (!changed) return;
   if (*changed == stage())
     return parts_->status->showMessage((isUndo ? tr("Undone: %1.") : tr("Redone: %1.")).arg(what));

@@ -23,7 +23,6 @@
 #include "core/pipeline/recipe/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
-#include "ui/opening_guard.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/stages/scan_panel.h"
 #include "ui/session/judged_view.h"
@@ -91,12 +90,16 @@ void MainWindow::beginDrawing(const Recipe& recipe) {
 void MainWindow::scanOpened() {
   Parts& p = *parts_;
   p.recipePath = std::exchange(p.pageRecipe, {});
-  if (session_.openedWithRecipe())
+  const bool isReopened = !p.recipePath.isEmpty();
+  if (session_.openedWithRecipe() && !isReopened)
     p.recipePath = pathText(recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number));
   // Nobody changes what came with the program: the first time Ctrl+S asks where.
   if (isOfProgram(p.recipePath)) p.recipePath.clear();
   forgetDrawing(view_);
-  if (!session_.isBlankPage()) rememberFile(session_.scanPath());
+  if (!session_.isBlankPage() && isReopened)
+    rememberFile(p.recipePath, session_.scanPath());
+  else if (!session_.isBlankPage())
+    rememberFile(session_.scanPath());
   refreshTitle();
   p.errors->hide();
   p.problemOrigin.reset();
@@ -105,6 +108,8 @@ void MainWindow::scanOpened() {
     showProblem({ErrorCode::BadParameter, session_.openProblem().toStdString(), {}}, FailureOrigin::OpenRecipe);
   else if (p.leftWork)
     offerLeftWork();
+  else if (!session_.isBlankPage() && !session_.wasRestored())
+    offerSavedRecipe();
   if (session_.isBlankPage() && !session_.recipe().imports.empty()) {
     setStage(PanelStage::Fairing);
   } else if (session_.isBlankPage()) {
@@ -117,6 +122,8 @@ void MainWindow::scanOpened() {
   }
   if (session_.wasRestored())
     p.status->showMessage(tr("Unsaved work restored. Save it to keep it."));
+  else if (isReopened && !session_.isBlankPage())
+    p.status->showMessage(tr("Opened with the recipe %1.").arg(shownFileName(p.recipePath)));
   else if (session_.openedWithRecipe())
     p.status->showMessage(tr("Opened with the recipe stored next to the drawing."));
   p.canvas->zoomFit();
@@ -143,8 +150,8 @@ void MainWindow::chooseRecipe() {
   if (!path.isEmpty()) readRecipe(chosenPath(path));
 }
 
-void MainWindow::readRecipe(const QString& path) {
-  parts_->recipeReader->start([this, path](const CancelToken& token) {
+void MainWindow::readRecipe(const QString& path, const QString& withScan) {
+  parts_->recipeReader->start([this, path, withScan](const CancelToken& token) {
     const auto recipe = readRecipeFile(nativePath(path));
     if (token.isCancelled()) return;
     if (!recipe && isImportName(nativePath(path))) {
@@ -155,17 +162,24 @@ void MainWindow::readRecipe(const QString& path) {
         return;
       }
     }
-    parts_->inbox.post([this, path, recipe] { useRecipe(path, recipe); });
+    parts_->inbox.post([this, path, recipe, withScan] { useRecipe(path, recipe, withScan); });
   });
 }
 
-void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
+void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe, const QString& withScan) {
   if (!recipe) return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
   if (recipe->page) {
     if (!maybeDiscard()) return;
     parts_->pageRecipe = absolutePath(path);
     session_.newDrawing(*recipe);
     return rememberFile(path);
+  }
+  const QString savedFor = scanOfRecipe(path);
+  const QString scan = withScan.isEmpty() && !session_.hasScan() ? savedFor : withScan;
+  if (!scan.isEmpty()) {
+    if (!maybeDiscard()) return;
+    parts_->pageRecipe = absolutePath(path);
+    return session_.openSaved(scan, *recipe);
   }
   if (!session_.hasScan())
     return showProblem({ErrorCode::BadParameter,
@@ -175,6 +189,8 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
   Recipe after = *recipe;
   after.scanPage = session_.recipe().scanPage;  // it is used on the page that is open
   session_.change(tr("Open recipe"), std::move(after));
+  // That of this very scan is saved where it came from.
+  if (!savedFor.isEmpty() && savedFor == absolutePath(session_.scanPath())) parts_->recipePath = absolutePath(path);
 }
 
 void MainWindow::chooseImport() {
@@ -260,7 +276,7 @@ bool MainWindow::saveRecipeTo(const QString& path) {
   parts_->recipePath = absolutePath(path);
   if (isUnicodePath(path)) QSettings().setValue(kSaveFolderKey, folderOf(path));
   session_.markSaved();
-  if (session_.isBlankPage()) rememberFile(path);
+  rememberFile(path, session_.isBlankPage() ? QString() : session_.scanPath());
   refreshTitle();
   parts_->status->showMessage(tr("Saved the recipe to %1.").arg(shownFileName(path)));
   return true;
@@ -307,36 +323,6 @@ bool MainWindow::offerLeftWork() {
                  tr("Restore it"), tr("Discard it"));
   refreshActions();
   return true;
-}
-
-void MainWindow::openAtStart(const QString& sample) {
-  if (offerLeftWork()) {
-    parts_->sample = sample;
-    return;
-  }
-  checkRecent([this, sample] {
-    if (session_.hasScan() || session_.isBusy()) return;  // The user was faster.
-    for (const QString& path : recentFiles()) {
-      if (parts_->goneFiles.contains(path)) continue;
-      if (OpeningGuard::hasFailed(path)) return tellNotOpened(path);
-      parts_->opening->begin(path);
-      return openPath(path);
-    }
-    if (!sample.isEmpty()) openPath(sample);
-  });
-}
-
-void MainWindow::tellNotOpened(const QString& path) {
-  parts_->problemOrigin.reset();
-  parts_->dismissal = {};
-  parts_->remedy = [this, path] {
-    parts_->errors->hide();
-    openPath(path);
-  };
-  parts_->errors->show(
-      tr("Batten stopped while opening %1, so the file was not opened again.").arg(shownFileName(path)),
-      tr("Open it anyway"));
-  refreshActions();
 }
 
 }  // namespace batten

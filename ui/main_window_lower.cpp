@@ -3,8 +3,10 @@
 #include <QSplitter>
 #include <QTimer>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
@@ -14,7 +16,8 @@ namespace {
 
 constexpr int kLowestWindow = 660;  ///< [px] Height of the window below which the plots fold.
 constexpr int kUsualLower = 380;    ///< [px] Of targets and plots, where half of the window is left beside them.
-constexpr int kLeastDrawing = 230;  ///< [px] That the drawing keeps when targets and plots are drawn higher.
+constexpr double kLeastDrawingShare = 0.48;  ///< Of the window, that the drawing keeps beside a whole plot.
+constexpr int kLeastDrawing = 230;           ///< [px] That the drawing keeps when targets and plots are drawn higher.
 
 /// Curves are judged there; elsewhere targets and plots would be noise.
 bool isJudging(PanelStage stage) { return stage == PanelStage::Curves || stage == PanelStage::Fairing; }
@@ -43,14 +46,21 @@ void MainWindow::fitLower() {
   const bool hasPlots = height() >= kLowestWindow;
   p.plots->setVisible(hasPlots);
   p.lower->setVisible(isWanted);
-  // Half of the window is the drawing's; the tiles take what the plot leaves of the rest.
-  const int room = p.splitter->height() - height() / 2;
+  // Half of the window is the drawing's, a little less where the axes of the plot need it; the tiles take what the
+  // plot leaves of the rest.
+  int room = p.splitter->height() - height() / 2;
+  if (hasPlots) {
+    const int most = p.splitter->height() - static_cast<int>(std::ceil(kLeastDrawingShare * height()));
+    room = std::max(room, std::min(most, p.strip->flatHeight() + p.plots->goodHeight()));
+  }
   p.strip->fitInto(room - (hasPlots ? p.plots->goodHeight() : 0), hasPlots);
-  if (!isWanted) return;
   const int least = p.strip->height() + (hasPlots ? p.plots->minimumSizeHint().height() : 0);
   const int most = std::max(least, p.splitter->height() - kLeastDrawing);
   const int lower = hasPlots ? std::clamp(p.lowerPx.value_or(std::min(kUsualLower, room)), least, most) : least;
-  p.splitter->setSizes({std::max(1, p.splitter->height() - lower), lower});
+  // The page keeps its size and place from stage to stage: it is fitted beside targets and plots in all of them.
+  const int whole = p.splitter->height() - p.splitter->handleWidth(), beside = std::max(1, whole - lower);
+  p.canvas->setFitHeight(p.showsLower ? beside : whole);
+  if (isWanted) p.splitter->setSizes({beside, lower});
 }
 
 }  // namespace batten

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAction>
-#include <QDir>
-#include <QFontMetrics>
 #include <QGuiApplication>
 #include <QMenu>
 #include <QScreen>
@@ -16,68 +14,12 @@
 
 namespace batten {
 namespace {
-constexpr int kRecentFiles = 10;  // in the menu
 const QString kLowerKey = QStringLiteral("window/lower-height"), kPlotKey = QStringLiteral("window/plot");
-
-/// "coupe.png  –  ~/scans": the folder tells two files of one name apart.
-QString recentText(const QString& path) {
-  QString folder = shownPath(folderOf(path));
-  if (const QString home = QDir::homePath(); folder == home || folder.startsWith(home + QLatin1Char('/')))
-    folder.replace(0, home.size(), QLatin1Char('~'));
-  const QString shown = QFontMetrics(uiFont(13)).elidedText(folder, Qt::ElideMiddle, 320);
-  return QString(shownFileName(path) + QStringLiteral("  –  ") + shown).replace(QLatin1Char('&'), QStringLiteral("&&"));
-}
 
 }  // namespace
 
 ThemeChoice MainWindow::storedTheme() {
   return static_cast<ThemeChoice>(std::clamp(QSettings().value(QStringLiteral("theme"), 0).toInt(), 0, 2));
-}
-
-QStringList MainWindow::recentFiles() {
-  QStringList files = QSettings().value(QStringLiteral("recent")).toStringList();
-  for (QString& path : files) path = pathFromStored(path);
-  return files;
-}
-
-void MainWindow::checkRecent(std::function<void()> then) {
-  // A drive that has gone to sleep or away answers after seconds.
-  parts_->recentChecker->start([this, files = recentFiles(), then = std::move(then)](const CancelToken&) {
-    QStringList gone;
-    for (const QString& path : files)
-      if (!pathExists(path)) gone.append(path);
-    parts_->inbox.post([this, gone, then] {
-      parts_->goneFiles = gone;
-      if (then) then();
-    });
-  });
-}
-
-void MainWindow::rememberFile(const QString& path) {
-  QStringList files = recentFiles();
-  const QString full = absolutePath(path);
-  files.removeAll(full);
-  files.prepend(full);
-  while (files.size() > kRecentFiles) files.removeLast();
-  QStringList stored;
-  for (const QString& file : files) stored.append(storedPath(file));
-  QSettings().setValue(QStringLiteral("recent"), stored);
-  parts_->goneFiles.removeAll(full);
-}
-
-void MainWindow::refreshRecent() {
-  QMenu* menu = parts_->recentMenu;
-  menu->clear();
-  checkRecent({});  // For the next time; the menu opens at once.
-  for (const QString& path : recentFiles()) {
-    if (parts_->goneFiles.contains(path)) continue;
-    QAction* entry = menu->addAction(recentText(path));
-    entry->setToolTip(shownPath(path));
-    entry->setStatusTip(shownPath(path));
-    connect(entry, &QAction::triggered, this, [this, path] { openPath(path); });
-  }
-  menu->setToolTipsVisible(true);
-  if (menu->isEmpty()) menu->addAction(tr("No files yet"))->setEnabled(false);
 }
 
 QString MainWindow::drawingName() const {

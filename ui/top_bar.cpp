@@ -8,8 +8,11 @@
 #include <QMenu>
 #include <QPainter>
 #include <QPushButton>
+#include <QStyle>
 #include <QToolButton>
+#include <QWidgetAction>
 
+#include "ui/canvas/marks_key.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/view_settings.h"
 #include "ui/theme/theme.h"
@@ -67,6 +70,18 @@ void TopBar::buildViewButtons(ViewSettings& view, QMenu* layersMenu) {
   layers->setPopupMode(QToolButton::InstantPopup);
   layers->setFocusPolicy(Qt::TabFocus);
   layout()->addWidget(layers);
+  auto* marks = new QToolButton(this);
+  marks->setObjectName(QStringLiteral("keyButton"));
+  marks->setText(tr("Key"));
+  marks->setToolTip(tr("What the marks on the drawing mean."));
+  auto* key = new QMenu(marks);
+  auto* list = new QWidgetAction(key);
+  list->setDefaultWidget(new MarksKey(key));
+  key->addAction(list);
+  marks->setMenu(key);
+  marks->setPopupMode(QToolButton::InstantPopup);
+  marks->setFocusPolicy(Qt::TabFocus);
+  layout()->addWidget(marks);
   auto* compare = new QToolButton(this);
   compare->setObjectName(QStringLiteral("compareButton"));
   compare->setText(tr("Scan only"));
@@ -78,7 +93,7 @@ void TopBar::buildViewButtons(ViewSettings& view, QMenu* layersMenu) {
 }
 
 void TopBar::buildExport(QAction* action) {
-  auto* send = new QPushButton(tr("Export…"), this);
+  auto* send = export_ = new QPushButton(tr("Export…"), this);
   send->setObjectName(QStringLiteral("exportButton"));
   send->setAccessibleName(tr("Export"));
   send->setProperty("primary", true);
@@ -87,6 +102,14 @@ void TopBar::buildExport(QAction* action) {
   connect(action, &QAction::changed, send, [send, action] { send->setEnabled(action->isEnabled()); });
   connect(send, &QPushButton::clicked, action, &QAction::trigger);
   layout()->addWidget(send);
+}
+
+void TopBar::setExportIsPrimary(bool isPrimary) {
+  if (export_->property("primary").toBool() == isPrimary) return;
+  export_->setProperty("primary", isPrimary);
+  // A style sheet looks at a property only when it is told.
+  export_->style()->unpolish(export_);
+  export_->style()->polish(export_);
 }
 
 QToolButton* TopBar::addButton(QAction* action, const QString& text) {

@@ -6,6 +6,7 @@
 class QAction;
 class QLabel;
 class QMenu;
+class QPushButton;
 class QToolButton;
 
 namespace batten {
@@ -25,6 +26,8 @@ class TopBar : public QWidget {
   void setTitle(const QString& title, bool unsaved, const QString& toolTip);
   void setZoom(double zoom);
   void openMenu();
+  /// One button of a screen has the accent: in Export that of the panel.
+  void setExportIsPrimary(bool isPrimary);
 
  protected:
   void paintEvent(QPaintEvent*) override;
@@ -39,6 +42,7 @@ class TopBar : public QWidget {
   QToolButton* menu_;
   QLabel* title_;
   QToolButton *undo_, *redo_, *zoom_, *find_;
+  QPushButton* export_ = nullptr;
 };
 
 }  // namespace batten

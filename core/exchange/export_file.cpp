@@ -300,7 +300,10 @@ std::string resultOf(const ExportReport& report) {
   if (report.vertices > 0) text += " as " + counted(report.vertices, "vertex", "vertices");
   if (report.cubics > 0) text += " as " + counted(report.cubics, "cubic", "cubics");
   if (report.largestErrorMm) text += ", within " + shortNumber(*report.largestErrorMm) + " mm of the exact ones";
-  if (report.largestJump) text += ", curvature jumps by " + shortNumber(100.0 * *report.largestJump) + " % at most";
+  constexpr double kLeastJump = 1e-5;  // below it is what rounding leaves
+  if (report.largestJump.value_or(1.0) < kLeastJump) text += ", no jumps of curvature";
+  if (report.largestJump.value_or(0.0) >= kLeastJump)
+    text += ", curvature jumps by " + shortNumber(100.0 * *report.largestJump) + " % at most";
   if (report.outlines > 0) {
     text += ", " + counted(report.outlines, "stroke outlined within ", "strokes outlined within ") +
             shortNumber(report.largestWidthErrorMm) + " mm of " + (report.outlines == 1 ? "its" : "their") + " width";

@@ -157,7 +157,7 @@ class EdgeLengthFairing {
       const double share = i == 0 ? 1.0 : 0.5 * (inside + outside);
       auto curve = attempt(share, pin);
       const std::optional<double> away = curve ? std::optional(moved(*curve)) : std::nullopt;
-      if (i == 0) needed = away;
+      if (i == 0 && away) needed = *away * (1.0 + 1e-12) / kToleranceShare;  // with what rounding takes
       if (!away || !(*away <= kToleranceShare * params_.toleranceMm)) {
         outside = share;
         continue;

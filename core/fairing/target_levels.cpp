@@ -23,7 +23,7 @@ bool hasNaturalSpans(const TargetParams& params) {
 }
 
 struct LevelNeed {
-  std::optional<double> mm;  ///< Deviation of the curve that meets the target.
+  std::optional<double> mm;  ///< The tolerance that meets the target.
   bool isTried = false;      ///< And the curve for the tolerance is known.
 };
 
@@ -123,13 +123,13 @@ class LevelFairing {
 
   /// Where the tolerance meets the target, but the curve does not: it does, if that takes no extremum more.
   void meet(std::size_t level) {
-    const bool isAllowed = level >= levels_.first && *needs_[level].mm <= kTargetRoom * toleranceMm_;
+    const bool isAllowed = level >= levels_.first && *needs_[level].mm <= toleranceMm_;
     if (best_->faired.report.withinTolerance || !isAllowed || context_.isCancelled()) return;
     const std::optional<double> needed = best_->faired.report.neededMm;
     if (!needs_[level].isTried) tryLevel(level);
     best_->faired.report.neededMm = needed;
     const std::optional<double> ofBest = needs_[best_->level].mm;
-    const bool isOutOfReach = !ofBest || *ofBest > kTargetRoom * toleranceMm_;
+    const bool isOutOfReach = !ofBest || *ofBest > toleranceMm_;
     if (!best_->faired.report.withinTolerance && isOutOfReach) noteMetOverMoreSpans(best_->faired.report);
   }
 

@@ -227,9 +227,9 @@ TEST_F(FirstSteps, AHiddenCombShowsNoQuillUnderTheMouse) {
 TEST(PinPanel, WritesUnevennessInFewDigits) {
   EXPECT_EQ(unevennessText(0.5), QStringLiteral("0.5"));
   EXPECT_EQ(unevennessText(37.21), QStringLiteral("37.2"));
-  EXPECT_EQ(unevennessText(999.7), QStringLiteral("1000"));
-  EXPECT_EQ(unevennessText(1234.0), QStringLiteral("1234"));
-  EXPECT_EQ(unevennessText(9999.4), QStringLiteral("9999"));
+  EXPECT_EQ(unevennessText(999.7), QStringLiteral("1.00 · 10³"));
+  EXPECT_EQ(unevennessText(1234.0), QStringLiteral("1.23 · 10³"));
+  EXPECT_EQ(unevennessText(9999.4), QStringLiteral("1.00 · 10⁴"));
   EXPECT_EQ(unevennessText(9999.7), QStringLiteral("1.00 · 10⁴"));
   EXPECT_EQ(unevennessText(2.79e7), QStringLiteral("2.79 · 10⁷"));
 }

@@ -89,6 +89,45 @@ TEST_F(Habits, UndoInAnotherStageSaysWhatItChangedAndLeadsThere) {
   EXPECT_FALSE(show->isVisible()) << "it is seen where one is";
 }
 
+TEST_F(Habits, EverySettingIsUndoneInItsTurn) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  window_->setStage(PanelStage::Threshold);
+  type(find<QLineEdit>("threshold.strength.field"), QStringLiteral("1.4"));
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Corners);
+  const double angle = window_->view().suggestionAngleDeg(), scale = window_->view().suggestionScalePx();
+  type(find<QLineEdit>("corners.suggestScale.field"), QStringLiteral("40"));
+  type(find<QLineEdit>("corners.suggestAngle.field"), QStringLiteral("60"));
+  EXPECT_EQ(window_->view().suggestionScalePx(), 40.0);
+  EXPECT_EQ(window_->view().suggestionAngleDeg(), 60.0);
+  auto* undo = window_->action(ActionId::Undo);
+  window_->setStage(PanelStage::Fairing);
+  undo->trigger();
+  EXPECT_EQ(find<QLabel>("status.hint")->text(), QStringLiteral("Undone in Corners: Sharper than."));
+  EXPECT_EQ(window_->view().suggestionAngleDeg(), angle);
+  EXPECT_EQ(window_->view().suggestionScalePx(), 40.0);
+  undo->trigger();
+  EXPECT_EQ(window_->view().suggestionScalePx(), scale);
+  EXPECT_EQ(session().recipe().threshold.strength, 1.4);
+  undo->trigger();
+  EXPECT_NE(session().recipe().threshold.strength, 1.4);
+  ASSERT_TRUE(settle());
+  for (int i = 0; i < 3; ++i) window_->action(ActionId::Redo)->trigger();
+  EXPECT_EQ(window_->view().suggestionAngleDeg(), 60.0);
+  EXPECT_EQ(session().recipe().threshold.strength, 1.4);
+  ASSERT_TRUE(settle());
+}
+
+TEST_F(Habits, WhatChangesNoCurveIsNoUnsavedWork) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  window_->setStage(PanelStage::Corners);
+  type(find<QLineEdit>("corners.suggestScale.field"), QStringLiteral("40"));
+  EXPECT_FALSE(session().hasUnsavedChanges());
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  EXPECT_TRUE(session().hasUnsavedChanges());
+  EXPECT_TRUE(window_->isWindowModified());
+}
+
 TEST_F(Habits, EveryStageKnowsItsChanges) {
   const Recipe plain;
   const auto stageOf = [&](const auto& edit) {

@@ -2,6 +2,7 @@
 // Where work is saved, what the window is then called, and how it is found again.
 #include <gtest/gtest.h>
 
+#include <QAbstractButton>
 #include <QAction>
 #include <QDir>
 #include <QFileDialog>
@@ -11,6 +12,7 @@
 
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
+#include "ui/error_strip.h"
 #include "ui/new_drawing_dialog.h"
 
 namespace batten {
@@ -105,6 +107,61 @@ TEST_F(Saving, TheFolderIsRememberedAndTheProgramsOwnIsNotProposed) {
   window_->beginDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
   ASSERT_TRUE(waitUntil([this] { return session().isBlankPage() && !session().isBusy(); }));
   EXPECT_EQ(proposed([this] { save(); }).dir(), QDir(work));
+}
+
+// The folder of the sample is the program's, so its recipe cannot lie beside it.
+TEST_F(Saving, WorkSavedElsewhereIsFoundAmongTheRecentFilesAndSavedThereAgain) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  ASSERT_TRUE(QDir(folder_.path()).mkdir(QStringLiteral("work")));
+  const QString target = folder_.filePath(QStringLiteral("work/mine.recipe.json"));
+  saveAs(target, [this] { save(); });
+  const Recipe work = session().recipe();
+  EXPECT_EQ(MainWindow::recentFiles().value(0), target);
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  auto* menu = find<QMenu>("recentMenu");
+  emit menu->aboutToShow();
+  ASSERT_FALSE(menu->actions().isEmpty());
+  const QString entry = menu->actions().first()->text();
+  EXPECT_TRUE(entry.startsWith(QStringLiteral("mine.recipe.json"))) << entry.toStdString();
+  EXPECT_TRUE(entry.endsWith(QStringLiteral("work"))) << entry.toStdString();
+  menu->actions().first()->trigger();
+  ASSERT_TRUE(waitUntil([&] { return session().hasScan() && !session().isBusy(); }));
+  EXPECT_EQ(session().scanPath(), path_);
+  EXPECT_EQ(session().recipe(), work);
+  EXPECT_FALSE(session().hasUnsavedChanges());
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  save();  // no dialog
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_EQ(saved(target), session().recipe());
+  // The next start goes on with it.
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  window_->openAtStart({});
+  EXPECT_TRUE(waitUntil([&] { return session().hasScan() && session().recipe() == saved(target); }));
+  ASSERT_TRUE(settle());
+}
+
+TEST_F(Saving, TheScanAloneOffersTheWorkThatWasSavedOnIt) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  ASSERT_TRUE(QDir(folder_.path()).mkdir(QStringLiteral("work")));
+  const QString target = folder_.filePath(QStringLiteral("work/mine.recipe.json"));
+  saveAs(target, [this] { save(); });
+  const Recipe work = session().recipe();
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  ASSERT_NO_FATAL_FAILURE(openFile(path_));
+  ASSERT_NE(session().recipe(), work);
+  auto* strip = find<ErrorStrip>("errorStrip");
+  ASSERT_TRUE(waitUntil([&] { return strip->message().contains(QStringLiteral("mine.recipe.json")); }, 5000));
+  QTest::mouseClick(find<QAbstractButton>("error.action"), Qt::LeftButton);
+  ASSERT_TRUE(waitUntil([&] { return session().recipe() == work; }));
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(strip->message().isEmpty());
+  // A file that is gone is not offered.
+  ASSERT_TRUE(QFile::remove(target));
+  ASSERT_NO_FATAL_FAILURE(openFile(path_));
+  QTest::qWait(200);  // longer than looking for a file takes
+  EXPECT_TRUE(strip->message().isEmpty()) << strip->message().toStdString();
 }
 
 TEST_F(Saving, RecentFilesOfOneNameAreToldApartByTheirFolders) {

@@ -33,6 +33,7 @@ constexpr double kLargestRadius = 20.0;  // extents that a plot shows
 /// Of the largest radius shown: where the lines of the radius end. So far above the plot that a line to a straight
 /// stretch leaves it steeply.
 constexpr double kFarAbove = 1000.0;
+constexpr double kLeastSeen = 0.06;     // of the range that is shown: less of a line below its upper edge is a speck
 constexpr double kMostlyBelow = 0.9;    // of the samples, on a linear axis
 constexpr int kSamples = 400;           // along a curve
 constexpr int kDeviationSamples = 160;  // along a curve
@@ -166,6 +167,26 @@ void fitRange(PlotData& data, double padding) {
   // Within the plot, where they can be dragged.
   for (PlotPoint& handle : data.handles)
     if (data.most) handle.value = std::min(handle.value, data.high);
+}
+
+/// A line that comes down from above the plot only to turn back at its upper edge is left out there: what is seen of it
+/// would be a speck.
+void dropSpecks(PlotData& data) {
+  const auto levelOf = [&](double value) { return data.logarithmic ? std::log(std::max(value, 1e-300)) : value; };
+  const double high = levelOf(data.high), edge = high - kLeastSeen * (high - levelOf(data.low));
+  for (PlotSeries& series : data.series) {
+    std::vector<PlotPoint>& points = series.points;
+    for (std::size_t i = 0; i < points.size();) {
+      std::size_t end = i;
+      double lowest = high;
+      while (end < points.size() && levelOf(points[end].value) < high)
+        lowest = std::min(lowest, levelOf(points[end++].value));
+      const bool isEnclosed = i > 0 && end < points.size();
+      if (end > i && isEnclosed && lowest > edge)
+        for (std::size_t k = i; k < end; ++k) points[k].value = std::max(points[i - 1].value, points[end].value);
+      i = std::max(end, i) + 1;
+    }
+  }
 }
 
 /// [mm] Where a linear axis of the radius ends: straight stretches would press all others flat.
@@ -349,6 +370,7 @@ PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged, bool
   }
   data.runsLeft = runsLeft(*curve, session.output().frame);
   fitRange(data, tab == PlotTab::Radius ? 0.06 : 0.12);
+  if (tab == PlotTab::Radius) dropSpecks(data);
   if (tab == PlotTab::Speed) widenSpeedRange(data);
   return data;
 }

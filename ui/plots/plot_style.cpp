@@ -17,14 +17,12 @@ constexpr double kFewestDecades = 4.0;  // on an axis whose labels are powers of
 }  // namespace
 
 QPen penOf(PlotRole role, const Theme& theme) {
-  QColor faint = theme.text, grey = theme.mute;
-  faint.setAlphaF(0.22F);
-  grey.setAlphaF(0.9F);
+  const QColor grey = theme.mute;
   QPen dashed(theme.amber, 1.6);
   dashed.setDashPattern({5, 3.5});
   switch (role) {
     case PlotRole::Target:
-      return {faint, 1};
+      return {theme.faint, 1.5};
     case PlotRole::HoveredTarget:
       return {theme.text, 1.6};
     case PlotRole::ChosenTarget:
@@ -40,7 +38,7 @@ QPen penOf(PlotRole role, const Theme& theme) {
     case PlotRole::Sketched:
       break;
   }
-  return {grey, 1.2};
+  return {grey, 1.8};
 }
 
 QString quantityText(PlotTab tab) {

@@ -4,6 +4,7 @@
 #include <qcustomplot.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -19,6 +20,10 @@ constexpr double kFromCurvePx = 10.0;  // half the height of a number, and a lit
 constexpr double kFromOthersPx = 4.0;  // from the lines of other targets: so that it is seen on which one it stands
 constexpr double kLookPx = 3.0;        // between the places of a line that are looked at
 constexpr double kFromEdgePx = 8.0;    // of the plot
+/// Up and down: where a number may stand beside its line, in the order in which places are tried.
+constexpr std::array kBesidePx = {0.0, -13.0, 13.0, -22.0, 22.0, -32.0, 32.0};
+/// Of kFromCurvePx: nearer than that a number lies on a curve.
+constexpr double kOffCurve = 0.8;
 
 bool isTarget(const PlotSeries& series) {
   return series.role == PlotRole::Target || series.role == PlotRole::ChosenTarget ||
@@ -74,24 +79,29 @@ void TargetLabels::placeOne(std::size_t line, std::vector<QPointF>& taken) {
   const QCPRange shown = plot_->xAxis->range();
   const QRectF inside =
       QRectF(plot_->axisRect()->rect()).adjusted(kFromEdgePx, kFromEdgePx, -kFromEdgePx, -kFromEdgePx);
-  // Each begins at a place of its own and looks on from there for one that is clear, or as clear as there is.
+  // Each begins at a place of its own and looks on from there for one that is clear, or as clear as there is; on its
+  // line, or else beside it, but never on a curve.
   const int first = (static_cast<int>(line) * kSlots / static_cast<int>(lines_.size()) + kSlots / 12) % kSlots;
   double best = 0.0;
   std::optional<QPointF> found;
-  for (int k = 0; k < kSlots && best < 1.0; ++k) {
-    const double s = shown.lower + shown.size() * ((first + k) % kSlots + 0.5) / kSlots;
-    const QPointF at(plot_->xAxis->coordToPixel(s), plot_->yAxis->coordToPixel(lines_[line].at(s)));
-    const auto isNear = [&](const QPointF& other) {
-      return std::hypot(other.x() - at.x(), other.y() - at.y()) < kApartPx;
-    };
-    if (!std::isfinite(at.y()) || !inside.contains(at) || std::any_of(taken.begin(), taken.end(), isNear)) continue;
-    double clear = 1.0;
-    for (const PlotSeries& curve : curves_) clear = std::min(clear, passesBy(curve, at) / kFromCurvePx);
-    for (std::size_t other = 0; other < lines_.size(); ++other)
-      if (other != line) clear = std::min(clear, passesBy(lines_[other], at) / kFromOthersPx);
-    if (found && clear <= best) continue;
-    best = clear;
-    found = at;
+  for (const double beside : kBesidePx) {
+    if (found) break;
+    for (int k = 0; k < kSlots && best < 1.0; ++k) {
+      const double s = shown.lower + shown.size() * ((first + k) % kSlots + 0.5) / kSlots;
+      const QPointF at(plot_->xAxis->coordToPixel(s), plot_->yAxis->coordToPixel(lines_[line].at(s)) + beside);
+      const auto isNear = [&](const QPointF& other) {
+        return std::hypot(other.x() - at.x(), other.y() - at.y()) < kApartPx;
+      };
+      if (!std::isfinite(at.y()) || !inside.contains(at) || std::any_of(taken.begin(), taken.end(), isNear)) continue;
+      double clear = 1.0;
+      for (const PlotSeries& curve : curves_) clear = std::min(clear, passesBy(curve, at) / kFromCurvePx);
+      if (clear < kOffCurve) continue;
+      for (std::size_t other = 0; other < lines_.size(); ++other)
+        if (other != line) clear = std::min(clear, passesBy(lines_[other], at) / kFromOthersPx);
+      if (found && clear <= best) continue;
+      best = clear;
+      found = at;
+    }
   }
   texts_[line]->setVisible(found.has_value());
   if (!found) return;

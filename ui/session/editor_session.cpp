@@ -51,6 +51,10 @@ void EditorSession::openScan(const QString& path, const std::optional<PageChoice
   runner_->read(path, page, std::nullopt);
 }
 
+void EditorSession::openSaved(const QString& path, const Recipe& recipe) {
+  runner_->read(path, std::nullopt, recipe, false);
+}
+
 void EditorSession::newDrawing(const Recipe& recipe) { runner_->begin(recipe, false); }
 
 void EditorSession::restore(const QString& path, const Recipe& recipe) {

@@ -47,6 +47,8 @@ class EditorSession : public QObject {
   /// drawing stays until the new one is there.
   /// @param page of a file of several; absent: that of the recipe, else the first.
   void openScan(const QString& path, const std::optional<PageChoice>& page = {});
+  /// Reads a scan to go on with work saved elsewhere: with this recipe, which counts as saved.
+  void openSaved(const QString& path, const Recipe& recipe);
   /// What a scan opens with that has no recipe beside it; the program's defaults unless set.
   void setStartRecipe(const Recipe& recipe) { startRecipe_ = recipe; }
   /// Begins a drawing without a scan, on white paper of the size recipe.page, with this recipe. The paper is made in
@@ -62,14 +64,17 @@ class EditorSession : public QObject {
   /// The picture as it was read.
   std::shared_ptr<const Scan> picture() const { return picture_; }
   QString scanPath() const;
-  /// True if the drawing opened with the recipe beside it.
+  /// True if the drawing opened with a saved recipe: the one beside it, or that of openSaved().
   bool openedWithRecipe() const;
   /// True if the drawing was opened by restore().
   bool wasRestored() const;
   /// True while the recipe differs from what was opened or saved last.
-  bool hasUnsavedChanges() const { return scan_ && !undo_.isClean(); }
+  bool hasUnsavedChanges() const { return scan_ && !undo_.isClean() && saved_ != recipe_; }
   /// The present recipe is on disk.
-  void markSaved() { undo_.setClean(); }
+  void markSaved() {
+    saved_ = recipe_;
+    undo_.setClean();
+  }
   /// Why the recipe beside the drawing was not used; empty = there was none, or it was.
   QString openProblem() const;
 
@@ -195,6 +200,7 @@ class EditorSession : public QObject {
   std::unique_ptr<Runner> runner_;
   std::shared_ptr<const Scan> picture_, scan_;  ///< The same while the page is not rectified.
   Recipe recipe_, startRecipe_;
+  std::optional<Recipe> saved_;  ///< As it is on disk; none: never saved.
   PipelineOutput output_;
   std::shared_ptr<const CoarseResult> coarse_;
   mutable KnownOwners known_;

@@ -54,7 +54,8 @@ QString RecipeJournal::newFile() const {
 
 void RecipeJournal::write() {
   const bool isHeld = lock_ && lock_->hold();
-  if (!session_.hasUnsavedChanges()) return;
+  // What was undone in part may be what is saved.
+  if (!session_.hasUnsavedChanges()) return written_ ? forget() : void();
   if (isHeld && written_ && *written_ == session_.recipeToSave() && QFile::exists(file_)) return;
   if (!isHeld) {
     // The file may be somebody else's by now, or is not there yet.

@@ -40,7 +40,9 @@ class JobStart {
 struct EditorSession::Runner {
   explicit Runner(EditorSession&);
 
-  void read(const QString& path, const std::optional<PageChoice>& page, const std::optional<Recipe>& restored);
+  /// @param recipe to open with, whatever lies beside the scan; `isRestored`: it was never saved.
+  void read(const QString& path, const std::optional<PageChoice>& page, const std::optional<Recipe>& recipe,
+            bool isRestored = true);
   void begin(const Recipe&, bool isRestored);
   void run();
   void computeTargets();

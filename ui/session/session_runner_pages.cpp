@@ -32,19 +32,20 @@ void EditorSession::Runner::open(const QString& scanPath, bool isRestored, ScanJ
 }
 
 void EditorSession::Runner::read(const QString& scanPath, const std::optional<PageChoice>& page,
-                                 const std::optional<Recipe>& restored) {
+                                 const std::optional<Recipe>& recipe, bool isRestored) {
   const Recipe& start = session.startRecipe_;
-  open(scanPath, restored.has_value(), [scanPath, page, restored, start](const CancelToken& token) {
+  open(scanPath, recipe && isRestored, [scanPath, page, recipe, isRestored, start](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto opened = openWithRecipe(nativePath(scanPath), restored ? std::optional(restored->scanPage) : page, context);
+    auto opened = openWithRecipe(nativePath(scanPath), recipe ? std::optional(recipe->scanPage) : page, context);
     if (opened && !opened->hasRecipe) {
       const PageChoice of = opened->recipe.scanPage;
       opened->recipe = start;
       opened->recipe.scanPage = of;
     }
-    if (opened && restored) {
-      opened->recipe = *restored;
+    if (opened && recipe) {
+      opened->recipe = *recipe;
+      opened->hasRecipe = opened->hasRecipe || !isRestored;
       opened->problem.clear();
     }
     return opened;
@@ -121,7 +122,11 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   session.selectedCorner_.reset();
   ++recipeGeneration;
   session.undo_.clear();
-  if (isRestored) session.undo_.resetClean();
+  session.saved_ = session.recipe_;
+  if (isRestored) {
+    session.saved_.reset();
+    session.undo_.resetClean();
+  }
   clearFailure();
   emit session.scanOpened();
   emit session.recipeChanged();

@@ -132,6 +132,12 @@ void ViewSettings::setShowsMaskUncleaned(bool shows) {
   emit changed();
 }
 
+void ViewSettings::setComparesPinned(bool compares) {
+  if (comparesPinned_ == compares) return;
+  comparesPinned_ = compares;
+  emit changed();
+}
+
 void ViewSettings::setMeasure(std::optional<Measure> measure) {
   if (!measure && !measure_) return;
   measure_ = measure;

@@ -104,6 +104,8 @@ class ViewSettings : public QObject {
   void setShowsUniformKnots(bool);
   bool showsMaskUncleaned() const { return maskUncleaned_; }  ///< While thresholds are set: the ink as they find it.
   void setShowsMaskUncleaned(bool);
+  bool comparesPinned() const { return comparesPinned_; }  ///< Where curves are judged: the pinned ones lie over them.
+  void setComparesPinned(bool);
   /// Two places of the page between which the user has measured, whose distance is not told yet [px].
   struct Measure {
     Vec2 fromPx = Vec2::Zero(), toPx = Vec2::Zero();
@@ -142,7 +144,7 @@ class ViewSettings : public QObject {
   std::optional<SheetCorners> sheetCorners_;
   EdgeMode paintedMode_ = EdgeMode::Outline;
   double brushPx_ = 12.0;
-  bool scanOnly_ = false, showsUniform_ = false, maskUncleaned_ = false;
+  bool scanOnly_ = false, showsUniform_ = false, maskUncleaned_ = false, comparesPinned_ = false;
   bool combShowsRadius_ = false, radiusIsLinear_ = false;
 };
 

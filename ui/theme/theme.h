@@ -17,6 +17,7 @@ namespace batten {
 struct Theme {
   bool dark = false;
   QColor background, panel, line, text, mute, accent, onAccent, selection, hover, good, amber, bad;
+  QColor faint;  ///< Lines that lie over one another in a plot: no stronger than it takes to see each of them.
 };
 
 enum class ThemeChoice { System, Light, Dark };

@@ -2,6 +2,7 @@
 #include "core/fairing/structure/monotone_fairing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -24,7 +25,11 @@ constexpr int kMostTargetSamples = 600;
 /// A target is followed until the curve has left the sketch by so many times what is wanted.
 constexpr double kTargetReach = 2.0;
 
-std::string millimetres(double mm) { return significantText(mm, 3) + " mm"; }
+/// Three digits, rounded up: a tolerance that is said to be enough has to be.
+std::string millimetres(double mm) {
+  const double digit = mm > 0.0 ? std::pow(10.0, std::floor(std::log10(mm)) - 2.0) : 1.0;
+  return significantText(std::ceil(mm / digit - 1e-9) * digit, 3) + " mm";
+}
 
 std::string extremaText(int count) {
   if (count == 0) return "monotone curvature";
@@ -49,6 +54,8 @@ class MonotoneFairing {
 
  private:
   double most() const { return kKeptShare * params_.toleranceMm; }
+  /// The tolerance that lets a curve move so far, with what rounding takes.
+  static double toleranceFor(double deviationMm) { return deviationMm * (1.0 + 1e-12) / kKeptShare; }
 
   Result<FairedCurve> byPlace() {
     auto wanted = candidates_.nearestWith(params_.keptAt);
@@ -129,7 +136,7 @@ class MonotoneFairing {
     if (found.deviationMm == 0.0 && sketched > 0 && params_.keptAt.empty() && !params_.keepExtrema.count)
       report.note = "No extremum can be removed within the tolerance." + heldEndsNote(sketched - 1);
     report.iterations = iterations_ + candidates_.iterations();
-    report.neededMm = needed.value_or(found.deviationMm);
+    report.neededMm = toleranceFor(needed.value_or(found.deviationMm));
     return asFaired(setup_, found, std::move(report));
   }
 
@@ -176,9 +183,10 @@ class MonotoneFairing {
     const std::string asked = byCount ? extremaText(count) : "these extrema";
     report.why = needed ? Termination::ToleranceLimited : Termination::NoProgress;
     report.withinTolerance = false;
-    report.neededMm = needed;
+    report.neededMm.reset();
+    if (needed) report.neededMm = toleranceFor(*needed);
     report.note = needed ? "A curve with " + asked + " needs a tolerance of " +
-                               millimetres(*needed + setup_.claimedMm()) + "; " + kept
+                               millimetres(*report.neededMm + setup_.claimedMm()) + "; " + kept
                          : "No curve with " + asked + " was found; " + kept;
     if (!needed && setup_.closed && count < kLeastOfClosed)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;

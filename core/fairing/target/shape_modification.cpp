@@ -98,10 +98,10 @@ class ShapeModification {
     best_.extrema = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
     report_.objectiveBefore = std::sqrt(best_.misfit);
     const TargetStep& full = fullStep();
-    report_.neededMm = full.deviationMm;
+    report_.neededMm = toleranceFor(full.deviationMm);
     metMisfit_ = full.misfit;
     if (!isFiltered_) takeUpTo(toleranceMm_);
-    report_.withinTolerance = !courses_.front().followed.endsEarly() && full.deviationMm <= kTargetRoom * toleranceMm_;
+    report_.withinTolerance = !courses_.front().followed.endsEarly() && *report_.neededMm <= toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     if (isFiltered_) {
       useEach();
@@ -115,10 +115,10 @@ class ShapeModification {
     if (context_.isCancelled()) return cancelled();
     return done();
   }
-  /// What meeting the target takes; nothing where no course came to it.
+  /// The tolerance that meets the target; nothing where no course came to it.
   std::optional<double> neededMm() const {
     if (courses_.empty() || isBeyond()) return std::nullopt;
-    return fullStep().deviationMm;
+    return toleranceFor(fullStep().deviationMm);
   }
 
  private:

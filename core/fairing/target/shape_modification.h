@@ -15,6 +15,8 @@ namespace batten {
 /// Part of the tolerance that meeting a target may take: the rest is room for what lies between the places where the
 /// deviation is measured.
 inline constexpr double kTargetRoom = 0.999;
+/// [mm] The tolerance that has this room beside a deviation, with what rounding takes.
+inline double toleranceFor(double deviationMm) { return deviationMm * (1.0 + 1e-12) / kTargetRoom; }
 
 /// Moves the control points until the curvature follows the profile as far as the tolerance allows (000 VII, 003
 /// section 4): Levenberg-Marquardt with the end points pinned in a null-space basis, at fidelity weights that do not
@@ -42,7 +44,7 @@ struct ModificationEffort {
 Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
                                 double toleranceMm, const RunContext& context, ModificationEffort effort = {});
 
-/// What meeting the target takes of this setup, whatever the tolerance: [mm]. Nothing where that is much more than
+/// The tolerance that meets the target of this setup: [mm]. Nothing where that is much more than
 /// `mostMm`, or where the curve cannot be moved.
 std::optional<double> neededWithin(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
                                    double mostMm, const RunContext& context);

@@ -66,6 +66,15 @@ TEST_F(ExportFile, WritesEveryFormatAndStatesTheDifference) {
   }
 }
 
+TEST_F(ExportFile, WhatRoundingLeavesIsNoJump) {
+  ExportReport report;
+  report.curves = 1;
+  report.largestJump = 4.1e-10;
+  EXPECT_NE(sentenceOf(report).find("no jumps of curvature"), std::string::npos) << sentenceOf(report);
+  report.largestJump = 0.02;
+  EXPECT_NE(sentenceOf(report).find("curvature jumps by 2 % at most"), std::string::npos) << sentenceOf(report);
+}
+
 TEST_F(ExportFile, WritesRationalCurvesAsPolynomials) {
   const ExportDocument document = exportOfAllDegrees();
   const auto isRational = [](const ExportCurve& line) { return line.pieces.front().curve.isRational(); };

@@ -201,7 +201,8 @@ TEST(LargerTolerance, ANumberOfExtremaNeedsNoMoreThanTheWayThatReachesIt) {
     params.keepExtrema = {fewest->report.extremaAfter};
     const auto asked = fair(line, false, params, {});
     ASSERT_TRUE(asked);
-    EXPECT_LE(asked->report.neededMm.value(), fewest->report.maxDeviationMm * (1.0 + 1e-9));
+    constexpr double kRoom = 1.0 / 0.999;  // of a tolerance beside the deviation
+    EXPECT_LE(asked->report.neededMm.value(), kRoom * fewest->report.maxDeviationMm * (1.0 + 1e-9));
     EXPECT_TRUE(asked->report.withinTolerance);
   }
 }
@@ -237,8 +238,8 @@ TEST(LargerTolerance, WhatANumberOfExtremaNeedsIsEnough) {
     ASSERT_TRUE(tight);
     if (tight->report.withinTolerance) continue;
     ASSERT_GT(tight->report.neededMm.value_or(0.0), 0.0) << "line " << i << ": " << tight->report.note;
-    params.toleranceMm = std::min(20.0, 1.002 * *tight->report.neededMm);
-    if (params.toleranceMm < *tight->report.neededMm) continue;
+    if (*tight->report.neededMm > 20.0) continue;
+    params.toleranceMm = *tight->report.neededMm;
     const auto wide = fair(line, false, params, {});
     ASSERT_TRUE(wide);
     EXPECT_EQ(wide->report.extremaAfter, 0) << "line " << i << ": " << wide->report.note;

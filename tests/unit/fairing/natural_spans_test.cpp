@@ -180,7 +180,7 @@ TEST(NaturalTargets, NeedTheSameWhateverTheTolerance) {
         extrema[i] = std::min(extrema[i], report.extremaAfter);
         if (now > tolerance) {
           EXPECT_FALSE(report.withinTolerance);
-        } else if (now < 0.998 * tolerance && !report.withinTolerance) {
+        } else if (now < (1.0 - 1e-9) * tolerance && !report.withinTolerance) {
           EXPECT_NE(report.note.find("curvature extrem"), std::string::npos) << report.note;
         }
         const auto chosen = fair(line, false, toTarget(static_cast<int>(i) + 1, tolerance), {});

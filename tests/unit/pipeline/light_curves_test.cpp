@@ -315,8 +315,7 @@ TEST(LightCurves, MonotoneIsReachedWithTheToleranceThatItSaysItNeeds) {
     ASSERT_FALSE(small.error);
     const double needed = small.faired->curves.front().fairing.neededMm.value_or(0.0);
     ASSERT_GT(needed, 0.01);
-    // As the link in the panel raises it: up to three digits.
-    recipe.fairing.toleranceMm = std::ceil(1000.0 * needed / 0.999) / 1000.0;
+    recipe.fairing.toleranceMm = needed;
     const auto raised = runPipeline(scan, recipe, cache, {}, {});
     ASSERT_FALSE(raised.error);
     const FairingReport& report = raised.faired->curves.front().fairing;

@@ -105,8 +105,12 @@ void paintChips(QPainter& painter, const CanvasScene& scene) {
   // Nothing is said of a curve that is not drawn, and nothing lies over the regions while they are worked on.
   const bool isCurveDrawn = scene.view.isVisible(Layer::Curve) || scene.view.isVisible(Layer::Faired);
   if (isCurveDrawn) paintChip(painter, scene, curveText(scene), ChipPlace::TopLeft);
-  paintChip(painter, scene, workText(scene), ChipPlace::TopRight);
-  if (scene.view.tool() != Tool::Thresholds) paintChip(painter, scene, pageText(scene), ChipPlace::BottomLeft);
+  const bool areRegionsWorkedOn = scene.view.tool() == Tool::Thresholds;
+  if (areRegionsWorkedOn)
+    paintChipBesidePage(painter, scene, workText(scene));
+  else
+    paintChip(painter, scene, workText(scene), ChipPlace::TopRight);
+  if (!areRegionsWorkedOn) paintChip(painter, scene, pageText(scene), ChipPlace::BottomLeft);
   paintChip(painter, scene, cursorText(scene), ChipPlace::BottomRight);
 }
 

@@ -116,10 +116,7 @@ void paintMarks(QPainter& painter, const CanvasScene& scene, const CurveComb& co
   for (const CombMark& mark : comb.marks) {
     const QPointF foot = transform.toWidget(mark.px);
     if (mark.isInflection) {
-      painter.setPen(QPen(colors::accent(), 1.3));
-      painter.setBrush(Qt::white);
-      painter.drawPolygon(QPolygonF(
-          {foot + QPointF(0, -4.5), foot + QPointF(4.5, 0), foot + QPointF(0, 4.5), foot + QPointF(-4.5, 0)}));
+      paintInflection(painter, foot);
       continue;
     }
     // A quill that is cut says so itself.
@@ -136,6 +133,13 @@ void paintMarks(QPainter& painter, const CanvasScene& scene, const CurveComb& co
 }
 
 }  // namespace
+
+void paintInflection(QPainter& painter, QPointF at) {
+  painter.setPen(QPen(colors::accent(), 1.3));
+  painter.setBrush(Qt::white);
+  painter.drawPolygon(
+      QPolygonF({at + QPointF(0, -4.5), at + QPointF(4.5, 0), at + QPointF(0, 4.5), at + QPointF(-4.5, 0)}));
+}
 
 CombScale combScale(const CanvasScene& scene) {
   const CurveComb* reference = scene.selectedComb();

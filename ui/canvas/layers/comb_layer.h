@@ -16,4 +16,7 @@ CombScale combScale(const CanvasScene&);
 /// Where the quill of a point ends [widget px].
 QPointF combTip(const CombPoint&, const CombScale&, const ViewTransform&);
 
+/// The mark of an inflection at a place of the view.
+void paintInflection(QPainter&, QPointF at);
+
 }  // namespace batten

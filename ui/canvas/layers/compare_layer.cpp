@@ -13,9 +13,7 @@ void paintUniform(QPainter& painter, const CanvasScene& scene) {
 }
 
 void paintPinned(QPainter& painter, const CanvasScene& scene) {
-  // It is set beside curves; where none are drawn it would only lie over the ink.
-  const bool areCurvesShown = scene.view.isVisible(Layer::Curve) || scene.view.isVisible(Layer::Faired);
-  if (!scene.overlay || scene.overlay->pinned.isEmpty() || !areCurvesShown) return;
+  if (!scene.overlay || scene.overlay->pinned.isEmpty() || !scene.view.comparesPinned()) return;
   ImagePainter image(painter, scene);
   image.stroke(scene.overlay->pinned, colors::pinned(), 1.8, Qt::DashLine);
 }

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kMarkRadius = 4.5, kRingRadius = 8.0;  // [widget px]
 
-void paintMark(QPainter& painter, const ExtremumMark& mark, QPointF at) {
+}  // namespace
+
+void paintExtremum(QPainter& painter, const ExtremumMark& mark, QPointF at) {
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(QColor(255, 255, 255, 220), 4.0));
   painter.drawEllipse(at, kMarkRadius, kMarkRadius);
@@ -27,8 +29,6 @@ void paintMark(QPainter& painter, const ExtremumMark& mark, QPointF at) {
   if (!*mark.wantedToKeep) painter.drawLine(at + QPointF(-5.6, 5.6), at + QPointF(5.6, -5.6));
 }
 
-}  // namespace
-
 void paintExtrema(QPainter& painter, const CanvasScene& scene) {
   if (scene.extrema.empty()) return;
   painter.save();
@@ -39,7 +39,7 @@ void paintExtrema(QPainter& painter, const CanvasScene& scene) {
   for (const bool kept : {false, true})
     for (const ExtremumMark& mark : scene.extrema)
       if (mark.isKept == kept && isWithin(seen, mark.px, margin))
-        paintMark(painter, mark, scene.transform.toWidget(mark.px));
+        paintExtremum(painter, mark, scene.transform.toWidget(mark.px));
   painter.restore();
 }
 

@@ -11,4 +11,7 @@ namespace batten {
 /// Curvature extrema of the selected curve: filled = certain, half = probable, hollow = dropped, ringed = the user's.
 void paintExtrema(QPainter&, const CanvasScene&);
 
+/// One mark at a place of the view.
+void paintExtremum(QPainter&, const ExtremumMark&, QPointF at);
+
 }  // namespace batten

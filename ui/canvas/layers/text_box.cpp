@@ -35,16 +35,33 @@ QSizeF boxSize(const CanvasScene& scene, const QString& text, double padX, doubl
 
 }  // namespace
 
-void paintChip(QPainter& painter, const CanvasScene& scene, const QString& text, ChipPlace place) {
-  if (text.isEmpty()) return;
+namespace {
+
+QRectF chipBox(const CanvasScene& scene, const QString& text, ChipPlace place) {
   const QSizeF size = boxSize(scene, text, kPadX, kPadY);
   const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
   const bool right = place == ChipPlace::TopRight || place == ChipPlace::BottomRight;
   const bool bottom = place == ChipPlace::BottomLeft || place == ChipPlace::BottomRight;
   const QPointF corner(right ? view.width() - kMargin - size.width() : kMargin,
                        bottom ? view.height() - kMargin - size.height() : kMargin);
-  const QRectF box(corner, size);
+  return {corner, size};
+}
+
+}  // namespace
+
+void paintChip(QPainter& painter, const CanvasScene& scene, const QString& text, ChipPlace place) {
+  if (text.isEmpty()) return;
+  const QRectF box = chipBox(scene, text, place);
   if (!scene.mouse || !box.contains(*scene.mouse)) paintBox(painter, scene, text, box, 0.93);
+}
+
+void paintChipBesidePage(QPainter& painter, const CanvasScene& scene, const QString& text) {
+  if (text.isEmpty()) return;
+  const QSize size = scene.transform.imageSize();
+  const QRectF page(scene.transform.toWidget({0.0, 0.0}),
+                    scene.transform.toWidget({static_cast<double>(size.width()), static_cast<double>(size.height())}));
+  for (const ChipPlace place : {ChipPlace::TopRight, ChipPlace::BottomRight, ChipPlace::TopLeft, ChipPlace::BottomLeft})
+    if (!chipBox(scene, text, place).intersects(page)) return paintChip(painter, scene, text, place);
 }
 
 bool isBesideChips(const CanvasScene& scene, QPointF mouse) {

@@ -234,10 +234,10 @@ class ThresholdTool final : public CanvasTool {
       // On a light ground of its own: there may be ink below.
       const QRectF text(rectOf(r).topLeft() + QPointF(5.0, 3.0), QSizeF(painter.fontMetrics().size(0, number)));
       painter.setPen(Qt::NoPen);
-      painter.setBrush(QColor(255, 255, 255, isCertain ? 190 : 110));
+      painter.setBrush(QColor(255, 255, 255, 225));
       painter.drawRoundedRect(text.adjusted(-2.0, -0.5, 2.0, 0.5), 2.0, 2.0);
       painter.setBrush(Qt::NoBrush);
-      painter.setPen(isOwn ? colors::accent() : QColor(30, 30, 30, isCertain ? 210 : 110));
+      painter.setPen(isOwn ? colors::accent() : isCertain ? QColor(30, 30, 30) : QColor(96, 96, 96));
       painter.drawText(text, Qt::AlignCenter, number);
     }
     if (!hovered_) return;

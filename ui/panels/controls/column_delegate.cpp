@@ -71,9 +71,10 @@ void ColumnDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option
   for (int c = 0; c < std::ssize(alignments_) && c < parts.size(); ++c) {
     const QRect box = columnRect(option.rect, c);
     const bool isLastOfRow = c + 1 == std::ssize(alignments_);
-    painter->drawText(
-        box, Qt::AlignVCenter | alignments_[c],
-        isLastOfRow ? painter->fontMetrics().elidedText(parts[c], Qt::ElideRight, box.width()) : parts[c]);
+    // Digits of one number may be wider than the zeros that were measured: there is room up to the end of the row.
+    const int room = option.rect.right() - box.left();
+    painter->drawText(box, Qt::AlignVCenter | alignments_[c] | Qt::TextDontClip,
+                      isLastOfRow ? painter->fontMetrics().elidedText(parts[c], Qt::ElideRight, room) : parts[c]);
   }
   painter->restore();
 }

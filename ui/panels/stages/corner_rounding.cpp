@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/setting_name.h"
@@ -72,6 +73,7 @@ void CornerRounding::buildChoices() {
       tr("Continuity with the adjacent curves. G1: tangent, by two typical curves. G2: curvature. "
          "G3: rate of change of curvature."));
   setSettingName(joint_, tr("Continuity of the rounding"));
+  for (QWidget* one : {roundBy_, joint_}) keepRoom(one);
   auto* choices = new QHBoxLayout;
   choices->addWidget(roundBy_, 1);
   choices->addWidget(joint_, 1);

@@ -18,21 +18,19 @@
 #include "core/contour/corner/corner_suggestions.h"
 #include "ui/panels/controls/column_delegate.h"
 #include "ui/panels/controls/hint_list.h"
-#include "ui/panels/controls/number_field.h"
+#include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
-#include "ui/panels/controls/slider_track.h"
 #include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/corner_rounding.h"
+#include "ui/panels/stages/suggestion_sliders.h"
 #include "ui/session/suggestion_source.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
 namespace {
 
-constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;  // range of the slider
-constexpr int kRows = 6;                                            // of the lists
-constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;       // range of the slider
+constexpr int kRows = 6;  // of the lists
 
 QString across(const Vec2& px) { return QString::number(px.x(), 'f', 1); }
 QString down(const Vec2& px) { return QCoreApplication::translate("CornersPanel", "%1 px").arg(px.y(), 0, 'f', 1); }
@@ -62,16 +60,12 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       session_(session),
       view_(view),
       marks_(new HintList(tr("No corner is marked yet."), kRows, this)),
-      found_(note({}, this)),
+      found_(new LinesNote(2, this)),
       restore_(plainButton(tr("Restore all"), QStringLiteral("corners.restore"), this)),
       close_(note({}, this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
       rounding_(new CornerRounding(this)),
-      angle_(new NumberField(this)),
-      angleTrack_(new SliderTrack(this)),
-      scale_(new NumberField(this)),
-      scaleTrack_(new SliderTrack(this)),
       suggested_(new HintList(tr("No further candidate above this angle."), kRows, this)),
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
@@ -96,7 +90,7 @@ QVBoxLayout* CornersPanel::column() const { return static_cast<QVBoxLayout*>(lay
 void CornersPanel::buildFound() {
   found_->setObjectName(QStringLiteral("corners.found"));
   column()->addWidget(found_);
-  column()->addWidget(restore_);
+  column()->addWidget(restore_, 0, Qt::AlignLeft);
   connect(restore_, &QPushButton::clicked, this, [this] {
     Recipe after = session_.recipe();
     after.refusedCornersPx.clear();
@@ -142,44 +136,9 @@ void CornersPanel::followSession() {
   });
 }
 
-void CornersPanel::addSlider(const QString& title, const QString& help, const SliderNames& names, NumberField* field,
-                             SliderTrack* track) {
-  auto* row = new QHBoxLayout;
-  auto* name = new QLabel(title, this);
-  name->setToolTip(help);
-  track->setToolTip(help);
-  track->setObjectName(names.object);
-  track->setAccessibleName(names.accessible);
-  track->setRange(static_cast<int>(names.least), static_cast<int>(names.most));
-  track->setSingleStep(1);
-  field->setRange(names.least, names.most);
-  field->setUnit(names.unit);
-  field->setStep(1);
-  field->setFixedWidth(76);
-  field->edit()->setAccessibleName(names.accessible);
-  row->addWidget(name);
-  row->addStretch();
-  row->addWidget(field);
-  auto* rows = new QVBoxLayout;
-  rows->setSpacing(2);  // as in the rows of other parameters
-  rows->addLayout(row);
-  rows->addWidget(track);
-  column()->addLayout(rows);
-}
-
 void CornersPanel::buildSuggestions() {
   column()->addWidget(caption(tr("Suggestions"), this));
-  addSlider(tr("Sharper than"),
-            tr("Suggests corners that turn by more than this angle. Larger: fewer, sharper corners."),
-            {QStringLiteral("corners.suggestAngle"), tr("Smallest angle of a suggested corner"), QStringLiteral("°"),
-             kLowestAngleDeg, kHighestAngleDeg},
-            angle_, angleTrack_);
-  addSlider(tr("Window length"),
-            tr("Length of line on either side used to measure the turn. Larger: less sensitive to "
-               "ragged edges, but small corners are missed."),
-            {QStringLiteral("corners.suggestScale"), tr("Window length of corner suggestions"), QStringLiteral("px"),
-             kLeastScalePx, kLargestScalePx},
-            scale_, scaleTrack_);
+  column()->addWidget(new SuggestionSliders(session_, view_, this));
   column()->addWidget(suggestedNote_);
   suggestedNote_->setMinimumHeight(2 * suggestedNote_->fontMetrics().lineSpacing());
   suggestedNote_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
@@ -194,24 +153,7 @@ void CornersPanel::buildSuggestions() {
   suggested_->setItemDelegate(suggestedColumns_);
   suggested_->useRoomBelow();
   column()->addWidget(suggested_, 1);
-  const auto setAngle = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
-  const auto setScale = [this](double px) { view_.setSuggestionScalePx(px); };
-  const auto show = [](NumberField* field, SliderTrack* track, double value) {
-    field->setValue(value);
-    const QSignalBlocker quiet(track);
-    track->setValue(static_cast<int>(std::lround(value)));
-    track->update();
-  };
-  const auto follow = [this, show] {
-    show(angle_, angleTrack_, view_.suggestionAngleDeg());
-    show(scale_, scaleTrack_, view_.suggestionScalePx());
-    suggest();
-  };
-  connect(&view_, &ViewSettings::changed, this, follow);
-  connect(angle_, &NumberField::committed, this, setAngle);
-  connect(angleTrack_, &QSlider::valueChanged, this, setAngle);
-  connect(scale_, &NumberField::committed, this, setScale);
-  connect(scaleTrack_, &QSlider::valueChanged, this, setScale);
+  connect(&view_, &ViewSettings::changed, this, &CornersPanel::suggest);
   take_->setToolTip(tr("Marks the suggested corner that is selected in the list."));
   takeAll_->setToolTip(tr("Marks all suggested corners."));
   connect(take_, &QPushButton::clicked, this, [this] {
@@ -225,7 +167,7 @@ void CornersPanel::buildSuggestions() {
     mark(all);
   });
   connect(suggested_, &QListWidget::currentRowChanged, this, [this](int current) { take_->setEnabled(current >= 0); });
-  follow();
+  suggest();
 }
 
 void CornersPanel::showEvent(QShowEvent* event) {
@@ -305,8 +247,9 @@ void CornersPanel::showFound() {
   });
   if (excluded > 0) lines += counted(excluded, tr("1 is excluded."), tr("%1 are excluded."));
   found_->setText(lines.join(QLatin1Char(' ')));
-  found_->setVisible(!lines.empty());
-  restore_->setVisible(!refused.empty());
+  restore_->setEnabled(!refused.empty());
+  restore_->setToolTip(refused.empty() ? tr("No certain corner is excluded.")
+                                       : tr("Certain corners that were excluded count again."));
 }
 
 bool CornersPanel::isFound(const Vec2& positionPx) const {

@@ -20,8 +20,7 @@ namespace batten {
 class ColumnDelegate;
 class CornerRounding;
 class HintList;
-class NumberField;
-class SliderTrack;
+class LinesNote;
 
 /// The marked corners as a list, and places that look like corners.
 class CornersPanel : public QWidget {
@@ -33,11 +32,6 @@ class CornersPanel : public QWidget {
   void showEvent(QShowEvent*) override;
 
  private:
-  struct SliderNames {
-    QString object, accessible, unit;
-    double least, most;
-  };
-  void addSlider(const QString& title, const QString& help, const SliderNames&, NumberField*, SliderTrack*);
   QVBoxLayout* column() const;
   void buildFound();
   void buildMarks();
@@ -62,16 +56,12 @@ class CornersPanel : public QWidget {
   ViewSettings& view_;
   QListWidget* marks_;
   ColumnDelegate* markColumns_ = nullptr;
-  QLabel* found_;  ///< How many corners count without a mark.
+  LinesNote* found_;  ///< How many corners count without a mark.
   QPushButton* restore_;
   QLabel* close_;  ///< Names corners that lie too close together.
   QPushButton* remove_;
   QPushButton* removeAll_;
   CornerRounding* rounding_;
-  NumberField* angle_;
-  SliderTrack* angleTrack_;
-  NumberField* scale_;
-  SliderTrack* scaleTrack_;
   HintList* suggested_;
   ColumnDelegate* suggestedColumns_ = nullptr;
   QLabel* suggestedNote_;

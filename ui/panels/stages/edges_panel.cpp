@@ -49,10 +49,11 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
   layout->addWidget(paint);
   buildChoice();
   buildJunctions();
+  layout->addWidget(new PenPanel(session, view, this));
+  // Last: the figures have more rows of some lines than of others.
   layout->addWidget(tracing_[2]);
   layout->addWidget(figures_);
   layout->addWidget(note_);
-  layout->addWidget(new PenPanel(session, view, this));
   layout->addStretch();
   refreshWith(session, this, StageId::Contours, [this] { refresh(); });
   refresh();

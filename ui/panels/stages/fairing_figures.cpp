@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/fairing_figures.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/target_advice.h"
 #include "ui/panels/stages/fairing_panel.h"
@@ -15,6 +18,12 @@ using Cell = FigureTable::Cell;
 Cell noFigure() { return {QStringLiteral("–")}; }
 
 QString millimetresOfMove(double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); }
+
+/// A tolerance as it is shown and set: never less than what is needed.
+double roundedUp(double mm) {
+  const double steps = mm < 0.1 ? 1000.0 : 100.0;  // a millimetre: the decimals of millimetres()
+  return std::ceil(mm * steps - 1e-9) / steps;
+}
 
 /// What to take where a target is too far away.
 QString insteadOf(FairingTarget target) {
@@ -36,9 +45,8 @@ std::optional<int> shownDegree(const EditorSession& session, const TracedCurve& 
   return degreeOf(curve.fairingUsed.target);
 }
 
-// The rows stand there for any target, also while it is computed: what is below them stays in its place.
+// The rows stand there in any mode, also while a target is computed: what is below them stays in its place.
 void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& session, const TracedCurve& curve) {
-  if (fairingAsked(session).mode != FairingMode::Target) return;
   const auto targets = session.targets();
   const bool isFollowed = wasFaired(curve) && curve.fairingUsed.mode == FairingMode::Target;
   const bool hasDegree = isFollowed && isPolynomial(curve.fairingUsed.target);
@@ -51,10 +59,12 @@ void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& ses
                   FairingPanel::tr("Similarity of the sketched profile to the target; 1 is identical. Faired: "
                                    "similarity of the faired to the sketched profile. Of radii, or where the line has "
                                    "inflections, of curvatures.")});
-  rows.push_back({FairingPanel::tr("Monotone target"),
-                  {noFigure(),
-                   profile ? Cell{profile->isMonotone ? FairingPanel::tr("yes") : FairingPanel::tr("no")} : noFigure()},
-                  FairingPanel::tr("A monotone profile adds no curvature extremum.")});
+  rows.push_back(
+      {FairingPanel::tr("Monotone in each span"),
+       {noFigure(),
+        profile ? Cell{profile->isMonotone ? FairingPanel::tr("yes") : FairingPanel::tr("no")} : noFigure()},
+       FairingPanel::tr("Whether the profile only rises or only falls from each split to the next: then it has no "
+                        "curvature extremum but at the splits.")});
 }
 
 }  // namespace
@@ -81,9 +91,11 @@ std::vector<FigureTable::Row> fairingRows(const EditorSession& session, const Tr
        {{millimetresOfMove(before.fromPoints.max)},
         faired ? Cell{millimetresOfMove(after.fromPoints.max)} : noFigure()},
        FairingPanel::tr("Largest distance of an edge point of the scan from the curve.")}};
-  if (report.roundedMm > 0.0) {
+  // Of all curves where one has it, so that a click on another leaves the table as long as it is.
+  const auto isRounded = [](const TracedCurve& one) { return one.fairing.roundedMm > 0.0; };
+  if (std::ranges::any_of(session.curves(), isRounded)) {
     rows.push_back({FairingPanel::tr("Rounded by, mm"),
-                    {noFigure(), {millimetresOfMove(report.roundedMm)}},
+                    {noFigure(), isRounded(curve) ? Cell{millimetresOfMove(report.roundedMm)} : noFigure()},
                     FairingPanel::tr("Largest move of the curve by corner rounding, not counting fairing.")});
   }
   addTargetRows(rows, session, curve);
@@ -101,7 +113,7 @@ FairingNote fairingNote(const TracedCurve& curve) {
   const double needed = report.neededMm.value_or(0.0);
   const bool isMore = needed > curve.fairingUsed.toleranceMm;
   const bool isSensible = needed <= mostSensibleToleranceMm(curve.sketched);
-  if (isMore && isSensible) said.neededMm = needed;
+  if (isMore && isSensible) said.neededMm = roundedUp(needed);
   if (isMore && !isSensible && curve.fairingUsed.mode == FairingMode::Target)
     said.text += FairingPanel::tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
                      .arg(millimetres(needed), insteadOf(curve.fairingUsed.target));

@@ -18,7 +18,7 @@ std::vector<FigureTable::Row> noFairingRows();
 /// What is to be said of a curve's fairing.
 struct FairingNote {
   QString text;                    ///< Empty: nothing.
-  std::optional<double> neededMm;  ///< A tolerance that reaches the target, where it is worth offering.
+  std::optional<double> neededMm;  ///< A tolerance that should reach the target, where it is worth trying.
 };
 FairingNote fairingNote(const TracedCurve& curve);
 

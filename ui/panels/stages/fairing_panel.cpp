@@ -6,9 +6,9 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <cmath>
 
 #include "core/pipeline/recipe/parameter_table.h"
+#include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
@@ -18,14 +18,17 @@
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
 #include "ui/panels/stages/fairing_figures.h"
-#include "ui/panels/stages/like_link.h"
+#include "ui/panels/stages/fairing_links.h"
 #include "ui/panels/stages/profile_shelf.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
+#include "ui/session/tolerance_offer.h"
 
 namespace batten {
 namespace {
 
+/// Of room for what is said of the curve: with nothing below it, and above the link that helps.
+constexpr int kLinesAlone = 4, kLinesAbove = 3;
 /// Slider range of the tolerance: what a hand-drawn line can need. The field takes any allowed value.
 constexpr double kLeastToleranceMm = 0.01, kMostToleranceMm = 5.0;
 
@@ -73,21 +76,10 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
                                   {"fairing.spans", "fairing.choose", "fairing.alpha", "fairing.samples",
                                    "fairing.quantity", "fairing.monotone"},
                                   this)),
-      note_(note({}, this)),
+      note_(new LinesNote(kLinesAlone, this)),
       raise_(linkButton(tr("Raise the tolerance"), QStringLiteral("fairing.raise"), this)),
-      useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
-      followAll_(linkButton(tr("Use the common setting"), QStringLiteral("fairing.followAll"), this)),
-      whole_(linkButton({}, QStringLiteral("fairing.whole"), this)),
-      split_(linkButton({}, QStringLiteral("fairing.split"), this)),
-      unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
-      draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
-      forget_(linkButton(tr("Back to the six targets"), QStringLiteral("fairing.forget"), this)),
-      like_(likeLink(session, this,
-                     [this] {
-                       findChild<ProfileShelf*>()->refresh();
-                       refresh();
-                     })),
-      logAesthetic_(linkButton(tr("Log-aesthetic target"), QStringLiteral("fairing.logAesthetic"), this)),
+      offer_(new ToleranceOffer(this)),
+      links_(new FairingLinks(session, this)),
       figures_(new FigureTable(this)),
       ends_(new EndsTable([this] { return shown(session_.recipe()); },
                           [this](int end, EndHold hold) { setHold(end, hold); }, this)) {
@@ -96,11 +88,11 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   buildTolerance();
   buildSettingsOfModes();
   buildNote();
-  buildLinks();
-  buildScopeLinks();
-  buildFigures();
+  // Above what the selected curve has: a click on a row leaves the rows where they are.
   column->addWidget(caption(tr("Curves"), this));
-  column->addWidget(new CurveList(session, Judged::Result, this), 1);
+  column->addWidget(new CurveList(session, Judged::Result, this));
+  buildLinks();
+  buildFigures();
   // Last: the list grows with what is saved.
   buildProfiles();
   column->addStretch();
@@ -140,7 +132,13 @@ void FairingPanel::buildTolerance() {
 }
 
 void FairingPanel::buildSettingsOfModes() {
-  for (ParameterRow* row : {keep_, wavelength_, policy_, moves_}) column()->addWidget(row);
+  ofMode_ = new QWidget(this);
+  auto* rows = new QVBoxLayout(ofMode_);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(column()->spacing());
+  for (ParameterRow* row : {policy_, keep_, wavelength_, moves_}) rows->addWidget(row);
+  rows->addStretch();
+  column()->addWidget(ofMode_);
   bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
   bindToScope(wavelength_,
               [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
@@ -174,49 +172,27 @@ void FairingPanel::bindToScope(ParameterRow* row,
 // What is said of the curve, and how to help it, in a room that stays: so nothing moves away under a click that selects
 // another curve.
 void FairingPanel::buildNote() {
-  said_ = new QWidget(this);
-  auto* lines = new QVBoxLayout(said_);
+  auto* said = new QWidget(this);
+  auto* lines = new QVBoxLayout(said);
   lines->setContentsMargins(0, 0, 0, 0);
-  lines->setSpacing(2);
-  note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  lines->setSpacing(0);
   lines->addWidget(note_);
   lines->addWidget(raise_, 0, Qt::AlignLeft);
   lines->addStretch();
-  column()->addWidget(said_);
+  said->setFixedHeight(
+      std::max(note_->roomFor(kLinesAlone), note_->roomFor(kLinesAbove) + raise_->sizeHint().height()));
+  column()->addWidget(said);
 }
 
 void FairingPanel::buildLinks() {
-  // Close together: what stands below them is to fit into a low window.
-  links_ = new QVBoxLayout;
-  links_->setSpacing(0);
-  column()->addLayout(links_);
-  for (QPushButton* link : {split_, whole_, unsplit_, draw_, forget_, like_, logAesthetic_})
-    links_->addWidget(link, 0, Qt::AlignLeft);
-  split_->setText(tr("Natural spans"));
-  unsplit_->setText(tr("One polynomial for the whole curve"));
-  whole_->setText(tr("Targets for the whole curve"));
-  whole_->setToolTip(tr("The targets apply to the span you clicked. Click here to return to the whole curve."));
-  draw_->setToolTip(tr("Converts the target to points that can be dragged in the plot of curvature or radius."));
-  connect(logAesthetic_, &QPushButton::clicked, this, [this] {
-    session_.pointAtSpan({});
-    chooseTarget(session_, FairingTarget::LogAesthetic);
+  column()->addWidget(links_);
+  connect(links_, &FairingLinks::comparisonAsked, this, &FairingPanel::comparisonAsked);
+  connect(links_, &FairingLinks::useForAllAsked, this, &FairingPanel::useForAll);
+  connect(links_, &FairingLinks::followAllAsked, this, &FairingPanel::followAll);
+  connect(links_, &FairingLinks::savedProfile, this, [this] {
+    findChild<ProfileShelf*>()->refresh();
+    refresh();
   });
-  auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
-  compare->setToolTip(tr("Similarity of two curves and fairness of this one, as a table."));
-  links_->addWidget(compare, 0, Qt::AlignLeft);
-  connect(compare, &QPushButton::clicked, this, &FairingPanel::comparisonAsked);
-  connect(split_, &QPushButton::clicked, this, [this] { splitNaturally(session_); });
-  connect(unsplit_, &QPushButton::clicked, this, [this] { joinAllSpans(session_); });
-  connect(whole_, &QPushButton::clicked, this, [this] { session_.pointAtSpan({}); });
-  connect(draw_, &QPushButton::clicked, this, [this] { drawTarget(session_, profileToBeginWith(session_)); });
-  connect(forget_, &QPushButton::clicked, this, [this] { forgetDrawnTarget(session_); });
-}
-
-void FairingPanel::buildScopeLinks() {
-  for (QPushButton* link : {useForAll_, followAll_}) links_->addWidget(link, 0, Qt::AlignLeft);
-  connect(raise_, &QPushButton::clicked, this, &FairingPanel::raiseTolerance);
-  connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
-  connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
 }
 
 void FairingPanel::buildProfiles() {
@@ -238,6 +214,8 @@ void FairingPanel::buildFigures() {
 }
 
 void FairingPanel::followSession() {
+  connect(raise_, &QPushButton::clicked, this, &FairingPanel::raiseTolerance);
+  connect(offer_, &ToleranceOffer::changed, this, &FairingPanel::refreshFigures);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::runFinished, &EditorSession::targetsChanged})
     connect(&session_, signal, this, &FairingPanel::refresh);
@@ -246,55 +224,25 @@ void FairingPanel::followSession() {
   });
 }
 
-void FairingPanel::refreshLinks(const FairingParams& params) {
+void FairingPanel::refreshModeSettings(const FairingParams& params) {
   keep_->setVisible(params.mode == FairingMode::Monotone);
   wavelength_->setVisible(params.mode == FairingMode::LowPass);
   policy_->setVisible(params.mode == FairingMode::Tolerance);
   // Only a Bézier path has edges whose lengths can be moved alone.
+  const Recipe& recipe = session_.recipe();
   const PieceChoice* choice = choiceOf(session_, session_.selectedCurve());
-  const ConstructMethod method = choice && choice->method ? *choice->method : session_.recipe().construct.method;
+  const ConstructMethod method = choice && choice->method ? *choice->method : recipe.construct.method;
   const bool followsProfile = params.mode == FairingMode::Target || params.mode == FairingMode::LowPass;
   moves_->setVisible(followsProfile && method == ConstructMethod::Bezier);
   for (ParameterRow* row : {keep_, wavelength_, policy_, moves_}) row->sync();
-  const bool isTarget = params.mode == FairingMode::Target && session_.selected();
-  const bool isDrawn = isTargetDrawn(session_);
-  draw_->setVisible(isTarget && !isDrawn);
-  forget_->setVisible(isDrawn);
-  // Links of a mode that have nothing to do stay where they are, greyed: those below keep their places.
-  logAesthetic_->setVisible(isTarget);
-  logAesthetic_->setEnabled(params.target != FairingTarget::LogAesthetic);
-  like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
-  auto* shelf = findChild<ProfileShelf*>();
-  shelf->setVisible(shelf->count() > 0 && session_.hasScan());
-  findChild<QLabel*>(QStringLiteral("fairing.savedProfiles"))->setVisible(shelf->count() > 0 && session_.hasScan());
-  const bool canSplit = isTarget && !isDrawn && params.targets.quantity == TargetQuantity::Curvature;
-  const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;
-  const bool isPointed = canSplit && session_.pointedSpan().has_value();
-  whole_->setVisible(isPointed);
-  unsplit_->setVisible(isTarget && !isPointed);
-  unsplit_->setEnabled(canSplit && spans > 0);
-  split_->setVisible(isTarget);
-  split_->setEnabled(canSplit && !hasNaturalSpans(session_));
-  explainLinks(isDrawn, canSplit);
-}
-
-// What is greyed says why.
-void FairingPanel::explainLinks(bool isDrawn, bool canSplit) {
-  const QString why = isDrawn     ? tr("The drawn target has no spans; go back to the six targets first.")
-                      : !canSplit ? tr("Radius profiles and edge lengths have one polynomial for the whole curve.")
-                                  : QString();
-  split_->setToolTip(split_->isEnabled() ? tr("A polynomial from each extremum of the curvature to the next. Extrema "
-                                              "whose removal would move the curve by less than a tenth of the "
-                                              "tolerance do not count.")
-                     : why.isEmpty()     ? tr("The curve has its natural spans already.")
-                                         : why);
-  unsplit_->setToolTip(unsplit_->isEnabled() ? tr("Joins all spans, as in the papers.")
-                       : why.isEmpty()       ? tr("The curve has one polynomial already.")
-                                             : why);
-  logAesthetic_->setToolTip(logAesthetic_->isEnabled()
-                                ? tr("In each span, radius to the power alpha is linear in arc length: clothoids, "
-                                     "spirals, involutes. Alpha is under More.")
-                                : tr("The log-aesthetic target is in use. Alpha is under More."));
+  // One room for all modes: curves with settings of their own differ in mode from row to row of the list.
+  const bool hasPath =
+      recipe.construct.method == ConstructMethod::Bezier ||
+      std::ranges::any_of(recipe.choices, [](const PieceChoice& one) { return one.method == ConstructMethod::Bezier; });
+  int room = 0;
+  for (const ParameterRow* row : {keep_, wavelength_, policy_}) room = std::max(room, row->sizeHint().height());
+  if (hasPath) room += ofMode_->layout()->spacing() + moves_->sizeHint().height();
+  ofMode_->setFixedHeight(room);
 }
 
 FairingParams FairingPanel::shown(const Recipe& recipe) const {
@@ -323,10 +271,10 @@ void FairingPanel::setHold(int end, EndHold hold) {
 
 void FairingPanel::raiseTolerance() {
   const TracedCurve* curve = session_.selected();
-  if (!curve || !curve->fairing.neededMm) return;
+  const auto offered = offer_->enough();
+  if (!curve || !offered) return;
   Recipe after = session_.recipe();
-  // Rounded up to what the field shows, so that the target really fits.
-  const double needed = std::ceil(*curve->fairing.neededMm * 1000.0) / 1000.0;
+  const double needed = *offered;
   if (hasOwnFairing(session_, session_.selectedCurve()))
     after =
         withChoice(session_, session_.selectedCurve(), [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
@@ -369,14 +317,11 @@ void FairingPanel::refresh() {
   tolerance_->sync();
   tolerance_->setEnabled(params.mode != FairingMode::None);
   ends_->refresh();
-  refreshLinks(params);
-  for (QPushButton* link : {useForAll_, followAll_}) {
-    link->setVisible(several);
-    link->setEnabled(own);
-  }
-  const QString none = tr("The selected curve has no fairing settings of its own.");
-  useForAll_->setToolTip(own ? tr("Applies the settings of the selected curve to the whole drawing.") : none);
-  followAll_->setToolTip(own ? tr("The selected curve gives up its own settings for those of the drawing.") : none);
+  refreshModeSettings(params);
+  links_->refresh(params, own);
+  auto* shelf = findChild<ProfileShelf*>();
+  shelf->setVisible(shelf->count() > 0 && session_.hasScan());
+  findChild<QLabel*>(QStringLiteral("fairing.savedProfiles"))->setVisible(shelf->count() > 0 && session_.hasScan());
   refreshFigures();
 }
 
@@ -384,18 +329,15 @@ void FairingPanel::refreshFigures() {
   const TracedCurve* curve = session_.selected();
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
-  constexpr int kUsualLines = 2, kLinesOfTargets = 3;  // of room for the note
   const FairingMode mode = shown(session_.recipe()).mode;
-  const int lines = mode == FairingMode::Target ? kLinesOfTargets : kUsualLines;
-  const bool canNeedMore = mode == FairingMode::Target || mode == FairingMode::Monotone;
-  said_->setMinimumHeight(lines * note_->fontMetrics().lineSpacing() +
-                          (canNeedMore ? said_->layout()->spacing() + raise_->sizeHint().height() : 0));
   note_->setText(mode == FairingMode::None && said.text.isEmpty()
                      ? tr("Fairing is off: the curves stay as they are in Curves.")
                      : said.text);
-  note_->setVisible(!note_->text().isEmpty());
-  if (said.neededMm) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*said.neededMm)));
-  raise_->setVisible(said.neededMm.has_value());
+  offer_->ask(curve, said.neededMm);
+  const auto enough = offer_->enough();
+  if (enough) raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(*enough)));
+  raise_->setVisible(enough.has_value());
+  note_->setLines(enough ? kLinesAbove : kLinesAlone);
 }
 
 }  // namespace batten

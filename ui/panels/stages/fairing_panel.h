@@ -7,7 +7,6 @@
 
 #include "ui/session/editor_session.h"
 
-class QLabel;
 class QPushButton;
 class QVBoxLayout;
 
@@ -17,7 +16,10 @@ class EndsTable;
 class FigureTable;
 class ParameterEditor;
 class ParameterRow;
+class FairingLinks;
+class LinesNote;
 class SegmentedControl;
+class ToleranceOffer;
 
 /// How curves are faired: for all of them or for the selected one alone; the tolerance; before and after.
 class FairingPanel : public QWidget {
@@ -43,12 +45,10 @@ class FairingPanel : public QWidget {
   void bindToScope(ParameterRow* row, const std::function<void(PieceChoice&, const FairingParams&)>& store);
   void buildNote();
   void buildLinks();
-  void buildScopeLinks();
   void buildProfiles();
   void buildFigures();
   void followSession();
-  void refreshLinks(const FairingParams& params);
-  void explainLinks(bool isDrawn, bool canSplit);
+  void refreshModeSettings(const FairingParams& params);
   void setHold(int end, EndHold hold);
   /// To what the selected curve needs to reach its target.
   void raiseTolerance();
@@ -64,19 +64,11 @@ class FairingPanel : public QWidget {
   ParameterRow* policy_;
   ParameterRow* moves_;
   ParameterEditor* editor_;
-  QLabel* note_;
-  QWidget* said_ = nullptr;
+  QWidget* ofMode_ = nullptr;  ///< The room of the rows above.
+  LinesNote* note_;
   QPushButton* raise_;
-  QVBoxLayout* links_ = nullptr;
-  QPushButton* useForAll_;
-  QPushButton* followAll_;
-  QPushButton* whole_;
-  QPushButton* split_;
-  QPushButton* unsplit_;
-  QPushButton* draw_;
-  QPushButton* forget_;
-  QPushButton* like_;
-  QPushButton* logAesthetic_;
+  ToleranceOffer* offer_;  ///< Only what is enough is offered.
+  FairingLinks* links_;
   FigureTable* figures_;
   EndsTable* ends_;
   bool oneCurve_ = false;

@@ -2,6 +2,7 @@
 #include "ui/panels/stages/line_trace_mode.h"
 
 #include <QLabel>
+#include <QStackedWidget>
 #include <QVBoxLayout>
 #include <array>
 
@@ -25,8 +26,12 @@ LineTraceMode::LineTraceMode(EditorSession& session, QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   layout->addWidget(caption(tr("Selected line"), this));
-  layout->addWidget(modes_);
-  layout->addWidget(hint_);
+  // One place for both, of which one is shown.
+  auto* place = new QStackedWidget(this);
+  place->addWidget(modes_);
+  place->addWidget(hint_);
+  place->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+  layout->addWidget(place);
   modes_->setNames(QStringLiteral("edges.way"),
                    {QStringLiteral("page"), QStringLiteral("outline"), QStringLiteral("centreline")});
   modes_->setToolTip(tr("Trace mode of the selected line, independent of the page setting."));
@@ -45,8 +50,7 @@ void LineTraceMode::refresh() {
   if (session_.isStale(StageId::Contours) != session_.isStale(StageId::Faired)) return;
   const auto curve = session_.selectedCurve();
   const bool isTraced = tracedLineOf(session_, curve) != nullptr;
-  modes_->setVisible(isTraced);
-  hint_->setVisible(!isTraced);
+  qobject_cast<QStackedWidget*>(modes_->parentWidget())->setCurrentIndex(isTraced ? 0 : 1);
   if (!isTraced) return;
   const EdgeMode mode = traceModeOf(session_, curve);
   for (std::size_t i = 0; i < kTraceModes.size(); ++i) {

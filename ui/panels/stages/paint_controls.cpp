@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/session/edits/trace_mode_edits.h"
@@ -41,6 +42,7 @@ PaintControls::PaintControls(EditorSession& session, ViewSettings& view, QWidget
   forget_->setToolTip(tr("All ink is traced as if nothing had been painted."));
   modes_->setNames(QStringLiteral("edges.brush"),
                    {QStringLiteral("outline"), QStringLiteral("centreline"), QStringLiteral("page")});
+  keepRoom(modes_);
   modes_->setToolTip(tr("What the brush makes of ink; [ and ] change its size."));
   connect(paint_, &QPushButton::clicked, this, [this](bool on) { view_.setTool(on ? Tool::Paint : Tool::Select); });
   connect(forget_, &QPushButton::clicked, this, [this] { forgetPainted(session_); });

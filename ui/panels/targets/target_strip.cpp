@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QPainter>
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "core/fairing/fairing.h"
@@ -15,6 +16,20 @@
 namespace batten {
 namespace {
 constexpr int kAbove = 8, kBelow = 7, kAroundTiles = kAbove + kBelow;  // [px] of the strip
+/// The target that the curve follows has the figures of the curve that is drawn, not of the one before it was made
+/// light.
+std::shared_ptr<const TargetOutcomes> withTheCurveItself(const EditorSession& session, const TracedCurve& curve,
+                                                         const std::shared_ptr<const TargetOutcomes>& targets) {
+  const FairingParams& used = curve.fairingUsed;
+  const bool isFollowed = used.mode == FairingMode::Target && isPolynomial(used.target) && used.spanTargets.empty() &&
+                          !session.pointedSpan() && !session.isStale(StageId::Faired) && !curve.faired.isEmpty();
+  const std::optional<int> degree = curve.fairing.targetDegree;
+  if (!isFollowed || !degree || !targets->faired[*degree - 1]) return targets;
+  auto shown = std::make_shared<TargetOutcomes>(*targets);
+  shown->faired[*degree - 1]->report = curve.fairing;
+  return shown;
+}
+
 }  // namespace
 
 TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(parent), session_(session) {
@@ -52,6 +67,8 @@ void TargetStrip::fitInto(int height, bool hasPlots) {
                                                               : TargetTile::kFlatHeight);
 }
 
+int TargetStrip::flatHeight() { return TargetTile::kFlatHeight + kAroundTiles; }
+
 void TargetStrip::setTileHeight(int height) {
   if (this->height() == height + kAroundTiles) return;
   for (TargetTile* one : tiles_) one->setFixedHeight(height);
@@ -80,9 +97,9 @@ void TargetStrip::refresh() {
                           : session_.isTargeting() ? tr("computing…")
                           : session_.isStopped()   ? tr("stopped")
                                                    : QString();
+  const auto shown = curve && targets ? withTheCurveItself(session_, *curve, targets) : nullptr;
   for (int degree = 1; degree <= kMostTargetDegree; ++degree)
-    tiles_[degree - 1]->show(curve ? targets : nullptr, tolerance, degree == chosen, choosesForOneCurve(session_),
-                             waiting);
+    tiles_[degree - 1]->show(shown, tolerance, degree == chosen, choosesForOneCurve(session_), waiting);
   alignFigures();
 }
 

@@ -15,6 +15,7 @@ class TargetStrip : public QWidget {
  public:
   explicit TargetStrip(EditorSession& session, QWidget* parent = nullptr);
   /// The highest tiles that fit into a height. They keep their profiles where no plot shows them.
+  static int flatHeight();  ///< [px] The least that it takes beside a plot.
   void fitInto(int height, bool hasPlots);
   /// The tiles run as the plot below them does.
   void setRunsLeft(bool runsLeft);

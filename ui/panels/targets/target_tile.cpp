@@ -103,8 +103,8 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
       tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(needed));
     else if (!faired.report.withinTolerance)
       tip += faired.report.maxDeviationMm > 0.0
-                 ? tr("\nReaching it would add curvature extrema; the curve follows it in part.")
-                 : tr("\nReaching it would add curvature extrema; the curve is unchanged.");
+                 ? tr("\nThe curve follows it in part: all of it would take more curvature extrema than are left here.")
+                 : tr("\nThe curve is unchanged: any part of it would take more curvature extrema.");
     if (!profile.isMonotone) tip += tr("\nThis profile is not monotone within a span.");
     if (outcomes_->span)
       tip += tr("\nFor the span you clicked; the rest of the curve is unchanged.");
@@ -327,7 +327,7 @@ TargetTile::FigureTexts TargetTile::figureTexts() const {
   texts.similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
   texts.length = shortMillimetres(mm);
   const bool wouldAdd = texts.isOver && needed <= toleranceMm_;
-  texts.needs = wouldAdd ? tr("adds extrema") : texts.isOver ? tr("needs %1").arg(texts.length) : texts.length;
+  texts.needs = wouldAdd ? tr("in part") : texts.isOver ? tr("needs %1").arg(texts.length) : texts.length;
   texts.extrema = tr("%1 extr.").arg(report.extremaAfter);
   return texts;
 }

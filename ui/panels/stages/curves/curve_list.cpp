@@ -5,6 +5,7 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScrollArea>
 #include <QStyledItemDelegate>
 #include <QTimer>
 #include <algorithm>
@@ -21,14 +22,15 @@
 namespace batten {
 namespace {
 
-constexpr int kCurveRow = 26;      // [px] Height.
-constexpr int kLeastRows = 10;     ///< That are seen without scrolling in the list itself, where there are as many.
-constexpr int kEyeWidth = 26;      // [px] At the left.
-constexpr int kIconSize = 14;      // px
-constexpr int kApart = 8;          ///< Between a name, which may be cut, and its figures.
-constexpr int kTellEveryMs = 200;  // While results come in, the list is brought up to date this often.
-constexpr int kNoRow = -1;         ///< What Qt takes for none.
-constexpr int kRightMargin = 6;    // px
+constexpr int kCurveRow = 26;          // [px] Height.
+constexpr int kLeastRows = 10;         ///< That are seen without scrolling in the list itself, where there are as many.
+constexpr double kShareOfPanel = 0.4;  ///< That the list may take of a high one.
+constexpr int kEyeWidth = 26;          // [px] At the left.
+constexpr int kIconSize = 14;          // px
+constexpr int kApart = 8;              ///< Between a name, which may be cut, and its figures.
+constexpr int kTellEveryMs = 200;      // While results come in, the list is brought up to date this often.
+constexpr int kNoRow = -1;             ///< What Qt takes for none.
+constexpr int kRightMargin = 6;        // px
 constexpr int kBadgeWidth = 52, kBadgeHeight = 18, kBadgeGap = 6;  // px
 enum Role {
   IncludedRole = Qt::UserRole,
@@ -144,6 +146,11 @@ CurveList::~CurveList() = default;
 
 void CurveList::showEvent(QShowEvent* event) {
   QListWidget::showEvent(event);
+  for (QWidget* one = parentWidget(); one && !scroll_; one = one->parentWidget()) {
+    scroll_ = qobject_cast<QScrollArea*>(one);
+    if (scroll_) scroll_->viewport()->installEventFilter(this);
+  }
+  fitHeight();
   judge();
   if (!std::exchange(wasSeen_, true)) showFromTop();
 }
@@ -203,9 +210,18 @@ void CurveList::refresh() {
   filling_ = false;
   measure();
   judge();
-  // As many rows as the panel has room for, which scrolls below that.
-  setMinimumHeight(sizeHint().height());
-  setMaximumHeight(heightOfRows(count()));
+  fitHeight();
+}
+
+// As many rows as a share of the panel holds: what stands below does not move when other parts of the panel grow.
+void CurveList::fitHeight() {
+  const int rows = scroll_ ? static_cast<int>(kShareOfPanel * scroll_->viewport()->height()) / kCurveRow : 0;
+  setFixedHeight(heightOfRows(std::min(count(), std::max(kLeastRows, rows))));
+}
+
+bool CurveList::eventFilter(QObject* watched, QEvent* event) {
+  if (scroll_ && watched == scroll_->viewport() && event->type() == QEvent::Resize) fitHeight();
+  return QListWidget::eventFilter(watched, event);
 }
 
 void CurveList::measure() {

@@ -14,6 +14,8 @@
 #include "ui/session/inbox.h"
 #include "ui/session/judged_curve.h"
 
+class QScrollArea;
+
 namespace batten {
 
 class BackgroundWorker;
@@ -47,6 +49,7 @@ class CurveList : public QListWidget {
   void resizeEvent(QResizeEvent*) override;
   void keyPressEvent(QKeyEvent*) override;
   void mousePressEvent(QMouseEvent*) override;
+  bool eventFilter(QObject*, QEvent*) override;
 
  private:
   /// A curve and how fair it is; none as long as that is not known.
@@ -60,6 +63,7 @@ class CurveList : public QListWidget {
 
   void refresh();
   void showFromTop();
+  void fitHeight();
   void measure();
   static QString shortNameOf(const QString& name);  ///< "Curve 2"
   int nameRoom() const;
@@ -77,6 +81,7 @@ class CurveList : public QListWidget {
   EditorSession& session_;
   Judged judged_;
   bool filling_ = false, wasSeen_ = false;
+  QScrollArea* scroll_ = nullptr;  ///< In which the panel is scrolled.
   Columns columns_;
   std::shared_ptr<const Judgements> known_, asked_;  ///< Of the curves in their order.
   Inbox inbox_;

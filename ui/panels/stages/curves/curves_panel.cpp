@@ -68,14 +68,19 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
       growing_(new GrowingControls(session.growing(), this)) {
   auto* layout = panelColumn(this, tr("Curves"));
   layout->addWidget(methods_);
-  layout->addWidget(new PaperRow(session, this));
-  layout->addWidget(new PinPanel(session, this));
+  auto* paper = new PaperRow(session, this);
+  auto* pin = new PinPanel(session, this);
+  layout->addWidget(paper);
+  layout->addWidget(pin);
+  layout->addWidget(caption(tr("Curves"), this));
+  layout->addWidget(new CurveList(session, Judged::Sketched, this));
+  // What comes and goes with a click above stands below all of that.
+  layout->addWidget(pin->figures());
+  layout->addWidget(paper->cost());
   layout->addWidget(editor_);
   layout->addWidget(knots_);
   layout->addWidget(segmentsNote_);
   layout->addWidget(growing_);
-  layout->addWidget(caption(tr("Curves"), this));
-  layout->addWidget(new CurveList(session, Judged::Sketched, this), 1);
   bindDetail();
   addWaitingRow();
   layout->addWidget(new ExplainedPanel(session, view, this));
@@ -298,7 +303,9 @@ void CurvesPanel::refreshFigures() {
       {tr("Largest deviation"),
        {{millimetres(f.fromPoints.max)}},
        tr("Largest distance of an edge point from the curve.")},
-      {tr("Mean deviation (rms)"), {{millimetres(f.fromPoints.rms)}}, {}},
+      {tr("Rms deviation"),
+       {{millimetres(f.fromPoints.rms)}},
+       tr("Root mean square of the distances of the line's points from the curve.")},
       {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
       {tr("Curvature extrema"),
        {{QString::number(f.extrema)}},

@@ -10,6 +10,7 @@
 
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/piece_construction.h"
+#include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/setting_name.h"
@@ -151,7 +152,7 @@ MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       scope_(new SegmentedControl({tr("Method of all curves"), tr("of the selected")}, this)),
-      whose_(note({}, this)),
+      whose_(new LinesNote(1, this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("construct.method.row"));
   setSettingName(this, tr("Method of construction"));
@@ -235,9 +236,9 @@ void MethodTable::refresh() {
   const bool several = session_.curves().size() > 1, isSelected = session_.selected() != nullptr;
   scope_->setVisible(several);
   scope_->setSegmentEnabled(1, isSelected);
-  whose_->setVisible(several && isSelected);
-  if (isSelected)
-    whose_->setText(tr("The figures are those of %1.").arg(curveName(session_, *session_.selectedCurve())));
+  whose_->setVisible(several);
+  whose_->setText(isSelected ? tr("The figures are those of %1.").arg(curveName(session_, *session_.selectedCurve()))
+                             : QString());
   if (isVisible()) compute();
 }
 

@@ -10,12 +10,11 @@
 #include "ui/session/editor_session.h"
 #include "ui/session/inbox.h"
 
-class QLabel;
-
 namespace batten {
 
 class BackgroundWorker;
 class MethodRow;
+class LinesNote;
 class SegmentedControl;
 
 // in the order of the rows
@@ -53,7 +52,7 @@ class MethodTable : public QWidget {
   EditorSession& session_;
   std::vector<MethodRow*> rows_;
   SegmentedControl* scope_;
-  QLabel* whose_;  ///< Names the curve that the figures are of.
+  LinesNote* whose_;  ///< Names the curve that the figures are of.
   std::array<std::optional<CurveFigures>, kMethods.size()> figures_;
   struct Source {
     std::shared_ptr<const PieceSet> pieces;

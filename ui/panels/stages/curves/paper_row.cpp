@@ -38,10 +38,11 @@ PaperRow::PaperRow(EditorSession& session, QWidget* parent)
   row->addStretch();
   column->addLayout(row);
   cost_->setObjectName(QStringLiteral("curves.paperCost"));
-  column->addWidget(cost_);
   connect(&session_, &EditorSession::recipeChanged, this, &PaperRow::refresh);
   refresh();
 }
+
+QWidget* PaperRow::cost() const { return cost_; }
 
 void PaperRow::refresh() {
   const PaperPreset* now = paperPresetOf(session_.recipe());

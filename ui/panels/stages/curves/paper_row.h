@@ -16,6 +16,8 @@ class PaperRow : public QWidget {
   Q_OBJECT
  public:
   explicit PaperRow(EditorSession& session, QWidget* parent = nullptr);
+  /// The line: to be laid out where it may grow.
+  QWidget* cost() const;
 
  private:
   void refresh();

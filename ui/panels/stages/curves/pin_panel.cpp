@@ -10,6 +10,7 @@
 
 #include "core/curve/closest_point.h"
 #include "core/curve/variation_energy.h"
+#include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/curves/method_table.h"
 #include "ui/session/background_worker.h"
@@ -33,9 +34,8 @@ ConstructMethod methodOf(const PinnedResult& pinned, const TracedCurve& curve) {
 }  // namespace
 
 QString unevennessText(double energy) {
-  // Asking for three digits gives 1e+03 from here on.
+  // Asking for three digits gives 1e+03 from here on: one notation for all that is larger.
   if (!(energy >= 999.5)) return QString::number(energy, 'g', 3);
-  if (energy < 9999.5) return QString::number(energy, 'f', 0);
   static constexpr char16_t kRaised[] = u"⁰¹²³⁴⁵⁶⁷⁸⁹";  // digits of an exponent
   int exponent = static_cast<int>(std::floor(std::log10(energy)));
   double digits = energy / std::pow(10.0, exponent);
@@ -57,14 +57,13 @@ PinPanel::PinPanel(EditorSession& session, QWidget* parent)
       session_(session),
       pin_(plainButton(tr("Pin this result"), QStringLiteral("pin.set"), this)),
       unpin_(plainButton(tr("Unpin"), QStringLiteral("pin.clear"), this)),
-      what_(note({}, this)),
+      what_(new LinesNote(2, this)),
       figures_(new FigureTable(this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   layout->addWidget(caption(tr("Compare"), this));
-  // Above what grows, so that they stay where they are.
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(pin_);
   buttons->addWidget(unpin_);
@@ -73,7 +72,6 @@ PinPanel::PinPanel(EditorSession& session, QWidget* parent)
   layout->addWidget(what_);
   figures_->setObjectName(QStringLiteral("pin.figures"));
   figures_->setHeader(tr("Selected curve"), {tr("pinned"), tr("now")});
-  layout->addWidget(figures_);
   pin_->setToolTip(tr("Keeps this result as a dashed violet line for comparison  (A)"));
   connect(pin_, &QPushButton::clicked, &session_, &EditorSession::pin);
   connect(unpin_, &QPushButton::clicked, &session_, &EditorSession::unpin);
@@ -84,6 +82,8 @@ PinPanel::PinPanel(EditorSession& session, QWidget* parent)
 }
 
 PinPanel::~PinPanel() = default;
+
+QWidget* PinPanel::figures() const { return figures_; }
 
 void PinPanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
@@ -99,7 +99,7 @@ void PinPanel::refresh() {
   unpin_->setVisible(pinned != nullptr);
   figures_->setVisible(now && before);
   what_->setText(
-      !pinned ? tr("Pin a result, then change the method or a setting: the pinned one stays as a dashed violet line.")
+      !pinned ? tr("Pin a result to compare it with another method or setting.")
       : before || !now
           ? tr("Pinned: %1").arg(label(before ? methodOf(*pinned, *before) : pinned->recipe.construct.method))
           : tr("The pinned result has no curve here."));
@@ -118,7 +118,7 @@ void PinPanel::refresh() {
 void PinPanel::show(const Comparison& c) {
   const auto count = [](int n) { return QString::number(n); };
   figures_->setRows(
-      {{tr("Mean deviation"),
+      {{tr("Rms deviation"),
         {{shortMillimetres(c.pinned.rmsMm)}, {shortMillimetres(c.now.rmsMm)}},
         tr("Root mean square of the distances of the line's points.")},
        {tr("Largest deviation"),
@@ -128,7 +128,7 @@ void PinPanel::show(const Comparison& c) {
        {tr("Curvature extrema"),
         {{count(c.pinned.extrema)}, {count(c.now.extrema)}},
         tr("Local maxima and minima of the curvature: fewer is fairer.")},
-       {tr("Unevenness"),
+       {tr("Unevenness (no unit)"),
         {{unevennessText(c.pinned.energy)}, {unevennessText(c.now.energy)}},
         tr("Integral of the squared rate of change of curvature, independent of size: 0 for a "
            "circle, smaller is fairer.")},

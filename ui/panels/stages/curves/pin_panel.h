@@ -7,13 +7,13 @@
 #include "ui/session/editor_session.h"
 #include "ui/session/inbox.h"
 
-class QLabel;
 class QPushButton;
 
 namespace batten {
 
 class BackgroundWorker;
 class FigureTable;
+class LinesNote;
 
 /// One curve in numbers, to set beside another.
 struct ComparedFigures {
@@ -29,7 +29,7 @@ struct Comparison {
 /// hold a curve.
 Comparison compare(const TracedCurve& pinned, const TracedCurve& now);
 
-/// ComparedFigures::energy in few digits: "0.5", "1234", "2.79 · 10⁷".
+/// ComparedFigures::energy in few digits: "0.5", "123", "2.79 · 10⁷".
 QString unevennessText(double energy);
 
 /// Sets a result aside and compares the selected curve with it.
@@ -38,6 +38,8 @@ class PinPanel : public QWidget {
  public:
   explicit PinPanel(EditorSession& session, QWidget* parent = nullptr);
   ~PinPanel() override;
+  /// The comparison: to be laid out where it may grow.
+  QWidget* figures() const;
 
  protected:
   void showEvent(QShowEvent*) override;
@@ -49,7 +51,7 @@ class PinPanel : public QWidget {
   EditorSession& session_;
   QPushButton* pin_;
   QPushButton* unpin_;
-  QLabel* what_;
+  LinesNote* what_;
   FigureTable* figures_;
   Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;

@@ -8,10 +8,12 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QStackedWidget>
 #include <QVBoxLayout>
 #include <filesystem>
 
 #include "core/pipeline/run/pipeline.h"
+#include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/path_edit.h"
 #include "ui/panels/controls/save_dialog.h"
@@ -31,6 +33,9 @@
 namespace batten {
 namespace {
 
+/// What is shown below the button.
+enum StatusPage { kResultPage, kProgressPage, kAgainPage };
+
 /// A name without the ending of an export, if it has one.
 QString withoutEnding(const QString& name) {
   if (const auto format = formatOf(nativePath(name))) {
@@ -48,17 +53,18 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
       options_(new ExportOptions(this)),
       choice_(new ExportChoice(session, this)),
       preview_(new ExportPreview(this)),
-      held_(note({}, this)),
+      held_(new LinesNote(1, this)),
       turn_(linkButton(tr("Reverse direction"), QStringLiteral("export.turn"), this)),
       carrier_(new SvgCarrier(this)),
       report_(new ReportSection(session, this)),
       progress_(new QProgressBar(this)),
       path_(new PathEdit(this)),
       browse_(plainButton(tr("Choose…"), QStringLiteral("export.browse"), this)),
-      size_(note({}, this)),
+      size_(new LinesNote(3, this)),
       export_(plainButton(tr("Export"), QStringLiteral("export.run"), this)),
       again_(linkButton(tr("Compute again"), QStringLiteral("export.again"), this)),
-      result_(note({}, this)),
+      result_(new LinesNote(3, this)),
+      status_(new QStackedWidget(this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   buildForm();
   connect(options_, &ExportOptions::formatChanged, this, [this] {
@@ -138,11 +144,19 @@ void ExportPanel::buildForm() {
   progress_->setAccessibleName(tr("Progress of the export"));
   progress_->setRange(0, 100);
   progress_->setTextVisible(false);
-  progress_->hide();
-  layout->addWidget(progress_);
-  layout->addWidget(again_, 0, Qt::AlignLeft);
   result_->setObjectName(QStringLiteral("export.result"));
-  layout->addWidget(result_);
+  // One place for all that may stand there: the report below keeps its own.
+  for (QWidget* one :
+       {static_cast<QWidget*>(result_), static_cast<QWidget*>(progress_), static_cast<QWidget*>(again_)}) {
+    auto* page = new QWidget(status_);
+    auto* rows = new QVBoxLayout(page);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->addWidget(one, 0, one == again_ ? Qt::AlignLeft : Qt::Alignment());
+    rows->addStretch();
+    status_->addWidget(page);
+  }
+  status_->setFixedHeight(result_->height());
+  layout->addWidget(status_);
   layout->addWidget(report_);
   layout->addStretch();
 }
@@ -217,7 +231,8 @@ QString ExportPanel::reasonToWait() const {
 }
 
 void ExportPanel::refresh() {
-  again_->setVisible(!session_.isWorking() && session_.isStopped() && session_.isStale(StageId::Faired));
+  const bool wasStopped = !session_.isWorking() && session_.isStopped() && session_.isStale(StageId::Faired);
+  status_->setCurrentIndex(wasStopped ? kAgainPage : running_ ? kProgressPage : kResultPage);
   // Measured and looked for on the disk only while someone reads it.
   if (!isVisible()) return;
   choice_->refresh();
@@ -333,7 +348,6 @@ void ExportPanel::start() {
   ExportRequest request = this->request(path);
   running_ = true;
   progress_->setValue(0);
-  progress_->show();
   session_.setSideWork(this, true, false);
   writing_ = session_.recipe();
   if (path_->isModified()) rememberExportFolder(path);
@@ -355,7 +369,6 @@ void ExportPanel::start() {
 void ExportPanel::finish(const Result<ExportReport>& report) {
   running_ = false;
   confirmReplace_ = false;
-  progress_->hide();
   session_.setSideWork(this, false);
   if (!report) {
     refresh();

@@ -16,6 +16,7 @@ class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
+class QStackedWidget;
 
 namespace batten {
 
@@ -23,6 +24,7 @@ class BackgroundWorker;
 class ExportChoice;
 class ExportOptions;
 class ExportPreview;
+class LinesNote;
 class ReportSection;
 class SvgCarrier;
 
@@ -67,7 +69,7 @@ class ExportPanel : public QWidget {
   ExportOptions* options_;
   ExportChoice* choice_;
   ExportPreview* preview_;
-  QLabel* held_;
+  LinesNote* held_;
   QPushButton* turn_;
   SvgCarrier* carrier_;
   ReportSection* report_;
@@ -75,10 +77,11 @@ class ExportPanel : public QWidget {
   CancelToken cancel_;
   QLineEdit* path_;
   QPushButton* browse_;
-  QLabel* size_;
+  LinesNote* size_;
   QPushButton* export_;
   QPushButton* again_;
-  QLabel* result_;
+  LinesNote* result_;
+  QStackedWidget* status_;  ///< The result, the progress, or how to go on.
   /// What the preview was made of.
   struct Previewed {
     std::shared_ptr<const FairedSet> faired;

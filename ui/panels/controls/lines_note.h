@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QLabel>
+
+namespace batten {
+
+/// A note with room for so many lines, whatever it says, so that what stands below it stays where it is. A longer text
+/// ends in "…", and its tool tip holds the whole.
+class LinesNote final : public QLabel {
+ public:
+  LinesNote(int lines, QWidget* parent);
+  void setLines(int lines);
+  /// [px] The height of so many lines.
+  int roomFor(int lines) const;
+  /// The lines as they are shown.
+  QStringList shownLines() const;
+
+ protected:
+  bool event(QEvent*) override;
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  int lines_;
+};
+
+/// The widget keeps its room while it is hidden.
+void keepRoom(QWidget* widget);
+
+}  // namespace batten
