@@ -128,7 +128,6 @@ QWidget* MainWindow::makeCentre() {
   p.splitter->setChildrenCollapsible(false);
   connect(p.splitter, &QSplitter::splitterMoved, this, [this] {
     if (parts_->plots->isVisible()) parts_->lowerPx = parts_->lower->height();
-    parts_->canvas->setFitHeight(parts_->canvas->height());
   });
   return p.splitter;
 }

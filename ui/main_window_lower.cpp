@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
@@ -54,13 +53,11 @@ void MainWindow::fitLower() {
     room = std::max(room, std::min(most, p.strip->flatHeight() + p.plots->goodHeight()));
   }
   p.strip->fitInto(room - (hasPlots ? p.plots->goodHeight() : 0), hasPlots);
+  if (!isWanted) return;
   const int least = p.strip->height() + (hasPlots ? p.plots->minimumSizeHint().height() : 0);
   const int most = std::max(least, p.splitter->height() - kLeastDrawing);
   const int lower = hasPlots ? std::clamp(p.lowerPx.value_or(std::min(kUsualLower, room)), least, most) : least;
-  // The page keeps its size and place from stage to stage: it is fitted beside targets and plots in all of them.
-  const int whole = p.splitter->height() - p.splitter->handleWidth(), beside = std::max(1, whole - lower);
-  p.canvas->setFitHeight(p.showsLower ? beside : whole);
-  if (isWanted) p.splitter->setSizes({beside, lower});
+  p.splitter->setSizes({std::max(1, p.splitter->height() - lower), lower});
 }
 
 }  // namespace batten

@@ -117,11 +117,6 @@ void CurveCanvas::zoomFit() {
   emit zoomChanged(zoom());
 }
 
-void CurveCanvas::setFitHeight(int height) {
-  state_->transform.setFitHeight(static_cast<int>(std::lround(height * devicePixelRatioF())));
-  if (state_->isFitted) zoomFit();
-}
-
 void CurveCanvas::zoomActual() { zoomBy(1.0 / zoom()); }
 
 void CurveCanvas::zoomBy(double factor) {

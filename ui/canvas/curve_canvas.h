@@ -20,8 +20,6 @@ class CurveCanvas : public QWidget {
   ~CurveCanvas() override;
 
   void zoomFit();
-  /// The upper part [px] that a fitted page takes: the same whether or not something stands below the canvas.
-  void setFitHeight(int height);
   void zoomActual();           ///< One scan pixel is one device pixel.
   void zoomBy(double factor);  ///< About the centre of the view.
   double zoom() const;         ///< Device pixels per scan pixel.

@@ -17,16 +17,12 @@ void ViewTransform::setViewSize(QSize device, double ratio) {
   ratio_ = ratio > 0.0 ? ratio : 1.0;
 }
 
-double ViewTransform::heightToFit() const {
-  return fitHeight_ ? std::clamp(*fitHeight_, 1, view_.height()) : view_.height();
-}
-
 double ViewTransform::fittedZoom() const {
   if (image_.isEmpty()) return 1.0;
   const double margin =
-      2.0 * std::min(kFitMarginPx * ratio_, kFitMarginShare * std::min<double>(view_.width(), heightToFit()));
+      2.0 * std::min(kFitMarginPx * ratio_, kFitMarginShare * std::min(view_.width(), view_.height()));
   const double w = std::max(view_.width() - margin, 0.25 * view_.width());
-  const double h = std::max(heightToFit() - margin, 0.25 * heightToFit());
+  const double h = std::max(view_.height() - margin, 0.25 * view_.height());
   return std::min({w / image_.width(), h / image_.height(), kMaxZoom});
 }
 
@@ -35,7 +31,7 @@ double ViewTransform::minZoom() const { return std::min(1.0, 0.5 * fittedZoom())
 void ViewTransform::fit() {
   zoom_ = fittedZoom();
   origin_ = {static_cast<int>(std::lround((view_.width() - image_.width() * zoom_) / 2.0)),
-             static_cast<int>(std::lround((heightToFit() - image_.height() * zoom_) / 2.0))};
+             static_cast<int>(std::lround((view_.height() - image_.height() * zoom_) / 2.0))};
   remainder_ = {};
 }
 

@@ -6,7 +6,6 @@
 #include <QRect>
 #include <QRectF>
 #include <QSize>
-#include <optional>
 
 #include "core/base/vec2.h"
 
@@ -27,8 +26,6 @@ class ViewTransform {
   double zoom() const { return zoom_; }
   QPoint origin() const { return origin_; }  ///< [device px] of the image's upper left corner.
 
-  /// The upper part of the view that a fitted image takes [device px]: so that it lies alike whatever stands below.
-  void setFitHeight(int height) { fitHeight_ = height; }
   void fit();
   /// The smallest zoom offered: half of the fitted one, or 1 for tiny images.
   double minZoom() const;
@@ -46,11 +43,9 @@ class ViewTransform {
 
  private:
   double fittedZoom() const;
-  double heightToFit() const;
   void keepInView();
 
   QSize image_{0, 0}, view_{1, 1};
-  std::optional<int> fitHeight_;  ///< None: all of the view.
   double ratio_ = 1.0, zoom_ = 1.0;
   QPoint origin_{0, 0};
   QPointF remainder_{0, 0};  ///< Of pans smaller than a device pixel.
