@@ -236,8 +236,18 @@ void MainWindow::enterStage(PanelStage stage) {
   if (holder && parts_->inspector->isAncestorOf(holder)) parts_->canvas->setFocus(Qt::OtherFocusReason);
   parts_->inspector->setCurrentIndex(static_cast<int>(stage));
   parts_->status->setStageHint(batten::hint(stage, session_.hasScan()));
-  // What this stage works on is shown while it is open and what hides it is not; what the user switches stays as he
-  // left it.
+  showLayersOf(stage);
+  // What is not compared is not drawn over: a faired curve in Export would look like a pinned one.
+  view_.setComparesPinned(stage == PanelStage::Curves || stage == PanelStage::Fairing);
+  parts_->topBar->setExportIsPrimary(stage != PanelStage::Export);
+  view_.setShowsMaskUncleaned(stage == PanelStage::Threshold);
+  view_.setTool(usualTool(stage));
+  parts_->showsLowerHere = false;
+  fitLower();
+}
+
+// What a stage works on is shown while it is open and what hides it is not; what the user switches stays as he left it.
+void MainWindow::showLayersOf(PanelStage stage) {
   for (const Parts::StageLayer& one : parts_->stageLayers)
     if (view_.isVisible(one.layer) == one.during) view_.setVisible(one.layer, one.before);
   parts_->stageLayers.clear();
@@ -250,10 +260,6 @@ void MainWindow::enterStage(PanelStage stage) {
   };
   // Marks that a click changes are shown where curves are judged, not where they would be in the way.
   if (stage != PanelStage::Curves && stage != PanelStage::Fairing) turn(false, {Layer::Extrema});
-  view_.setShowsMaskUncleaned(stage == PanelStage::Threshold);
-  // What is not compared is not drawn over: a faired curve in Export would look like a pinned one.
-  view_.setComparesPinned(stage == PanelStage::Curves || stage == PanelStage::Fairing);
-  parts_->topBar->setExportIsPrimary(stage != PanelStage::Export);
   switch (stage) {
     case PanelStage::Scan:
       parts_->log = session_.recipe().log;
@@ -290,9 +296,6 @@ void MainWindow::enterStage(PanelStage stage) {
       turn(false, {Layer::Comb});
       break;
   }
-  view_.setTool(usualTool(stage));
-  parts_->showsLowerHere = false;
-  fitLower();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -118,6 +118,7 @@ class MainWindow : public QMainWindow {
   /// Where file dialogs open: at the drawing, else where the last one was.
   QString startFolder() const;
   void enterStage(PanelStage stage);
+  void showLayersOf(PanelStage stage);
   /// Targets and plots, in main_window_lower.cpp: shown where curves are judged; in a low window the strip shrinks,
   /// then the plots fold.
   void fitLower();

@@ -96,7 +96,7 @@ void MainWindow::scanOpened() {
   // Nobody changes what came with the program: the first time Ctrl+S asks where.
   if (isOfProgram(p.recipePath)) p.recipePath.clear();
   forgetDrawing(view_);
-  if (!session_.isBlankPage() && isReopened)
+  if (!session_.isBlankPage() && isReopened && !p.recipePath.isEmpty())
     rememberFile(p.recipePath, session_.scanPath());
   else if (!session_.isBlankPage())
     rememberFile(session_.scanPath());
@@ -167,7 +167,10 @@ void MainWindow::readRecipe(const QString& path, const QString& withScan) {
 }
 
 void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe, const QString& withScan) {
-  if (!recipe) return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
+  if (!recipe) {
+    parts_->opening->end();  // it has been read to its end, whatever it is
+    return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
+  }
   if (recipe->page) {
     if (!maybeDiscard()) return;
     parts_->pageRecipe = absolutePath(path);
@@ -175,7 +178,8 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe, co
     return rememberFile(path);
   }
   const QString savedFor = scanOfRecipe(path);
-  const QString scan = withScan.isEmpty() && !session_.hasScan() ? savedFor : withScan;
+  const bool isOfThisScan = !savedFor.isEmpty() && savedFor == absolutePath(session_.scanPath());
+  const QString scan = withScan.isEmpty() && (isOfThisScan || !session_.hasScan()) ? savedFor : withScan;
   if (!scan.isEmpty()) {
     if (!maybeDiscard()) return;
     parts_->pageRecipe = absolutePath(path);
@@ -189,8 +193,6 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe, co
   Recipe after = *recipe;
   after.scanPage = session_.recipe().scanPage;  // it is used on the page that is open
   session_.change(tr("Open recipe"), std::move(after));
-  // That of this very scan is saved where it came from.
-  if (!savedFor.isEmpty() && savedFor == absolutePath(session_.scanPath())) parts_->recipePath = absolutePath(path);
 }
 
 void MainWindow::chooseImport() {
@@ -234,6 +236,7 @@ void MainWindow::useImport(const ImportReport& report, bool intoDrawing) {
 
 void MainWindow::openPage(const PageChoice& page) {
   if (!maybeDiscard()) return parts_->scanPanel->refresh();
+  parts_->pageRecipe.clear();
   session_.openScan(session_.scanPath(), page);
 }
 

@@ -144,6 +144,7 @@ void MainWindow::tellNotOpened(const QString& path) {
   parts_->dismissal = {};
   parts_->remedy = [this, path] {
     parts_->errors->hide();
+    parts_->opening->begin(path);
     openRecent(path);
   };
   parts_->errors->show(

@@ -19,9 +19,10 @@ class OpeningGuard : public QObject {
   void begin(const QString& path);
   /// Whether a program that has gone ended while it opened this file.
   static bool hasFailed(const QString& path);
+  /// The file has been opened, or refused.
+  void end();
 
  private:
-  void end();
   QString path_;  ///< Empty: nothing is being opened.
 };
 

@@ -12,7 +12,7 @@
 #include <QToolButton>
 #include <QWidgetAction>
 
-#include "ui/canvas/marks_key.h"
+#include "ui/canvas/legend.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/view_settings.h"
 #include "ui/theme/theme.h"
@@ -71,14 +71,14 @@ void TopBar::buildViewButtons(ViewSettings& view, QMenu* layersMenu) {
   layers->setFocusPolicy(Qt::TabFocus);
   layout()->addWidget(layers);
   auto* marks = new QToolButton(this);
-  marks->setObjectName(QStringLiteral("keyButton"));
-  marks->setText(tr("Key"));
+  marks->setObjectName(QStringLiteral("legendButton"));
+  marks->setText(tr("Legend"));
   marks->setToolTip(tr("What the marks on the drawing mean."));
-  auto* key = new QMenu(marks);
-  auto* list = new QWidgetAction(key);
-  list->setDefaultWidget(new MarksKey(key));
-  key->addAction(list);
-  marks->setMenu(key);
+  auto* legend = new QMenu(marks);
+  auto* list = new QWidgetAction(legend);
+  list->setDefaultWidget(new Legend(legend));
+  legend->addAction(list);
+  marks->setMenu(legend);
   marks->setPopupMode(QToolButton::InstantPopup);
   marks->setFocusPolicy(Qt::TabFocus);
   layout()->addWidget(marks);

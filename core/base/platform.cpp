@@ -244,12 +244,16 @@ tl::expected<OpenFile, std::error_code> ReplacingFile::takePlace() {
 }
 
 OpenFile takeAlone(const std::filesystem::path& path) {
-  OpenFile file = owned(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
+  constexpr int kAsItIs = O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC;
+  // NFS locks alone only what may be written.
+  OpenFile file = owned(::open(path.c_str(), O_RDWR | kAsItIs));
+  if (!file) file = owned(::open(path.c_str(), O_RDONLY | kAsItIs));
   struct stat info {};
   if (!file || ::fstat(file->descriptor, &info) != 0 || !S_ISREG(info.st_mode)) return nullptr;
+  // On a disk without locks it is nobody's.
+  if (::flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return nullptr;
   // Its holder may have replaced it between the two calls: then this is a lock on nothing.
-  if (::flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 || !isNamed(*file, path)) return nullptr;
-  return file;
+  return isNamed(*file, path) ? file : nullptr;
 }
 
 void removeLeftover(const std::filesystem::path& path) {

@@ -17,7 +17,7 @@ inline std::string shownName(const std::filesystem::path& path) { return shownTe
 std::size_t characterBytes(std::string_view text);
 
 /// JSON text as a terminal may see it: what shownText replaces and JSON allows within strings - DEL, C1, line and
-/// direction marks, noncharacters - written as \u and four digits. The value stays the same.
+/// direction marks, spaces without width, noncharacters - written as \u and four digits. The value stays the same.
 std::string shownJson(std::string_view json);
 
 }  // namespace batten

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/save_atomically.h"
 
+#include <chrono>
+
 #include "core/base/content_hash.h"
 #include "core/base/shown_text.h"
 
@@ -53,16 +55,19 @@ fs::path folderOf(const fs::path& target) { return target.has_parent_path() ? ta
 /// Programs that save one target at the same time take these names one after another. More than a few never do.
 constexpr int kNamesInUse = 4;
 
-/// Removes what programs left in the folder that were ended while they saved any file.
+/// Removes what programs left in the folder that were ended while they saved any file. Not what is newer than a day: on
+/// a disk whose locks other machines do not see, one of them may be saving it.
 void removeLeftoversIn(const fs::path& folder) {
-  constexpr int kMostNames = 10'000;  // that are looked at: a folder of an archive may have a million
+  constexpr int kMostNames = 1000;  // that are looked at: a folder of an archive may have a million
+  constexpr auto kLeastAge = std::chrono::hours(24);
+  const fs::file_time_type newest = fs::file_time_type::clock::now() - kLeastAge;
   std::error_code code;
   int names = 0;
   for (fs::directory_iterator one(folder, code), end; !code && one != end && names < kMostNames; one.increment(code)) {
     ++names;
     const std::string name = one->path().filename().string();
     if (name.size() == kPrefix.size() + kDigits + kSuffix.size() && name.starts_with(kPrefix) &&
-        name.ends_with(kSuffix))
+        name.ends_with(kSuffix) && fs::last_write_time(one->path(), code) < newest && !code)
       removeLeftover(one->path());
   }
 }

@@ -71,7 +71,7 @@ class Jumps : public test::WindowFixture, public testing::WithParamInterface<QSi
     ASSERT_TRUE(settleAll());
     ASSERT_EQ(session().selectedCurve(), row);
   }
-  /// @param ofOthers names of what belongs to the thing that is clicked, and comes and goes with it
+  /// @param isLooked at the place of what has this name: not at what belongs to the thing that is clicked
   void expectStill(
       PanelStage stage, const std::string& what, const std::function<void()>& act,
       const std::function<bool(const std::string&)>& isLooked = [](const std::string&) { return true; }) {

@@ -11,6 +11,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/fairing_figures.h"
 #include "ui/session/curve_names.h"
+#include "ui/session/tolerance_offer.h"
 
 namespace batten {
 namespace {
@@ -32,8 +33,9 @@ class Promise : public test::WindowFixture {
   void takeOffer(const std::string& where) {
     auto* raise = find<QAbstractButton>("fairing.raise");
     if (!fairingNote(*session().selected()).neededMm) return;
-    constexpr int kTrialMs = 3000;  // more than trying the offer takes
-    if (!waitUntil([raise] { return raise->isVisible(); }, kTrialMs)) return;
+    const auto* offer = window_->findChild<ToleranceOffer*>();
+    ASSERT_TRUE(waitUntil([offer] { return !offer->isTrying(); }));
+    if (!raise->isVisible()) return;
     ++offers_;
     const QString text = raise->text();
     QTest::mouseClick(raise, Qt::LeftButton);

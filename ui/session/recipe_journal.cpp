@@ -90,7 +90,12 @@ void RecipeJournal::forget() {
   written_.reset();
   ++generation_;
   if (!lock_ || !lock_->hold()) return;  // Nothing was written, or it is no longer this session's.
-  worker_->start([file = file_](const CancelToken&) { QFile::remove(file); }, BackgroundWorker::Running::Finish);
+  worker_->start(
+      [file = file_, held = std::exchange(held_, nullptr)](const CancelToken&) mutable {
+        held.reset();  // a file that is open does not go everywhere
+        QFile::remove(file);
+      },
+      BackgroundWorker::Running::Finish);
 }
 
 std::optional<RecipeJournal::Left> RecipeJournal::left() {

@@ -26,7 +26,7 @@ void ToleranceOffer::ask(const TracedCurve* curve, std::optional<double> toleran
     worker_.cancelAll();
     ++request_;
     askedMm_.reset();
-    isEnough_ = false;
+    isEnough_ = isTrying_ = false;
     return;
   }
   if (askedMm_ == toleranceMm && curve_ == curve->sketched && params_ == curve->fairingUsed) return;
@@ -34,13 +34,16 @@ void ToleranceOffer::ask(const TracedCurve* curve, std::optional<double> toleran
   params_ = curve->fairingUsed;
   askedMm_ = toleranceMm;
   isEnough_ = false;
+  isTrying_ = true;
   worker_.start([this, job = *curve, mm = *toleranceMm, id = ++request_](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
     const auto enough = guarded<bool>([&] { return Result<bool>(isReached(job, mm, context)); });
     if (token.isCancelled()) return;
     inbox_.post([this, id, isOne = enough.value_or(false)] {
-      if (id != request_ || !isOne) return;
+      if (id != request_) return;
+      isTrying_ = false;
+      if (!isOne) return;
       isEnough_ = true;
       emit changed();
     });

@@ -20,6 +20,8 @@ class ToleranceOffer : public QObject {
   void ask(const TracedCurve* curve, std::optional<double> toleranceMm);
   /// The tolerance in question, once it is known to be enough.
   std::optional<double> enough() const { return isEnough_ ? askedMm_ : std::nullopt; }
+  /// It is not known yet whether the tolerance in question is enough.
+  bool isTrying() const { return isTrying_; }
 
  signals:
   void changed();
@@ -28,7 +30,7 @@ class ToleranceOffer : public QObject {
   NurbsCurve curve_;      ///< Of which `askedMm_` is asked,
   FairingParams params_;  ///< and as it is faired now.
   std::optional<double> askedMm_;
-  bool isEnough_ = false;
+  bool isEnough_ = false, isTrying_ = false;
   int request_ = 0;
   Inbox inbox_;
   BackgroundWorker worker_;  ///< Last: joined before what its jobs use goes away.

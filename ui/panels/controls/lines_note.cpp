@@ -29,6 +29,7 @@ int LinesNote::roomFor(int lines) const { return lines * fontMetrics().lineSpaci
 
 QStringList LinesNote::shownLines() const {
   QStringList shown;
+  qsizetype begin = 0;  // of the paragraph
   for (const QString& paragraph : text().split(QLatin1Char('\n'))) {
     QTextLayout layout(paragraph, font());
     layout.beginLayout();
@@ -39,12 +40,13 @@ QStringList LinesNote::shownLines() const {
         continue;
       }
       // The last line takes all that is left, and is cut where it has to be.
-      const QString rest = text().mid(text().indexOf(paragraph) + line.textStart()).simplified();
+      const QString rest = text().mid(begin + line.textStart()).simplified();
       shown << fontMetrics().elidedText(rest, Qt::ElideRight, width());
       layout.endLayout();
       return shown;
     }
     layout.endLayout();
+    begin += paragraph.size() + 1;
   }
   return shown;
 }

@@ -10,9 +10,9 @@ class QPainter;
 namespace batten {
 
 /// What the marks on the drawing mean, a row a mark.
-class MarksKey : public QWidget {
+class Legend : public QWidget {
  public:
-  explicit MarksKey(QWidget* parent = nullptr);
+  explicit Legend(QWidget* parent = nullptr);
   QSize sizeHint() const override;
 
  protected:

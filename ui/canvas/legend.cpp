@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/canvas/marks_key.h"
+#include "ui/canvas/legend.h"
 
 #include <QCoreApplication>
 #include <QPainter>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kKeyRowPx = 26, kMarkColumnPx = 40, kAroundPx = 8;
 
-QString meaning(const char* text) { return QCoreApplication::translate("MarksKey", text); }
+QString meaning(const char* text) { return QCoreApplication::translate("Legend", text); }
 
 void paintTick(QPainter& painter, QPointF at) {
   painter.setPen(QPen(colors::target(), 1.4));
@@ -40,7 +40,7 @@ ExtremumMark extremum(bool isKept, bool isCertain, std::optional<bool> wantedToK
 
 }  // namespace
 
-MarksKey::MarksKey(QWidget* parent) : QWidget(parent) {
+Legend::Legend(QWidget* parent) : QWidget(parent) {
   const auto ofExtremum = [](const ExtremumMark& mark) {
     return [mark](QPainter& painter, QPointF at) { paintExtremum(painter, mark, at); };
   };
@@ -61,13 +61,13 @@ MarksKey::MarksKey(QWidget* parent) : QWidget(parent) {
   setAccessibleDescription(all.join(QStringLiteral("; ")));
 }
 
-QSize MarksKey::sizeHint() const {
+QSize Legend::sizeHint() const {
   int widest = 0;
   for (const Row& row : rows_) widest = std::max(widest, fontMetrics().horizontalAdvance(row.meaning));
   return {kMarkColumnPx + widest + 2 * kAroundPx, kKeyRowPx * static_cast<int>(rows_.size()) + 2 * kAroundPx};
 }
 
-void MarksKey::paintEvent(QPaintEvent*) {
+void Legend::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   int y = kAroundPx;
