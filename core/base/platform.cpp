@@ -253,7 +253,7 @@ OpenFile takeAlone(const std::filesystem::path& path) {
   // On a disk without locks it is nobody's.
   if (::flock(file->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return nullptr;
   // Its holder may have replaced it between the two calls: then this is a lock on nothing.
-  return isNamed(*file, path) ? file : nullptr;
+  return isNamed(*file, path) ? std::move(file) : nullptr;
 }
 
 void removeLeftover(const std::filesystem::path& path) {
