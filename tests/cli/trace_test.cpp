@@ -69,8 +69,8 @@ TEST_F(Trace, RefusesWordsOfAnExportThatMakeNoSense) {
   expectError(start + "--preset paper -o " + file("a.dxf"), 2, "Presets: alias");
   expectError(start + "--preset laser -o " + file("a.step"), 2, "end in .dxf, .svg or .pdf");
   expectError(start + "--unit cm -o " + file("a.dxf"), 2, "mm or in");
-  expectError(start + "--scale 0 -o " + file("a.dxf"), 2, "must be above 0");
-  expectError(start + "--scale 1e9 -o " + file("a.dxf"), 2, "at most 1000000");
+  expectError(start + "--scale 0 -o " + file("a.dxf"), 2, "must be from 0.000001 to 1000000");
+  expectError(start + "--scale 1e9 -o " + file("a.dxf"), 2, "must be from 0.000001 to 1000000");
   expectError(start + "--tolerance 0 -o " + file("a.svg"), 2, "at least 0.000001 mm");
   expectError(start + "--curves 7 -o " + file("a.svg"), 2, "no curve 7");
   expectError(start + "--curves x -o " + file("a.svg"), 2, "curve numbers such as");
