@@ -3,7 +3,6 @@
 
 #include <QPushButton>
 #include <QVBoxLayout>
-#include <algorithm>
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/like_link.h"
@@ -52,14 +51,8 @@ FairingLinks::FairingLinks(EditorSession& session, QWidget* parent)
 void FairingLinks::refresh(const FairingParams& params, bool isOwn) {
   const bool isTarget = params.mode == FairingMode::Target && session_.selected();
   const bool isDrawn = isTargetDrawn(session_);
-  // Also for curves without one where others have one: what is below must not move from row to row of the list.
-  const Recipe& recipe = session_.recipe();
-  const bool anyTarget =
-      recipe.fairing.mode == FairingMode::Target ||
-      std::ranges::any_of(recipe.choices, [](const PieceChoice& one) { return one.mode == FairingMode::Target; });
-  for (QPushButton* link : {split_, logAesthetic_}) link->setVisible(anyTarget);
   // Two links in one place where only one of them can have something to do.
-  draw_->setVisible(anyTarget && !isDrawn);
+  draw_->setVisible(!isDrawn);
   draw_->setEnabled(isTarget);
   forget_->setVisible(isDrawn);
   logAesthetic_->setEnabled(isTarget && params.target != FairingTarget::LogAesthetic);
@@ -68,7 +61,7 @@ void FairingLinks::refresh(const FairingParams& params, bool isOwn) {
   const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;
   const bool isPointed = canSplit && session_.pointedSpan().has_value();
   whole_->setVisible(isPointed);
-  unsplit_->setVisible(anyTarget && !isPointed);
+  unsplit_->setVisible(!isPointed);
   unsplit_->setEnabled(canSplit && spans > 0);
   split_->setEnabled(canSplit && !hasNaturalSpans(session_));
   for (QPushButton* link : {useForAll_, followAll_}) {

@@ -23,8 +23,8 @@ namespace batten {
 namespace {
 
 constexpr int kCurveRow = 26;          // [px] Height.
-constexpr int kLeastRows = 7;          ///< That are seen without scrolling in the list itself, where there are as many.
-constexpr double kShareOfPanel = 0.3;  ///< That the list may take of a high one.
+constexpr int kLeastRows = 10;         ///< That are seen without scrolling in the list itself, where there are as many.
+constexpr double kShareOfPanel = 0.4;  ///< That the list may take of a high one.
 constexpr int kEyeWidth = 26;          // [px] At the left.
 constexpr int kIconSize = 14;          // px
 constexpr int kApart = 8;              ///< Between a name, which may be cut, and its figures.
