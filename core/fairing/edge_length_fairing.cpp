@@ -12,6 +12,7 @@
 #include "core/curve/knot_operations.h"
 #include "core/fairing/edge_lengths.h"
 #include "core/fairing/fairing.h"
+#include "core/fairing/fairing_params.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/shape_modification.h"
@@ -26,8 +27,6 @@ constexpr int kSamples = 801;
 /// Bisections of the share of the way to the profile, and the part of the tolerance that ends them.
 constexpr int kBisections = 12;
 constexpr double kUsedShare = 0.97;  // of the tolerance
-/// Room for what lies between the places where the deviation is measured.
-constexpr double kToleranceShare = 0.999;
 // measured at few for a guess, then at many
 constexpr int kFewPlaces = 100, kManyPlaces = 2000, kPlacesPerPiece = 64;
 
@@ -135,7 +134,7 @@ class EdgeLengthFairing {
   /// of them first: what is too far away there is too far away.
   double moved(const NurbsCurve& curve) const {
     const double seen = movedAt(curve, kFewPlaces);
-    if (!(seen <= kToleranceShare * params_.toleranceMm)) return seen;
+    if (!(seen <= kToleranceRoom * params_.toleranceMm)) return seen;
     return movedAt(curve, std::max(kManyPlaces, kPlacesPerPiece * static_cast<int>(path_.size())));
   }
 
@@ -157,8 +156,8 @@ class EdgeLengthFairing {
       const double share = i == 0 ? 1.0 : 0.5 * (inside + outside);
       auto curve = attempt(share, pin);
       const std::optional<double> away = curve ? std::optional(moved(*curve)) : std::nullopt;
-      if (i == 0 && away) needed = *away * (1.0 + 1e-12) / kToleranceShare;  // with what rounding takes
-      if (!away || !(*away <= kToleranceShare * params_.toleranceMm)) {
+      if (i == 0 && away) needed = toleranceFor(*away);
+      if (!away || !(*away <= kToleranceRoom * params_.toleranceMm)) {
         outside = share;
         continue;
       }

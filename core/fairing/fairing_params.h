@@ -10,6 +10,12 @@
 
 namespace batten {
 
+/// Part of the tolerance that a curve may take: the rest is room for what lies between the places where the deviation
+/// is measured.
+inline constexpr double kToleranceRoom = 0.999;
+/// [mm] The tolerance that has this room beside a deviation, with what rounding takes.
+inline double toleranceFor(double deviationMm) { return deviationMm * (1.0 + 1e-12) / kToleranceRoom; }
+
 enum class FairingMode {
   None,       ///< The sketched curve as constructed.
   Target,     ///< Towards one of the target profiles, or the drawn one.

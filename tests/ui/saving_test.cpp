@@ -23,6 +23,14 @@ using test::waitUntil;
 class Saving : public test::WindowFixture {
  protected:
   void save() { window_->action(ActionId::SaveRecipe)->trigger(); }
+  /// @param target where a changed drawing is saved: in another folder than its scan.
+  void saveWorkElsewhere(QString& target) {
+    ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+    ASSERT_NO_FATAL_FAILURE(changeSomething());
+    ASSERT_TRUE(QDir(folder_.path()).mkdir(QStringLiteral("work")));
+    target = folder_.filePath(QStringLiteral("work/mine.recipe.json"));
+    saveAs(target, [this] { save(); });
+  }
   Recipe saved(const QString& path) {
     const auto recipe = recipeFromJson(read(path).toStdString());
     EXPECT_TRUE(recipe) << path.toStdString();
@@ -111,11 +119,8 @@ TEST_F(Saving, TheFolderIsRememberedAndTheProgramsOwnIsNotProposed) {
 
 // The folder of the sample is the program's, so its recipe cannot lie beside it.
 TEST_F(Saving, WorkSavedElsewhereIsFoundAmongTheRecentFilesAndSavedThereAgain) {
-  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
-  ASSERT_NO_FATAL_FAILURE(changeSomething());
-  ASSERT_TRUE(QDir(folder_.path()).mkdir(QStringLiteral("work")));
-  const QString target = folder_.filePath(QStringLiteral("work/mine.recipe.json"));
-  saveAs(target, [this] { save(); });
+  QString target;
+  ASSERT_NO_FATAL_FAILURE(saveWorkElsewhere(target));
   const Recipe work = session().recipe();
   EXPECT_EQ(MainWindow::recentFiles().value(0), target);
   ASSERT_NO_FATAL_FAILURE(openWindow());
@@ -142,11 +147,8 @@ TEST_F(Saving, WorkSavedElsewhereIsFoundAmongTheRecentFilesAndSavedThereAgain) {
 }
 
 TEST_F(Saving, TheScanAloneOffersTheWorkThatWasSavedOnIt) {
-  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
-  ASSERT_NO_FATAL_FAILURE(changeSomething());
-  ASSERT_TRUE(QDir(folder_.path()).mkdir(QStringLiteral("work")));
-  const QString target = folder_.filePath(QStringLiteral("work/mine.recipe.json"));
-  saveAs(target, [this] { save(); });
+  QString target;
+  ASSERT_NO_FATAL_FAILURE(saveWorkElsewhere(target));
   const Recipe work = session().recipe();
   ASSERT_NO_FATAL_FAILURE(openWindow());
   ASSERT_NO_FATAL_FAILURE(openFile(path_));

@@ -3,12 +3,12 @@
 
 #include <QCoreApplication>
 #include <QPainter>
-#include <QPolygonF>
 #include <algorithm>
 #include <utility>
 
 #include "ui/canvas/layers/comb_layer.h"
 #include "ui/canvas/layers/corner_layer.h"
+#include "ui/canvas/layers/direction_layer.h"
 #include "ui/canvas/layers/extremum_layer.h"
 #include "ui/canvas/scene/canvas_colors.h"
 
@@ -24,11 +24,7 @@ void paintTick(QPainter& painter, QPointF at) {
   for (const double side : {-1.0, 1.0}) painter.drawLine(at + QPointF(0.0, 3.0 * side), at + QPointF(0.0, 10.0 * side));
 }
 
-void paintArrow(QPainter& painter, QPointF at) {
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(colors::accent());
-  painter.drawPolygon(QPolygonF({at + QPointF(7, 0), at + QPointF(-5, 5), at + QPointF(-2, 0), at + QPointF(-5, -5)}));
-}
+void paintArrow(QPainter& painter, QPointF at) { paintDirectionArrow(painter, at + QPointF(6, 0), QPointF(1, 0)); }
 
 ExtremumMark extremum(bool isKept, bool isCertain, std::optional<bool> wantedToKeep = {}) {
   ExtremumMark mark;
@@ -57,7 +53,7 @@ Legend::Legend(QWidget* parent) : QWidget(parent) {
            {paintArrow, meaning("Start and direction of the selected curve")}};
   QStringList all;
   for (const Row& row : rows_) all << row.meaning;
-  setAccessibleName(meaning("Key to the marks"));
+  setAccessibleName(meaning("Legend"));
   setAccessibleDescription(all.join(QStringLiteral("; ")));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/tolerance_offer.h"
 
-#include "core/fairing/corner_sections.h"
 #include "core/fairing/edge_length_fairing.h"
+#include "core/pipeline/run/fair_stage.h"
 #include "core/pipeline/run/fairing_distance.h"
 #include "ui/session/guarded.h"
 
@@ -12,10 +12,8 @@ namespace {
 bool isReached(const TracedCurve& curve, double toleranceMm, const RunContext& context) {
   FairingParams params = curve.fairingUsed;
   params.toleranceMm = toleranceMm;
-  const bool byEdges = movesEdgeLengths(params);
-  if (!byEdges) params.takenMm = startsOffMm(curve, context);
-  const auto faired = byEdges ? fairByEdgeLengths(curve.sketched, curve.closed, params, context)
-                              : fairBetweenCorners(curve.fairingStart(), curve.closed, params, context);
+  if (!movesEdgeLengths(params)) params.takenMm = startsOffMm(curve, context);
+  const auto faired = fairedAs(curve, params, context);
   return faired && faired->report.withinTolerance;
 }
 

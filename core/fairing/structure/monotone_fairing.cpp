@@ -10,6 +10,7 @@
 
 #include "core/base/number_text.h"
 #include "core/curve/curvature.h"
+#include "core/fairing/fairing_params.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/model/target_steps.h"
@@ -18,8 +19,6 @@
 namespace batten {
 namespace {
 
-/// The deviation is measured at places: it must keep this share of the tolerance.
-constexpr double kKeptShare = 0.999;
 /// Curves of more samples are not tried by targets: they are long and wavy, and each takes seconds.
 constexpr int kMostTargetSamples = 600;
 /// A target is followed until the curve has left the sketch by so many times what is wanted.
@@ -53,9 +52,7 @@ class MonotoneFairing {
   }
 
  private:
-  double most() const { return kKeptShare * params_.toleranceMm; }
-  /// The tolerance that lets a curve move so far, with what rounding takes.
-  static double toleranceFor(double deviationMm) { return deviationMm * (1.0 + 1e-12) / kKeptShare; }
+  double most() const { return kToleranceRoom * params_.toleranceMm; }
 
   Result<FairedCurve> byPlace() {
     auto wanted = candidates_.nearestWith(params_.keptAt);

@@ -154,7 +154,7 @@ class ShapeModification {
       if (course.followed.steps().front().misfit < best->followed.steps().front().misfit) best = &course;
     return best->followed.steps().front();
   }
-  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kTargetRoom * toleranceMm_; }
+  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kToleranceRoom * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
   int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
 
@@ -163,7 +163,7 @@ class ShapeModification {
     std::vector<std::pair<const TargetStep*, const Course*>> within;
     for (const Course& course : courses_)
       for (const TargetStep& step : course.followed.steps())
-        if (step.deviationMm <= kTargetRoom * toleranceMm) within.emplace_back(&step, &course);
+        if (step.deviationMm <= kToleranceRoom * toleranceMm) within.emplace_back(&step, &course);
     if (isFiltered_) {
       std::stable_sort(within.begin(), within.end(),
                        [](const auto& a, const auto& b) { return a.first->deviationMm < b.first->deviationMm; });
@@ -212,7 +212,7 @@ class ShapeModification {
   Sides sidesOf(const Course& course, double toleranceMm) const {
     Sides sides;
     for (const TargetStep& step : course.followed.steps()) {
-      if (step.deviationMm <= kTargetRoom * toleranceMm) {
+      if (step.deviationMm <= kToleranceRoom * toleranceMm) {
         sides.inside = &step;
         break;
       }
@@ -245,7 +245,7 @@ class ShapeModification {
       const double weight = near ? weightBetween(wide, *near, toleranceMm) : kWeightStep * wide.weight;
       auto step = course.followed.between(near ? *near : wide, weight);
       if (!step) break;
-      if (step->deviationMm <= kTargetRoom * toleranceMm) {
+      if (step->deviationMm <= kToleranceRoom * toleranceMm) {
         found.push_back(*step);
         near = std::move(step);
       } else {

@@ -12,12 +12,6 @@
 
 namespace batten {
 
-/// Part of the tolerance that meeting a target may take: the rest is room for what lies between the places where the
-/// deviation is measured.
-inline constexpr double kTargetRoom = 0.999;
-/// [mm] The tolerance that has this room beside a deviation, with what rounding takes.
-inline double toleranceFor(double deviationMm) { return deviationMm * (1.0 + 1e-12) / kTargetRoom; }
-
 /// Moves the control points until the curvature follows the profile as far as the tolerance allows (000 VII, 003
 /// section 4): Levenberg-Marquardt with the end points pinned in a null-space basis, at fidelity weights that do not
 /// depend on the tolerance (TargetSteps). Periodic curves stay periodic (`closed`). Knots stay as they are, but for a

@@ -137,8 +137,7 @@ class LineFairing {
   static constexpr double kLightShare = 0.1;    // of the tolerance
 
   Result<FairedCurve> fairedWithin(const FairingParams& params) const {
-    return movesEdgeLengths(params) ? fairByEdgeLengths(curve_.sketched, curve_.closed, params, context_)
-                                    : fairBetweenCorners(curve_.fairingStart(), curve_.closed, params, context_, line_);
+    return fairedAs(curve_, params, context_, line_);
   }
 
   /// What the tolerance allows counts for more than few control points: what a note says is needed is enough.
@@ -239,6 +238,12 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Rec
 }
 
 }  // namespace
+
+Result<FairedCurve> fairedAs(const TracedCurve& curve, const FairingParams& params, const RunContext& context,
+                             const FairingLine& line) {
+  return movesEdgeLengths(params) ? fairByEdgeLengths(curve.sketched, curve.closed, params, context)
+                                  : fairBetweenCorners(curve.fairingStart(), curve.closed, params, context, line);
+}
 
 Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& contours, const PieceSet& pieces,
                           const Recipe& recipe, const PageFrame& frame, const RunContext& context) {

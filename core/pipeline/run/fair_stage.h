@@ -3,6 +3,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/fairing/model/fairing_line.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {
@@ -11,5 +12,9 @@ namespace batten {
 /// and its report says why.
 Result<FairedSet> fairAll(const ConstructedSet&, const ContourSet&, const PieceSet&, const Recipe&, const PageFrame&,
                           const RunContext&);
+
+/// One curve faired as the parameters ask, before it is made light.
+/// @param line the points that it stands for, where they are known.
+Result<FairedCurve> fairedAs(const TracedCurve&, const FairingParams&, const RunContext&, const FairingLine& line = {});
 
 }  // namespace batten

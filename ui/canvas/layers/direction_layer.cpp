@@ -12,7 +12,7 @@ namespace batten {
 void paintDirection(QPainter& painter, const CanvasScene& scene) {
   const CurveComb* comb = scene.selectedComb();
   if (comb == nullptr || comb->points.size() < 2) return;
-  constexpr double kBack = 6.0, kLong = 13.0, kHalf = 5.0, kClear = 10.0;  // [widget px]
+  constexpr double kLong = 13.0, kClear = 10.0;  // [widget px]
   // Behind the mark of a corner, along the curve and not along its first pixel.
   const double pxPerMm = 1.0 / scene.combs->source.frame.lengthToModel(scene.transform.imagePerWidget());
   if (!(comb->lengthMm * pxPerMm > 3.0 * (kClear + kLong))) return;
@@ -20,8 +20,13 @@ void paintDirection(QPainter& painter, const CanvasScene& scene) {
   const QPointF to = scene.transform.toWidget(comb->at((kClear + kLong) / pxPerMm).px);
   const double length = std::hypot(to.x() - from.x(), to.y() - from.y());
   if (!(length > 0.0)) return;
-  const QPointF along = (to - from) / length, across(-along.y(), along.x());
-  const QPointF tip = from + kLong * along, heel = from + (kLong - kBack - kHalf) * along;
+  const QPointF along = (to - from) / length;
+  paintDirectionArrow(painter, from + kLong * along, along);
+}
+
+void paintDirectionArrow(QPainter& painter, QPointF tip, QPointF along) {
+  constexpr double kBack = 6.0, kHalf = 5.0;  // [widget px]
+  const QPointF across(-along.y(), along.x()), heel = tip - (kBack + kHalf) * along;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(Qt::white, 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));

@@ -10,5 +10,7 @@ namespace batten {
 
 /// An arrow where the selected curve begins: the way in which its length is counted.
 void paintDirection(QPainter&, const CanvasScene&);
+/// The arrow itself. @param along of length 1
+void paintDirectionArrow(QPainter&, QPointF tip, QPointF along);
 
 }  // namespace batten
