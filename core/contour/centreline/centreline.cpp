@@ -274,6 +274,19 @@ struct PathsFound {
   double widthPx = 0.0;            ///< Median of the strokes as they were thresholded.
 };
 
+// The strokes of a pencil are followed where they fade: as the bodies end, not as the threshold tore them.
+void addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeParams& params, const CentrelineOptions& options,
+                  const RunContext& context) {
+  const GraininessMap grain = grainOf(found.strokes.paths, grey, options, context);
+  const BitImage all = options.shapes != nullptr ? either(*found.bodies, *options.shapes) : *found.bodies;
+  BitImage trails = followFaintEnds(
+      found.strokes.paths, [&](int i) { return grain.isPencil(i); }, all, grey, context, options.pixelsPerPx());
+  if (context.isCancelled() || trails.count() == 0) return;
+  found.bodies = either(std::move(*found.bodies), std::move(trails));
+  if (options.shapes != nullptr) found.bodies = without(std::move(*found.bodies), *options.shapes);
+  found.strokes = centrelinesOf(*found.bodies, options, params, context);
+}
+
 // The stroke paths, with the gaps between them bridged. Unfinished when cancelled.
 PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                      const CentrelineOptions& options, const RunContext& context) {
@@ -292,13 +305,11 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || isPencil(i);
   std::vector<bool> pencil;
   if (anyPencil) {
-    BitImage bodies = bodiesOf(strokes, grey, paths, grain, pixelsPerPx, context);
-    const BitImage all = shapes != nullptr ? either(bodies, *shapes) : bodies;
-    bodies = either(std::move(bodies), followFaintEnds(paths, isPencil, all, grey, context, pixelsPerPx));
-    if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
+    found.bodies = bodiesOf(strokes, grey, paths, grain, pixelsPerPx, context);
     if (context.isCancelled()) return found;
-    found.strokes = centrelinesOf(bodies, options, params, context);
-    found.bodies = std::move(bodies);
+    found.strokes = centrelinesOf(*found.bodies, options, params, context);
+    addFaintEnds(found, grey, params, options, context);
+    if (context.isCancelled()) return found;
     const GraininessMap ofBodies = grainOf(paths, grey, options, context);
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));
   } else {

@@ -2,6 +2,7 @@
 #include "core/contour/centreline/faint_ends.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -20,8 +21,10 @@ namespace {
 constexpr double kLeastTrailStepPx = 6.0;        // of a search: shorter ones have no direction among the grain
 constexpr double kStepWidths = 1.5;              // [stroke widths]
 constexpr double kTurnDeg = 10.0;                // to either side: a hand turns less on so short a way
+constexpr double kAsidePx = 1.0;                 // to either side: a weak line sways, and coarse compression shifts it
 constexpr double kBesideWidths = 0.75;           // [stroke widths] from the middle to the paper at the sides,
 constexpr double kBesidePx[] = {1.5, 2.5, 3.5};  // and so much more
+constexpr double kMostRecentring = 1.0 / 3;      // of the way to the paper at the sides: beyond it is other ink
 constexpr double kTrailCoreWidths = 0.25;        // [stroke widths] to both sides of the middle, where all is ink,
 constexpr double kMostTrailCorePx = 1.0;         // and of wide ones: three lanes see what there is
 constexpr int kMostHook = 3;  // part of the stretch that gives the direction: what is left out at its end is no more
@@ -29,14 +32,16 @@ constexpr double kAheadStepPx = 0.5;      // of the search for the end of the in
 constexpr double kSoftEndPx = 2.0;        // beyond its mask a stroke fades by the blur of the scan
 constexpr double kLeastEndWidths = 3.0;   // [stroke widths] a shorter stroke has no direction
 constexpr double kMostAheadWidths = 1.5;  // [stroke widths] of ink before a free end: more is others'
-// [standard deviations of a step on paper] The darkest of three directions is 0.85 darker than one on an average; what
-// is not clearly more speaks against the line.
+// [standard deviations of a step on paper] The darkest of nine ways, most of which share their pixels, is 1.2 darker
+// than one on an average; what is not clearly more speaks against the line.
 constexpr double kNoEvidence = 2.0;
-constexpr double kMostEvidence = 4.0;      // [the same] of one step: a dark speck is no line
-constexpr double kClearTrail = 4.0;        // [the same] of all steps: two clear ones at least
-constexpr double kLeastTrailShare = 0.25;  // of the stroke's own depth: half of the half level that tells ink,
-constexpr double kMostTrailShare = 1.5;    // and what is darker than the stroke is not its weak end
-constexpr double kLeastTrailDepth = 1.5;   // [grey] as of all ink
+constexpr double kMostEvidence = 4.0;         // [the same] of one step: a dark speck is no line
+constexpr double kClearTrail = 4.0;           // [the same] of all steps: two clear ones at least
+constexpr double kLeastTrailShare = 1.0 / 6;  // of the stroke's own depth: a third of the half level that tells ink,
+constexpr double kMostTrailShare = 1.5;       // and what is darker than the stroke is not its weak end
+constexpr double kLeastTrailDepth = 1.5;      // [grey] as of all ink
+constexpr double kMostTrailLengths = 3.0;     // of the stroke's own: a short one says little about its direction
+constexpr double kLeastAheadShare = 0.8;      // of a step that is ink, where other ink continues the trail
 constexpr double kLeastSigma = 0.3;      // [grey] of a step: whole greys, where the scanner clipped the paper to white
 constexpr int kSamplesPerSide = 12;      // of the paper, along each side of a region
 constexpr int kFewestPaperSamples = 12;  // that tell the paper of a region
@@ -58,13 +63,14 @@ class StepMeter {
 
   double stepPx() const { return step_; }
   double softEndPx() const { return kSoftEndPx * pixelsPerPx_; }
+  double asidePx() const { return kAsidePx * pixelsPerPx_; }
   // [px] round the middle of a step that it looks at.
   double reachPx() const { return std::hypot(0.5 * step_, beside_ + kBesidePx[2] * pixelsPerPx_) + 1.0; }
 
   // [grey] By which the way from a place along a direction is darker than both its sides, where that is the least.
-  double depth(const Vec2& from, const Vec2& along) const {
+  double depth(const Vec2& from, const Vec2& along) const { return depth(from, along, static_cast<int>(step_)); }
+  double depth(const Vec2& from, const Vec2& along, int count) const {
     const Vec2 across = leftNormal(along);
-    const int count = static_cast<int>(step_);
     double ink = 0.0, left = 0.0, right = 0.0;
     for (int k = 0; k < count; ++k) {
       const Vec2 at = from + (k + 0.5) * along;
@@ -75,6 +81,29 @@ class StepMeter {
       }
     }
     return (std::min(left, right) - ink) / (3.0 * count);
+  }
+
+  // [px] To the left of the way from a place along a direction: the middle of what is dark there. The lanes of ink are
+  // as far apart as strokes are wide, so that a narrower line would let the way sway within them.
+  double middle(const Vec2& from, const Vec2& along) const {
+    const Vec2 across = leftNormal(along);
+    const int count = static_cast<int>(step_), reach = static_cast<int>(beside_ + kBesidePx[0] * pixelsPerPx_);
+    std::vector<double> sums;
+    for (int off = -reach; off <= reach; ++off) {
+      double sum = 0.0;
+      for (int k = 0; k < count; ++k) sum += level(from + (k + 0.5) * along + off * across);
+      sums.push_back(sum);
+    }
+    const double paper = std::min(sums.front(), sums.back());
+    const double half = 0.5 * (paper + *std::min_element(sums.begin(), sums.end()));
+    double weight = 0.0, moment = 0.0;
+    for (int i = 0; i < std::ssize(sums); ++i) {
+      const double dark = std::max(0.0, half - sums[i]);
+      weight += dark;
+      moment += dark * (i - reach);
+    }
+    const double most = std::max(asidePx(), kMostRecentring * beside_);
+    return weight > 0.0 ? std::clamp(moment / weight, -most, most) : 0.0;
   }
 
  private:
@@ -136,7 +165,7 @@ class EndFollower {
     const int hook = std::min(back / kMostHook, static_cast<int>(0.5 * widthPx + 1.0));
     const Vec2 d = at(hook) - at(back);
     if (!(d.norm() > 0.0)) return std::nullopt;
-    FaintEnd end{at(0), d.normalized(), 0.0, path.length()};
+    FaintEnd end{at(0), d.normalized(), 0.0, kMostTrailLengths * path.length()};
     end.depth = depthOf(path);
     for (double ahead = 0.0; ink_.at(static_cast<int>(end.at.x()), static_cast<int>(end.at.y()));
          ahead += kAheadStepPx) {
@@ -154,21 +183,16 @@ class EndFollower {
     double score = 0.0, best = 0.0;
     while (static_cast<double>(std::ssize(trail)) < end.mostPx && isInside(at)) {
       const Step step = darkestFrom(at, along);
-      const int toInk = pxToInk(at, step.along);
+      const int toInk = pxToInk(step.from, step.along);
       if (toInk < static_cast<int>(meter_.stepPx())) {
-        // What is darker there is other ink, which the trail reaches if it came as far as that ink's own soft side.
-        if (static_cast<double>(toInk) <= meter_.softEndPx() && kept == std::ssize(trail)) {
-          append(trail, at, step.along, toInk);
-          kept = std::ssize(trail);
-        }
-        break;
+        const bool isClear = best >= kClearTrail && kept == std::ssize(trail);
+        if (!(isClear && isSoftSide(toInk)) && !(best < kClearTrail && continues(step, toInk, score, end))) break;
+        at = step.from;
+        append(trail, at, step.along, toInk);
+        return trail;
       }
-      const int region = regionOf(static_cast<int>(at.x()), static_cast<int>(at.y()), ink_.width, ink_.height);
-      const double surplus = step.depth - static_cast<double>(paper_.mean[region]);
-      const bool isInk = step.depth > std::max(kLeastTrailShare * end.depth, kLeastTrailDepth) &&
-                         step.depth < kMostTrailShare * end.depth;
-      const double sigma = std::max(static_cast<double>(paper_.sigma[region]), kLeastSigma);
-      score += (isInk ? std::min(surplus / sigma, kMostEvidence) : 0.0) - kNoEvidence;
+      score += evidence(at, step.depth, end);
+      at = step.from;
       along = step.along;
       append(trail, at, along, static_cast<int>(meter_.stepPx()));
       if (score > best) {
@@ -184,9 +208,41 @@ class EndFollower {
 
  private:
   struct Step {
-    Vec2 along = Vec2::Zero();
+    Vec2 from = Vec2::Zero(), along = Vec2::Zero();
     double depth = 0.0;
   };
+
+  // What a step of this depth speaks for a line, less what speaks for any.
+  double evidence(const Vec2& at, double depth, const FaintEnd& end) const {
+    const int region = regionOf(static_cast<int>(at.x()), static_cast<int>(at.y()), ink_.width, ink_.height);
+    const double surplus = depth - static_cast<double>(paper_.mean[region]);
+    const bool isInk =
+        depth > std::max(kLeastTrailShare * end.depth, kLeastTrailDepth) && depth < kMostTrailShare * end.depth;
+    const double sigma = std::max(static_cast<double>(paper_.sigma[region]), kLeastSigma);
+    return (isInk ? std::min(surplus / sigma, kMostEvidence) : 0.0) - kNoEvidence;
+  }
+
+  // Ink as near as this is reached: between it and the step is only its own soft side.
+  bool isSoftSide(int toInk) const { return static_cast<double>(toInk) <= meter_.softEndPx(); }
+
+  // Whether the ink that a step reaches runs on in its direction, the other side of a gap in one line. Then half as
+  // much evidence is enough; the part of the step before that ink counts, too.
+  bool continues(const Step& step, int toInk, double score, const FaintEnd& end) const {
+    if (!isSoftSide(toInk)) score += evidence(step.from, meter_.depth(step.from, step.along, toInk), end);
+    if (score < 0.5 * kClearTrail) return false;
+    const int count = static_cast<int>(meter_.stepPx());
+    const Vec2 across = leftNormal(step.along);
+    int inked = 0;
+    for (int k = 0; k < count; ++k) {
+      const Vec2 at = step.from + (toInk + k) * step.along;
+      const bool isInk = std::ranges::any_of(std::array{-1.0, 0.0, 1.0}, [&](double aside) {
+        const Vec2 beside = at + aside * meter_.asidePx() * across;
+        return ink_.at(static_cast<int>(beside.x()), static_cast<int>(beside.y()));
+      });
+      if (isInk) ++inked;
+    }
+    return inked >= kLeastAheadShare * count;
+  }
 
   int pxToInk(const Vec2& from, const Vec2& along) const {
     const int most = static_cast<int>(meter_.stepPx());
@@ -207,13 +263,18 @@ class EndFollower {
   }
 
   Step darkestFrom(const Vec2& at, const Vec2& along) const {
-    Step best{along, meter_.depth(at, along)};
-    for (const double a : {-kTurnDeg * kRadPerDeg, kTurnDeg * kRadPerDeg}) {
-      const Vec2 rotated(std::cos(a) * along.x() - std::sin(a) * along.y(),
-                         std::sin(a) * along.x() + std::cos(a) * along.y());
-      const double depth = meter_.depth(at, rotated);
-      if (depth > best.depth) best = {rotated, depth};
+    const Vec2 aside = meter_.asidePx() * leftNormal(along);
+    Step best{at, along, meter_.depth(at, along)};
+    for (const double side : {0.0, -1.0, 1.0}) {
+      const Vec2 from = at + side * aside;
+      for (const double turn : {0.0, -kTurnDeg * kRadPerDeg, kTurnDeg * kRadPerDeg}) {
+        const Vec2 rotated(std::cos(turn) * along.x() - std::sin(turn) * along.y(),
+                           std::sin(turn) * along.x() + std::cos(turn) * along.y());
+        const double depth = meter_.depth(from, rotated);
+        if (depth > best.depth) best = {from, rotated, depth};
+      }
     }
+    best.from += meter_.middle(best.from, best.along) * leftNormal(best.along);
     return best;
   }
 

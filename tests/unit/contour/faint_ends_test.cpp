@@ -28,18 +28,20 @@ std::vector<std::vector<Vec2>> weakLines() {
   return lines;
 }
 
-// The lines are inked to `weak` of their strength where they are weak.
-GreyImage weakPage(float weak, std::uint32_t seed) {
+// The lines are inked to `weak` of their strength between two columns.
+GreyImage pageWeakBetween(double from, double to, float weak, std::uint32_t seed) {
   std::vector<float> cover = test::coverageOf(weakLines(), kWeakPencilPx, kWeakWidth, kWeakHeight);
   for (int y = 0; y < kWeakHeight; ++y) {
     for (int x = 0; x < kWeakWidth; ++x) {
-      if (x > kWeakFrom) cover[y * kWeakWidth + x] *= weak;
+      if (x > from && x < to) cover[y * kWeakWidth + x] *= weak;
     }
   }
   test::grainCoverage(
       cover, kWeakWidth, kWeakHeight, [](double, double) { return 0.6; }, seed);
   return test::scanOfLines(std::move(cover), kWeakWidth, kWeakHeight, seed).grey;
 }
+
+GreyImage weakPage(float weak, std::uint32_t seed) { return pageWeakBetween(kWeakFrom, kWeakWidth, weak, seed); }
 
 // Ink is what is darker than one level for all of the page, after a smoothing of 3 x 3.
 BitImage inkOf(const GreyImage& grey) {
@@ -76,6 +78,34 @@ TEST(FaintEnds, AWeakEndIsFollowedWhereItIsSeenAlongItsLength) {
     }
     EXPECT_GT(reached, 0.35) << "seed " << seed;
     EXPECT_EQ(astray, 0) << "seed " << seed;
+  }
+}
+
+// Shares of the weak stretch, 0..1, along which some line runs within 3 px, in the mean of the lines.
+double shareFound(const ContourSet& set, double from, double to) {
+  double found = 0.0;
+  for (const auto& line : weakLines()) {
+    for (double x = from; x < to; x += 1.0) {
+      const double y = line.front().y() + 0.03 * (x - line.front().x());
+      const bool isFound = std::any_of(set.contours.begin(), set.contours.end(), [&](const Contour& c) {
+        return std::any_of(c.points.begin(), c.points.end(),
+                           [&](const ContourPoint& p) { return (p.at - Vec2(x, y)).norm() < 3.0; });
+      });
+      found += isFound ? 1.0 / ((to - from) * 7.0) : 0.0;
+    }
+  }
+  return found;
+}
+
+// A line that the hand hardly pressed for a part of its course, where the threshold sees nothing, is one line.
+TEST(FaintEnds, AWeakPartBetweenTwoStrongOnesIsFollowedThrough) {
+  constexpr double kFrom = 180.0, kTo = 260.0;
+  constexpr float kWeak = 0.2f;
+  for (const std::uint32_t seed : kWeakSeeds) {
+    const GreyImage grey = pageWeakBetween(kFrom, kTo, kWeak, seed);
+    const auto set = traceContours(inkOf(grey), grey, {}, {}, {});
+    ASSERT_TRUE(set);
+    EXPECT_GT(shareFound(*set, kFrom, kTo), 0.9) << "seed " << seed;
   }
 }
 
