@@ -24,10 +24,11 @@ struct ExtremumConstraint {
   int id = 0;                 ///< The caller's name for it; comes back in the report.
 };
 
-/// What the grain of a stroke does to its centre line (stroke_grain.h); 0: nothing that its points do not show.
+/// What grain does to the line of a stroke or of a filled shape (stroke_grain.h); 0: nothing that its points do not
+/// show.
 struct StrokeGrain {
   double density = 0.0;  ///< [px^2 px] Noise density at wavelengths of several widths.
-  double sigmaPx = 0.0;  ///< [px] Standard deviation of the centre, in the mean over one stroke width or 8 px.
+  double sigmaPx = 0.0;  ///< [px] Standard deviation of the line, in the mean over one stroke width or 8 px.
 };
 
 /// One piece as the constructions take it. Model frame, mm.
@@ -44,6 +45,7 @@ struct ConstructPiece : PieceLine {
 struct ConstructContour {
   std::vector<ConstructPiece> pieces;
   bool isStroke = false;                  ///< Centre line of a stroke (else an outline).
+  std::optional<double> pencilPx = {};    ///< [px] width of the pencil that filled an outline; absent: no grain.
   double pixelMm = 1.0;                   ///< [mm] size of a scan pixel; 1 of a contour in px.
   std::optional<double> inkWidthPx = {};  ///< [px] width of the page's strokes and shapes; absent: not known.
 };

@@ -47,6 +47,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   cut.kind = whole.kind;
   cut.hole = whole.hole;
   cut.blurPx = whole.blurPx;
+  cut.pencilPx = whole.pencilPx;
   cut.traceMode = whole.traceMode;
   const std::size_t n = whole.points.size();
   for (std::size_t i = 0; i < count; ++i) cut.points.push_back(whole.points[(first + i) % n]);

@@ -167,9 +167,9 @@ double penOfBorders(const ContourSet& borders) {
 }
 
 // The borders of ink that is followed along them, but the short ones. `penPx` absent: taken from the borders.
-// `pencil`: ink whose grain leaves specks and holes; absent: none is known.
+// `pencil`: what was drawn with one, whose grain leaves specks and holes; absent: nothing is known.
 Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, std::optional<double> penPx,
-                             const BitImage* pencil, const RunContext& context) {
+                             const PencilInk* pencil, const RunContext& context) {
   // Of a line's least length: a dot half as wide as the pen, and the eye of an e.
   constexpr double kLeastDot = 0.5, kLeastHole = 1.0 / 3.0;
   constexpr double kGrain = 4.0;  // of it: specks and holes of a pencil are smaller
@@ -177,12 +177,14 @@ Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParam
   if (!set) return set;
   const double shortest = shortestPx(params, penPx ? *penPx : penOfBorders(*set));
   const auto isGrainy = [&](const Contour& c) {
-    return pencil != nullptr && anyInDisc(*pencil, c.points.front().unrefined, 1.0);
+    return pencil != nullptr && anyInDisc(pencil->ink, c.points.front().unrefined, 1.0);
   };
   const auto dropped = std::erase_if(set->contours, [&](const Contour& c) {
     return c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : kLeastDot);
   });
   set->report.droppedShort += static_cast<int>(dropped);
+  for (Contour& c : set->contours)
+    if (isGrainy(c)) c.pencilPx = pencil->widthPx;
   return set;
 }
 
@@ -243,15 +245,15 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   const bool isPaintedInVain = split->painted && both(found.blots, *split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
-  const auto grainy = split->pencil ? std::optional(without(std::move(split->pencil->ink), found.blots)) : std::nullopt;
+  if (split->pencil) split->pencil->ink = without(std::move(split->pencil->ink), found.blots);
   int texture = 0;
   if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
     EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);
     split->shapes = without(std::move(even.ink), split->strokes);
     texture = even.filled;
   }
-  Result<ContourSet> borders =
-      bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, grainy ? &*grainy : nullptr, context);
+  Result<ContourSet> borders = bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx,
+                                         split->pencil ? &*split->pencil : nullptr, context);
   if (!borders) return fail(borders.error());
   borders->report.droppedHoles += texture;
   borders->report.droppedFaint = faint;

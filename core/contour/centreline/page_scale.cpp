@@ -33,6 +33,7 @@ void scaleContour(Contour& c, double factor) {
     if (p.bundle) p.bundle = BundleWidths{p.bundle->left * by, p.bundle->right * by};
   }
   if (c.blurPx) *c.blurPx *= factor;
+  if (c.pencilPx) *c.pencilPx *= factor;
   if (c.traceMode) c.traceMode->positionPx *= factor;
   c.lengthPx *= factor;
   c.areaPx *= factor * factor;

@@ -64,6 +64,7 @@ Contour stretchOf(const Contour& c, int from, int to) {
   part.kind = c.kind;
   part.hole = c.hole;
   part.blurPx = c.blurPx;
+  part.pencilPx = c.pencilPx;
   part.traceMode = c.traceMode;
   for (int k = from; k <= to; ++k) part.points.push_back(c.points[wrapIndex(k, n)]);
   measureContour(part);

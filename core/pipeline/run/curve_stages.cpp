@@ -59,6 +59,7 @@ ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, con
   const Contour& contour = contours.contours[pieces.pieces[range.first].contour];
   ConstructContour input;
   input.isStroke = contour.kind == ContourKind::Centreline;
+  input.pencilPx = contour.pencilPx;
   input.pixelMm = frame.mmPerPx;
   for (std::size_t i = range.first; i < range.last; ++i) {
     input.pieces.push_back(pieceInput(pieces.pieces[i], segments.pieces[i], frame));

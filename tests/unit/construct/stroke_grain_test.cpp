@@ -109,6 +109,45 @@ TEST(StrokeGrain, APenThatSwellsKeepsItsLine) {
   EXPECT_LT(strokeGrain(swelling).density, 0.1) << "what the arch bends within three widths";
 }
 
+/// The outline of an ellipse that was filled with a pencil of kStrokeWidthPx.
+ConstructContour filled(double sigmaPx, std::uint32_t seed, bool isPencil) {
+  constexpr double kLongPx = 260.0, kShortPx = 150.0;
+  std::mt19937 random(seed);
+  const int count = static_cast<int>(std::numbers::pi * (kLongPx + kShortPx));
+  const std::vector<double> off = wandering(random, count, sigmaPx);
+  std::normal_distribution<double> fine(0.0, 0.05);
+  ConstructContour contour;
+  if (isPencil) contour.pencilPx = kStrokeWidthPx;
+  ConstructPiece piece;
+  piece.closed = true;
+  for (int i = 0; i < count; ++i) {
+    const double t = 2.0 * std::numbers::pi * i / count;
+    const Vec2 along = Vec2(-kLongPx * std::sin(t), kShortPx * std::cos(t)).normalized();
+    PiecePoint p;
+    p.at = Vec2(kLongPx * std::cos(t), kShortPx * std::sin(t)) + (off[i] + fine(random)) * leftNormal(along);
+    p.sigmaPx = 0.1f;
+    piece.points.push_back(p);
+  }
+  contour.pieces.push_back(std::move(piece));
+  return contour;
+}
+
+TEST(StrokeGrain, OfAFilledShapeIsNoShapeOfItsOutline) {
+  int with = 0, without = 0;
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    with += extremaOf(filled(0.8, seed, true));
+    without += extremaOf(filled(0.8, seed, false));
+  }
+  EXPECT_LE(with, 5 * 14) << "the ellipse has four";
+  EXPECT_GT(without, 5 * 40);
+}
+
+TEST(StrokeGrain, ABendOfAnOutlineIsNone) {
+  EXPECT_LT(strokeGrain(filled(0.0, 1, true)).sigmaPx, 0.1);
+  EXPECT_GT(strokeGrain(filled(0.8, 1, true)).sigmaPx, 0.3);
+  EXPECT_EQ(strokeGrain(filled(0.8, 1, false)).sigmaPx, 0.0);
+}
+
 TEST(StrokeGrain, MergedStrokesHaveNone) {
   ConstructContour merged = sketched(1.2, 1);
   for (PiecePoint& p : merged.pieces[0].points) p.spreadPx = 3.0f;
