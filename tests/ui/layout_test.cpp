@@ -269,6 +269,19 @@ TEST_F(Layout, CornersAreShownFromTheEdgesOnAndWhereTheyAreMarked) {
   EXPECT_NE(canvas->grab().toImage().copy(around), without.copy(around));
 }
 
+TEST_F(Layout, CornersShowsWhatMarksThemWithoutScrolling) {
+  openPage(test::zigzagPage());
+  window_->resize(1366, 768);
+  window_->setStage(PanelStage::Corners);
+  ASSERT_TRUE(settleLayout());
+  for (const char* name : {"corners.restore", "corners.remove", "corners.take", "corners.takeAll"}) {
+    auto* button = find<QWidget>(name);
+    EXPECT_EQ(button->visibleRegion().boundingRect(), button->rect()) << name;
+  }
+  constexpr int kRowPx = 22;
+  EXPECT_GE(find<QWidget>("corners.suggestions")->visibleRegion().boundingRect().height(), kRowPx);
+}
+
 TEST_F(Layout, ButtonsStayWhereTheyAreWhileListsGrow) {
   openPage(test::zigzagPage());
   window_->setStage(PanelStage::Corners);

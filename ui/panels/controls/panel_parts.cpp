@@ -2,6 +2,7 @@
 #include "ui/panels/controls/panel_parts.h"
 
 #include <QCoreApplication>
+#include <QHBoxLayout>
 #include <QHelpEvent>
 #include <QLabel>
 #include <QLayout>
@@ -65,6 +66,14 @@ QLabel* caption(const QString& text, QWidget* parent) {
   label->setContentsMargins(0, 6, 0, 0);
   label->setAccessibleName(text);
   return label;
+}
+
+QLayout* captionRow(const QString& text, const std::vector<QPushButton*>& links, QWidget* parent) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(10);
+  row->addWidget(caption(text, parent), 1);
+  for (QPushButton* link : links) row->addWidget(link);
+  return row;
 }
 
 QLabel* note(const QString& text, QWidget* parent) {

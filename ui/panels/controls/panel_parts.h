@@ -9,6 +9,7 @@
 #include <vector>
 
 class QLabel;
+class QLayout;
 class QPushButton;
 class QToolButton;
 class QVBoxLayout;
@@ -19,8 +20,10 @@ namespace batten {
 
 QLabel* heading(const QString& text, QWidget* parent);  ///< "Fairing": bold, 13 px.
 QLabel* caption(const QString& text, QWidget* parent);  ///< "BEFORE AND AFTER": small, grey, spaced.
-QFont captionFont();                                    ///< Of a caption that is painted.
-QLabel* note(const QString& text, QWidget* parent);     ///< Grey 12 px, wraps.
+/// A caption with what is done to all below it at its right, where it takes no line of its own.
+QLayout* captionRow(const QString& text, const std::vector<QPushButton*>& links, QWidget* parent);
+QFont captionFont();                                 ///< Of a caption that is painted.
+QLabel* note(const QString& text, QWidget* parent);  ///< Grey 12 px, wraps.
 QPushButton* plainButton(const QString& text, const QString& name, QWidget* parent);
 QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent);  ///< Accent text without frame.
 
