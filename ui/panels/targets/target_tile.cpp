@@ -89,7 +89,8 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     spoken += tr(", moves the curve by %1, %2 extrema")
                   .arg(millimetres(faired.report.maxDeviationMm))
                   .arg(faired.report.extremaAfter);
-    tip += tr("\nS %1, moves the curve by at most %2; left: %3.")
+    tip += tr("\nS %1: similarity of this profile to that of the sketched curve; 1 is the same.\nMoves the curve by at "
+              "most %2; left: %3.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (faired.report.similarityAfter)
