@@ -37,7 +37,11 @@ FairingLinks::FairingLinks(EditorSession& session, QWidget* parent)
   const auto add = [&](const QString& title, std::initializer_list<QPushButton*> links) {
     column->addWidget(caption(title, this));
     column->addSpacing(kBelowCaption);
-    for (QPushButton* link : links) column->addWidget(link, 0, Qt::AlignLeft);
+    for (QPushButton* link : links) {
+      column->addWidget(link, 0, Qt::AlignLeft);
+      // A click that disables the link would hand the keyboard on to the next, and the panel would scroll there.
+      link->setFocusPolicy(Qt::TabFocus);
+    }
   };
   add(tr("Target profile"), {split_, whole_, unsplit_, draw_, forget_, like_, logAesthetic_});
   column->addSpacing(2 * kBelowCaption);
