@@ -123,6 +123,10 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     else if (fits())
       spoken += tr(", simplest fit");
   }
+  if (spoken.endsWith(tr(", recommended")))
+    tip += tr(
+        "\n✓ recommended: the simplest profile that is reached within the tolerance without an extremum more. S rises "
+        "with the degree, so it does not choose.");
   if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);
