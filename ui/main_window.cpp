@@ -215,7 +215,7 @@ void MainWindow::connectSession() {
                             &EditorSession::selectionChanged, &EditorSession::targetsChanged})
     connect(&session_, signal, this, &MainWindow::refreshActions);
   connect(&session_, &EditorSession::selectionChanged, this, [this] {
-    if (view_.tool() == usualTool(stage())) parts_->status->setStageHint(stageHint());
+    if (view_.tool() == usualTool(stage())) parts_->status->updateStageHint(stageHint());
   });
   connect(&session_, &EditorSession::busyChanged, this, &MainWindow::refreshActions);
   connect(session_.undoStack(), &QUndoStack::indexChanged, this, &MainWindow::refreshActions);
