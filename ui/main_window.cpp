@@ -214,6 +214,9 @@ void MainWindow::connectSession() {
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::runFinished,
                             &EditorSession::selectionChanged, &EditorSession::targetsChanged})
     connect(&session_, signal, this, &MainWindow::refreshActions);
+  connect(&session_, &EditorSession::selectionChanged, this, [this] {
+    if (view_.tool() == usualTool(stage())) parts_->status->updateStageHint(stageHint());
+  });
   connect(&session_, &EditorSession::busyChanged, this, &MainWindow::refreshActions);
   connect(session_.undoStack(), &QUndoStack::indexChanged, this, &MainWindow::refreshActions);
 }
@@ -225,6 +228,10 @@ void MainWindow::newDrawing() {
 
 PanelStage MainWindow::stage() const { return parts_->rail->current(); }
 
+QString MainWindow::stageHint() const {
+  return batten::hint(stage(), session_.hasScan(), session_.selectedCurve().has_value());
+}
+
 void MainWindow::setStage(PanelStage stage) {
   parts_->rail->setCurrent(stage);
   enterStage(stage);
@@ -235,7 +242,7 @@ void MainWindow::enterStage(PanelStage stage) {
   const QWidget* holder = focusWidget();
   if (holder && parts_->inspector->isAncestorOf(holder)) parts_->canvas->setFocus(Qt::OtherFocusReason);
   parts_->inspector->setCurrentIndex(static_cast<int>(stage));
-  parts_->status->setStageHint(batten::hint(stage, session_.hasScan()));
+  parts_->status->setStageHint(stageHint());
   showLayersOf(stage);
   // What is not compared is not drawn over: a faired curve in Export would look like a pinned one.
   view_.setComparesPinned(stage == PanelStage::Curves || stage == PanelStage::Fairing);

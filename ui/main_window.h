@@ -109,6 +109,12 @@ class MainWindow : public QMainWindow {
   void refreshActions();
   void refreshTitle();
   void refreshRecent();
+  void fillRecent();
+  /// The recent files as drawings, the newest first.
+  QStringList recentDrawings() const;
+  /// Greys what the last look did not find, in its place.
+  void greyGone();
+  QString stageHint() const;
   /// @param scan of a recipe: that it was saved for.
   void rememberFile(const QString& path, const QString& scan = {});
   /// The scan that a recent recipe was saved for; empty: not known, or none.

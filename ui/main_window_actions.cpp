@@ -300,7 +300,7 @@ void MainWindow::connectLayers() {
     action(toolAction(tool))->setChecked(true);
     const bool areCurvesShown = view_.isVisible(Layer::Curve) || view_.isVisible(Layer::Faired);
     if (tool == usualTool(stage()))
-      parts_->status->setStageHint(hint(stage(), session_.hasScan()));
+      parts_->status->setStageHint(stageHint());
     else if (tool == Tool::Select && !areCurvesShown)
       parts_->status->setStageHint(tr("No curves are shown in this stage."));
     else

@@ -103,7 +103,7 @@ void MainWindow::scanOpened() {
   refreshTitle();
   p.errors->hide();
   p.problemOrigin.reset();
-  p.status->setStageHint(hint(stage(), true));
+  p.status->setStageHint(stageHint());
   if (!session_.openProblem().isEmpty())
     showProblem({ErrorCode::BadParameter, session_.openProblem().toStdString(), {}}, FailureOrigin::OpenRecipe);
   else if (p.leftWork)
@@ -272,7 +272,8 @@ bool MainWindow::saveRecipeAs() {
 }
 
 bool MainWindow::saveRecipeTo(const QString& path) {
-  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipeToSave())); !saved) {
+  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipeToSave()), Leftovers::OfThisFile);
+      !saved) {
     showProblem(saved.error(), FailureOrigin::SaveRecipe);
     return false;
   }
@@ -307,7 +308,7 @@ bool MainWindow::offerLeftWork() {
   if (!p.leftWork) return false;
   const RecipeJournal::Left& left = *p.leftWork;
   p.problemOrigin.reset();
-  p.status->setStageHint(hint(stage(), true));
+  p.status->setStageHint(stageHint());
   p.remedy = [this] {
     if (!maybeDiscard()) return;
     const RecipeJournal::Left taken = *std::exchange(parts_->leftWork, std::nullopt);

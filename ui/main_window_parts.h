@@ -80,6 +80,7 @@ struct MainWindow::Parts {
   std::optional<RecipeJournal::Left> leftWork;  ///< Offered, not yet answered.
   QString sample;                               ///< Opened when the offer at the start is discarded.
   QStringList goneFiles;                        ///< Recent files that were not there when last looked for.
+  std::vector<std::function<void()>> afterRecentCheck;
   Inbox inbox;
   std::unique_ptr<BackgroundWorker> recipeReader = std::make_unique<BackgroundWorker>();
   std::unique_ptr<BackgroundWorker> recentChecker = std::make_unique<BackgroundWorker>();

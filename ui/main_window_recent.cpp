@@ -6,6 +6,7 @@
 #include <QHash>
 #include <QMenu>
 #include <QSettings>
+#include <algorithm>
 #include <utility>
 
 #include "ui/main_window_parts.h"
@@ -14,7 +15,8 @@
 
 namespace batten {
 namespace {
-constexpr int kRecentFiles = 10;  // in the menu
+constexpr int kRecentFiles = 20;     // that are known: of a drawing its scan and its recipe
+constexpr int kRecentDrawings = 10;  // in the menu
 const QString kRecentKey = QStringLiteral("recent"), kScansKey = QStringLiteral("recent-scans");
 
 /// "coupe.png  –  ~/scans": the folder tells two files of one name apart.
@@ -43,16 +45,55 @@ QStringList MainWindow::recentFiles() {
 }
 
 void MainWindow::checkRecent(std::function<void()> then) {
+  // A newer look answers for those that it overtakes.
+  if (then) parts_->afterRecentCheck.push_back(std::move(then));
   // A drive that has gone to sleep or away answers after seconds.
-  parts_->recentChecker->start([this, files = recentFiles(), then = std::move(then)](const CancelToken&) {
+  parts_->recentChecker->start([this, files = recentFiles(), scans = scansOfRecipes()](const CancelToken&) {
     QStringList gone;
-    for (const QString& path : files)
-      if (!pathExists(path)) gone.append(path);
-    parts_->inbox.post([this, gone, then] {
+    for (const QString& path : files) {
+      const QString scan = scans.value(path);
+      if (!pathExists(path) || (!scan.isEmpty() && !pathExists(scan))) gone.append(path);
+    }
+    parts_->inbox.post([this, gone] {
       parts_->goneFiles = gone;
-      if (then) then();
+      for (const auto& after : std::exchange(parts_->afterRecentCheck, {})) after();
+      // Nothing moves in a menu that is open.
+      if (parts_->recentMenu->isVisible())
+        greyGone();
+      else
+        fillRecent();
     });
   });
+}
+
+// One entry a drawing: its newest recipe that is there stands for the scan. What is gone is greyed, not left out: a
+// drive may only be unplugged.
+QStringList MainWindow::recentDrawings() const {
+  const QStringList files = recentFiles(), &gone = parts_->goneFiles;
+  const QHash<QString, QString> scans = scansOfRecipes();
+  const auto recipesOf = [&](const QString& scan) {
+    QStringList recipes;
+    for (const QString& path : files)
+      if (scans.value(path) == scan) recipes.append(path);
+    return recipes;
+  };
+  QStringList shown;
+  for (const QString& path : files) {
+    const QString scan = scans.value(path);
+    QString one = path;
+    if (scan.isEmpty()) {
+      const QStringList recipes = recipesOf(path);
+      const auto there = std::ranges::find_if(recipes, [&](const QString& recipe) { return !gone.contains(recipe); });
+      if (there != recipes.end())
+        one = *there;
+      else if (!recipes.isEmpty() && gone.contains(path))
+        continue;
+    } else if (gone.contains(path) && files.contains(scan) && !gone.contains(scan)) {
+      continue;
+    }
+    if (!shown.contains(one)) shown.append(one);
+  }
+  return shown.mid(0, kRecentDrawings);
 }
 
 void MainWindow::rememberFile(const QString& path, const QString& scan) {
@@ -71,21 +112,36 @@ void MainWindow::rememberFile(const QString& path, const QString& scan) {
   QSettings().setValue(kRecentKey, stored);
   QSettings().setValue(kScansKey, pairs);
   parts_->goneFiles.removeAll(full);
+  checkRecent({});
 }
 
 void MainWindow::refreshRecent() {
+  fillRecent();
+  checkRecent({});  // The menu opens at once.
+}
+
+void MainWindow::fillRecent() {
   QMenu* menu = parts_->recentMenu;
   menu->clear();
-  checkRecent({});  // For the next time; the menu opens at once.
-  for (const QString& path : recentFiles()) {
-    if (parts_->goneFiles.contains(path)) continue;
+  for (const QString& path : recentDrawings()) {
     QAction* entry = menu->addAction(recentText(path));
+    entry->setData(path);
     entry->setToolTip(shownPath(path));
     entry->setStatusTip(shownPath(path));
     connect(entry, &QAction::triggered, this, [this, path] { openRecent(path); });
   }
   menu->setToolTipsVisible(true);
   if (menu->isEmpty()) menu->addAction(tr("No files yet"))->setEnabled(false);
+  greyGone();
+}
+
+void MainWindow::greyGone() {
+  for (QAction* entry : parts_->recentMenu->actions()) {
+    const QString path = entry->data().toString();
+    if (!parts_->goneFiles.contains(path) || !entry->isEnabled()) continue;
+    entry->setEnabled(false);
+    entry->setText(recentText(path) + tr("  (not found)"));
+  }
 }
 
 QString MainWindow::scanOfRecipe(const QString& path) { return scansOfRecipes().value(absolutePath(path)); }

@@ -151,6 +151,11 @@ void StatusLine::refreshHint() {
   hint_->setText(!message_.isEmpty() ? message_ : placeHint_.isEmpty() ? stageHint_ : placeHint_);
 }
 
+void StatusLine::updateStageHint(const QString& text) {
+  stageHint_ = text;
+  refreshHint();
+}
+
 void StatusLine::setStageHint(const QString& text) {
   stageHint_ = text;
   message_.clear();

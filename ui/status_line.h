@@ -25,6 +25,8 @@ class StatusLine : public QWidget {
   void setHint(const QString& text);
   /// What stands there while nothing under the mouse has a hint of its own.
   void setStageHint(const QString& text);
+  /// The same stage goes on: a message stays until its time is over.
+  void updateStageHint(const QString& text);
   /// Says what has happened, for five seconds or until the stage changes; with an action, beside a button that does it.
   void showMessage(const QString& text, const QString& actionText = {}, std::function<void()> action = {});
 

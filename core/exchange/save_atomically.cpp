@@ -125,24 +125,20 @@ void removeLeftoversOf(const fs::path& path) {
     removeLeftover(folderOf(target) / savingName(target, attempt));
 }
 
-Result<void> checkSaving(const fs::path& path) {
-  const auto target = saveTarget(path);
+namespace {
+
+/// Where the bytes would go, if nothing that has the name stands in the way.
+Result<fs::path> targetFor(const fs::path& path) {
+  auto target = saveTarget(path);
   if (!target) return cannotWrite(path, "its symbolic links form a loop. Choose another name.");
   if (const auto why = obstacle(*target)) return cannotWrite(path, *why);
-  return {};
+  return std::move(*target);
 }
 
-Result<void> saveAtomically(const fs::path& path, std::string_view bytes) {
-  const auto saved = saveAndHold(path, bytes);
-  if (!saved) return fail(saved.error());
-  return {};
-}
-
-Result<OpenFile> saveAndHold(const fs::path& path, std::string_view bytes) {
-  if (auto checked = checkSaving(path); !checked) return fail(checked.error());
-  const auto target = saveTarget(path);
-  if (!target) return failedCall(path, std::make_error_code(std::errc::too_many_symbolic_link_levels));
-  removeLeftoversIn(folderOf(*target));
+Result<OpenFile> written(const fs::path& path, std::string_view bytes, Leftovers leftovers) {
+  const auto target = targetFor(path);
+  if (!target) return fail(target.error());
+  if (leftovers == Leftovers::OfAnyFile) removeLeftoversIn(folderOf(*target));
   removeLeftoversOf(*target);
   auto file = fileBeside(*target);
   if (!file) return failedCall(path, file.error());
@@ -150,6 +146,25 @@ Result<OpenFile> saveAndHold(const fs::path& path, std::string_view bytes) {
   auto held = file->takePlace();
   if (!held) return failedCall(path, held.error());
   return std::move(*held);
+}
+
+}  // namespace
+
+Result<void> checkSaving(const fs::path& path) {
+  const auto target = targetFor(path);
+  if (!target) return fail(target.error());
+  if (const auto tried = fileBeside(*target); !tried) return failedCall(path, tried.error());
+  return {};
+}
+
+Result<void> saveAtomically(const fs::path& path, std::string_view bytes, Leftovers leftovers) {
+  const auto saved = written(path, bytes, leftovers);
+  if (!saved) return fail(saved.error());
+  return {};
+}
+
+Result<OpenFile> saveAndHold(const fs::path& path, std::string_view bytes) {
+  return written(path, bytes, Leftovers::OfAnyFile);
 }
 
 }  // namespace batten

@@ -62,7 +62,7 @@ TEST_F(Fairness, EveryListedCurveHasABadgeWithItsFigures) {
   ASSERT_NO_FATAL_FAILURE(draw(320.0, 3.0, 25.0));
   window_->setStage(PanelStage::Curves);
   ASSERT_TRUE(waitUntil([this] { return areAllKnown(2); }));
-  EXPECT_TRUE(badge(0).startsWith(QStringLiteral("S ")));
+  EXPECT_TRUE(badge(0).startsWith(QStringLiteral("M "))) << "S is of targets";
   EXPECT_GT(similarity(0), similarity(1)) << "three waves are less fair than one bow";
   EXPECT_GT(similarity(0), 0.8);
   for (int i = 0; i < 2; ++i) {
@@ -70,7 +70,7 @@ TEST_F(Fairness, EveryListedCurveHasABadgeWithItsFigures) {
     const QString tip = list()->item(i)->toolTip();
     EXPECT_TRUE(tip.contains(QStringLiteral("extrema of the curvature: %1").arg(figures.extrema))) << tip.toStdString();
     EXPECT_TRUE(tip.contains(QStringLiteral("control points: %1").arg(figures.controlPoints))) << tip.toStdString();
-    EXPECT_TRUE(list()->item(i)->data(Qt::AccessibleTextRole).toString().contains(QStringLiteral("Fairness: S")));
+    EXPECT_TRUE(list()->item(i)->data(Qt::AccessibleTextRole).toString().contains(QStringLiteral("Monotone: M")));
   }
 }
 
@@ -98,14 +98,14 @@ TEST_F(Fairness, IsToldWhileThePenDraws) {
   const auto at = [](double t) { return Vec2(100.0 + 600.0 * t, 120.0 + 200.0 * t * t); };
   QTest::mousePress(canvas, Qt::LeftButton, {}, canvas->toWidget(at(0.0)).toPoint());
   for (int i = 1; i <= 30; ++i) moveTo(at(i / 60.0));
-  ASSERT_TRUE(waitUntil([hint] { return hint->text().startsWith(QStringLiteral("S ")); }));
+  ASSERT_TRUE(waitUntil([hint] { return hint->text().startsWith(QStringLiteral("M ")); }));
   EXPECT_TRUE(hint->text().contains(QStringLiteral("extrema: "))) << hint->text().toStdString();
   EXPECT_TRUE(hint->text().contains(QStringLiteral("control points: ")));
   EXPECT_TRUE(session().curves().empty()) << "the line is not in the drawing yet";
   for (int i = 31; i <= 60; ++i) moveTo(at(i / 60.0));
   QTest::mouseRelease(canvas, Qt::LeftButton, {}, canvas->toWidget(at(1.0)).toPoint());
   ASSERT_TRUE(settle());
-  EXPECT_FALSE(hint->text().startsWith(QStringLiteral("S "))) << hint->text().toStdString();
+  EXPECT_FALSE(hint->text().startsWith(QStringLiteral("M "))) << hint->text().toStdString();
   EXPECT_EQ(session().curves().size(), 1u);
 }
 

@@ -5,15 +5,18 @@
 #include <QApplication>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QScrollArea>
 #include <QSplitter>
 #include <QTest>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tests/ui/window_fixture.h"
+#include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
 
@@ -63,6 +66,30 @@ TEST_F(Layout, TheDrawingHasHalfOfTheWindowAndThePlotCanBeRead) {
         EXPECT_FALSE(tile->visibleRegion().isEmpty()) << size.height();
         EXPECT_EQ(tile->visibleRegion().boundingRect(), tile->rect()) << size.height() << ", cut off";
       }
+    }
+  }
+}
+
+// What decides on a fairing is seen beside the drawing, on a small laptop, too, and so is where curves are chosen.
+TEST_F(Layout, FairingShowsItsFiguresWithoutScrolling) {
+  constexpr int kSeenRows = 3;  // of the list of curves
+  openPage(test::drawnPage({640, 400}, [](QPainter& painter) {
+    for (int i = 0; i < 12; ++i) painter.drawLine(20 + 25 * i, 60, 24 + 25 * i, 340);
+  }));
+  window_->resize(1366, 768);
+  window_->setStage(PanelStage::Fairing);
+  auto* list = find<QWidget>("panel.fairing")->findChild<CurveList*>();
+  for (const bool isSelected : {false, true}) {
+    session().selectCurve(isSelected ? std::optional(2) : std::nullopt);
+    for (const char* mode : {"fairing.mode.none", "fairing.mode.target", "fairing.mode.monotone"}) {
+      QTest::mouseClick(find<QAbstractButton>(mode), Qt::LeftButton);
+      ASSERT_TRUE(settle());
+      ASSERT_TRUE(settleLayout());
+      for (const char* name : {"fairing.figures", "fairing.ends"}) {
+        auto* table = find<QWidget>(name);
+        EXPECT_EQ(table->visibleRegion().boundingRect(), table->rect()) << name << " " << mode << " " << isSelected;
+      }
+      EXPECT_GE(list->visibleRegion().boundingRect().height(), kSeenRows * list->sizeHintForRow(0)) << mode;
     }
   }
 }
@@ -240,6 +267,19 @@ TEST_F(Layout, CornersAreShownFromTheEdgesOnAndWhereTheyAreMarked) {
   const QPoint at = canvas->toWidget(session().recipe().cornerMarks[0].positionPx).toPoint();
   const QRect around(at - QPoint(8, 8), QSize(17, 17));
   EXPECT_NE(canvas->grab().toImage().copy(around), without.copy(around));
+}
+
+TEST_F(Layout, CornersShowsWhatMarksThemWithoutScrolling) {
+  openPage(test::zigzagPage());
+  window_->resize(1366, 768);
+  window_->setStage(PanelStage::Corners);
+  ASSERT_TRUE(settleLayout());
+  for (const char* name : {"corners.restore", "corners.remove", "corners.take", "corners.takeAll"}) {
+    auto* button = find<QWidget>(name);
+    EXPECT_EQ(button->visibleRegion().boundingRect(), button->rect()) << name;
+  }
+  constexpr int kRowPx = 22;
+  EXPECT_GE(find<QWidget>("corners.suggestions")->visibleRegion().boundingRect().height(), kRowPx);
 }
 
 TEST_F(Layout, ButtonsStayWhereTheyAreWhileListsGrow) {

@@ -162,8 +162,27 @@ TEST_F(Saving, TheScanAloneOffersTheWorkThatWasSavedOnIt) {
   // A file that is gone is not offered.
   ASSERT_TRUE(QFile::remove(target));
   ASSERT_NO_FATAL_FAILURE(openFile(path_));
-  QTest::qWait(200);  // longer than looking for a file takes
+  auto* menu = find<QMenu>("recentMenu");
+  emit menu->aboutToShow();
+  // Which answers once the files have been looked for.
+  ASSERT_TRUE(waitUntil([&] { return menu->actions().value(0)->text().startsWith(QStringLiteral("page.png")); }, 5000));
   EXPECT_TRUE(strip->message().isEmpty()) << strip->message().toStdString();
+}
+
+TEST_F(Saving, ADrawingIsOneRecentEntryAndGreyWhereItIsGone) {
+  QString target;
+  ASSERT_NO_FATAL_FAILURE(saveWorkElsewhere(target));
+  auto* menu = find<QMenu>("recentMenu");
+  emit menu->aboutToShow();
+  ASSERT_EQ(menu->actions().size(), 1) << "the scan and its recipe are one drawing";
+  EXPECT_TRUE(menu->actions()[0]->text().startsWith(QStringLiteral("mine.recipe.json")));
+  EXPECT_TRUE(menu->actions()[0]->isEnabled());
+  // The recipe alone opens nothing.
+  ASSERT_TRUE(QFile::remove(path_));
+  emit menu->aboutToShow();
+  ASSERT_TRUE(waitUntil([&] { return !menu->actions().value(0)->isEnabled(); }, 5000));
+  EXPECT_EQ(menu->actions().size(), 1);
+  EXPECT_TRUE(menu->actions()[0]->text().contains(QStringLiteral("not found")));
 }
 
 TEST_F(Saving, RecentFilesOfOneNameAreToldApartByTheirFolders) {

@@ -55,7 +55,8 @@ void drawLines(QCustomPlot& plot, const PlotData& data, PlotTab tab, const Theme
   for (const PlotSeries& series : data.series) {
     QCPGraph* graph = plot.addGraph();
     graph->setData(column(series.points, &PlotPoint::s), column(series.points, &PlotPoint::value), true);
-    graph->setPen(penOf(isAlone && series.role == PlotRole::Sketched ? PlotRole::Faired : series.role, theme));
+    graph->setPen(
+        penOf(isAlone && series.role == PlotRole::Sketched ? PlotRole::Faired : series.role, theme, series.degree));
     if (series.role == PlotRole::Joint) {
       graph->setLineStyle(QCPGraph::lsNone);
       graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, theme.text, theme.panel, 5.0));

@@ -14,17 +14,25 @@ namespace {
 constexpr int kMostTicks = 5;
 constexpr double kFewestDecades = 4.0;  // on an axis whose labels are powers of ten alone
 
+/// Two degrees share a colour; the even ones are dashed, finer than the target that is chosen.
+QPen penOfTarget(int degree, const Theme& theme) {
+  const auto colours = static_cast<int>(theme.targets.size());
+  QPen pen(theme.targets[static_cast<std::size_t>(std::clamp((degree - 1) / 2, 0, colours - 1))], 1.4);
+  if (degree % 2 == 0) pen.setDashPattern({3, 2});
+  return pen;
+}
+
 }  // namespace
 
-QPen penOf(PlotRole role, const Theme& theme) {
+QPen penOf(PlotRole role, const Theme& theme, std::optional<int> degree) {
   const QColor grey = theme.mute;
-  QPen dashed(theme.amber, 1.6);
+  QPen dashed(theme.amber, 2.4);
   dashed.setDashPattern({5, 3.5});
   switch (role) {
     case PlotRole::Target:
-      return {theme.faint, 1.5};
+      return penOfTarget(degree.value_or(1), theme);
     case PlotRole::HoveredTarget:
-      return {theme.text, 1.6};
+      return {theme.text, 2.2};
     case PlotRole::ChosenTarget:
       return dashed;
     case PlotRole::DrawnTarget:

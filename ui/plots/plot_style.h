@@ -20,7 +20,8 @@ struct DataKey {
   bool operator==(const DataKey&) const = default;
 };
 
-QPen penOf(PlotRole role, const Theme& theme);
+/// @param degree of a target: each has a stroke of its own, by colour and dashes
+QPen penOf(PlotRole role, const Theme& theme, std::optional<int> degree = {});
 /// What the numbers of a plot are: "R, mm".
 QString quantityText(PlotTab tab);
 

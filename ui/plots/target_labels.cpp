@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "ui/plots/plot_style.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -47,9 +48,7 @@ void TargetLabels::show(const PlotData& data) {
     text->setText(QString::number(*series.degree));
     text->setObjectName(QStringLiteral("plot.target.%1").arg(*series.degree));
     text->setFont(uiFont(11, series.role == PlotRole::Target ? QFont::Normal : QFont::Bold));
-    text->setColor(series.role == PlotRole::ChosenTarget    ? theme.amber
-                   : series.role == PlotRole::HoveredTarget ? theme.text
-                                                            : theme.mute);
+    text->setColor(penOf(series.role, theme, series.degree).color());
     text->setBrush(theme.panel);
     text->setPen(Qt::NoPen);
     text->setPadding(QMargins(2, 0, 2, 0));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/coarse_runner.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "core/pipeline/run/coarse_run.h"
 #include "ui/session/guarded.h"
 
@@ -15,6 +18,8 @@ void CoarseRunner::start(Request request) {
 void CoarseRunner::run(const Request& request, const CancelToken& token) {
   RunContext context;
   context.cancel = token;
+  // The exact ink, which is computed beside it, has the other half of the machine. Alone curves take longer than both.
+  if (!request.withCurves) context.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2);
   // What fails here fails in the full run, which says so.
   (void)guarded<bool>([&]() -> Result<bool> {
     const int factor = coarseFactor(*request.scan, request.recipe);

@@ -21,18 +21,21 @@ QString threePlaces(double s) { return QString::number(std::floor(s * kPlaces + 
 QString fairnessBadge(const CurveFairness& fairness) {
   QString s = threePlaces(fairness.similarity);
   if (s.startsWith(QLatin1String("0."))) s.remove(0, 1);
-  return QStringLiteral("S ") + s;
+  return QStringLiteral("M ") + s;
 }
 
 QString fairnessSentence(const CurveFairness& fairness) {
-  QString text =
-      fairnessTr("Fairness: S %1 to the nearest curve of monotone curvature").arg(threePlaces(fairness.similarity));
+  QString text = fairnessTr("Monotone: M %1, likeness to the nearest curve whose curvature only rises or only falls")
+                     .arg(threePlaces(fairness.similarity));
   if (fairness.logAesthetic) {
     text += fairnessTr(", %1 to the nearest log-aesthetic one").arg(threePlaces(std::max(0.0, *fairness.logAesthetic)));
     if (fairness.alpha && *fairness.logAesthetic >= kLikeLogAesthetic)
       text += fairnessTr(" (alpha %1)").arg(*fairness.alpha, 0, 'f', 1);
   }
-  return text + fairnessTr("; extrema of the curvature: %1, control points: %2.")
+  return text + fairnessTr(
+                    "; extrema of the curvature: %1, control points: %2. M is of the shape as a whole: smoothing takes "
+                    "extrema "
+                    "away but may lower M, where it makes an intended bend clearer.")
                     .arg(fairness.extrema)
                     .arg(fairness.controlPoints);
 }

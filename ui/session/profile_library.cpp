@@ -60,7 +60,7 @@ Result<void> ProfileLibrary::save(const QString& name, const std::vector<Profile
   }
   if (!QDir().mkpath(folderOfProfiles()))
     return fail(ErrorCode::CannotWrite, "The folder for saved profiles cannot be created.");
-  return saveAtomically(nativePath(fileOf(name)), profileToText(shape));
+  return saveAtomically(nativePath(fileOf(name)), profileToText(shape), Leftovers::OfThisFile);
 }
 
 Result<void> ProfileLibrary::remove(const QString& name) const {

@@ -94,7 +94,8 @@ void EditorSession::Runner::run() {
       output.error = done.error();
     const double milliseconds = static_cast<double>(clock.elapsed() - begin);
     jobStart.end();
-    returnFreeMemory();
+    // A run that was overtaken makes room for the next one at once, which takes the memory again.
+    if (!token.isCancelled()) returnFreeMemory();
     inbox.post([this, scan, generation, runId, output, milliseconds] {
       applyEnd(scan, generation, runId, output, milliseconds);
     });
@@ -120,7 +121,15 @@ void EditorSession::Runner::applyCoarse(const std::shared_ptr<const Scan>& scan,
                                         std::shared_ptr<const CoarseResult> result) {
   if (scan != session.scan_ || result->generation <= shownGeneration[indexOf(StageId::Faired)]) return;
   session.coarse_ = std::move(result);
+  // What an overtaken run would still show lies behind what is seen now.
+  if (session.coarse_->generation == recipeGeneration) dropOvertaken();
   emit session.coarseReady();
+}
+
+void EditorSession::Runner::dropOvertaken() {
+  grace.stop();
+  for (const CancelToken& token : overtaken) token.cancel();
+  overtaken.clear();
 }
 
 void EditorSession::Runner::stopOvertaken() {
@@ -131,8 +140,7 @@ void EditorSession::Runner::stopOvertaken() {
       return;
     }
   }
-  for (const CancelToken& token : overtaken) token.cancel();
-  overtaken.clear();
+  dropOvertaken();
 }
 
 void EditorSession::Runner::applyStage(const std::shared_ptr<const Scan>& scan, std::uint64_t generation, StageId stage,

@@ -103,6 +103,7 @@ struct EditorSession::Runner {
                 const PipelineOutput&, double milliseconds);
   void applyTargets(std::shared_ptr<const TargetOutcomes> outcomes);
   void stopOvertaken();
+  void dropOvertaken();
   void runCoarse();
   void dropCoarse(std::uint64_t generation);
   void applyCoarse(const std::shared_ptr<const Scan>&, std::shared_ptr<const CoarseResult>);

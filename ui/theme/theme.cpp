@@ -78,14 +78,16 @@ QString sheetOf(const Theme& t) {
 }  // namespace
 
 const Theme& lightTheme() {
-  static const Theme theme{false,     "#f4f4f2", "#ffffff", "#dcdcd8", "#1d1f21", "#6b6f74", "#0b6bcb",
-                           "#ffffff", "#e6f0fa", "#f0f0ed", "#1a7f4b", "#9c5a00", "#c0321c", "#8c8c92"};
+  static const Theme theme{
+      false,     "#f4f4f2", "#ffffff", "#dcdcd8", "#1d1f21", "#6b6f74", "#0b6bcb",
+      "#ffffff", "#e6f0fa", "#f0f0ed", "#1a7f4b", "#9c5a00", "#c0321c", {"#990044", "#aa66aa", "#669944"}};
   return theme;
 }
 
 const Theme& darkTheme() {
-  static const Theme theme{true,      "#1e1f21", "#27292c", "#3a3d41", "#e6e7e8", "#989ca1", "#5aa9f5",
-                           "#10202f", "#24384c", "#303338", "#58c48b", "#e5a33c", "#f0776a", "#787a7e"};
+  static const Theme theme{
+      true,      "#1e1f21", "#27292c", "#3a3d41", "#e6e7e8", "#989ca1", "#5aa9f5",
+      "#10202f", "#24384c", "#303338", "#58c48b", "#e5a33c", "#f0776a", {"#cc6633", "#9966bb", "#aaeecc"}};
   return theme;
 }
 

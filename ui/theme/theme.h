@@ -6,6 +6,7 @@
 #include <QIcon>
 #include <QPalette>
 #include <QString>
+#include <array>
 
 class QPainter;
 class QRectF;
@@ -17,7 +18,9 @@ namespace batten {
 struct Theme {
   bool dark = false;
   QColor background, panel, line, text, mute, accent, onAccent, selection, hover, good, amber, bad;
-  QColor faint;  ///< Lines that lie over one another in a plot: no stronger than it takes to see each of them.
+  /// The targets in a plot, two degrees each: far from each other, from grey, accent and amber, for colour-blind eyes
+  /// too.
+  std::array<QColor, 3> targets;
 };
 
 enum class ThemeChoice { System, Light, Dark };

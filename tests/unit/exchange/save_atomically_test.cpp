@@ -159,6 +159,35 @@ TEST_F(SaveAtomically, WhatAnEndedProgramLeftGoesAndWhatARunningOneWritesStays) 
   EXPECT_EQ(read(target), "x");
 }
 
+TEST_F(SaveAtomically, AWindowDoesNotWaitForALookThroughTheFolder) {
+  const fs::path other = folder_ / ".batten-0123456789abcdef.saving";
+  std::ofstream(other) << "half";
+  fs::last_write_time(other, fs::file_time_type::clock::now() - std::chrono::hours(48));
+  ASSERT_TRUE(saveAtomically(folder_ / "a.json", "x", Leftovers::OfThisFile));
+  EXPECT_TRUE(fs::exists(other)) << "of another file";
+  ASSERT_TRUE(saveAtomically(folder_ / "a.json", "x"));
+  EXPECT_FALSE(fs::exists(other));
+}
+
+TEST_F(SaveAtomically, AFolderThatTakesNoFileIsKnownBeforehand) {
+  const fs::path target = folder_ / "a.svg";
+  ASSERT_TRUE(checkSaving(target));
+  EXPECT_EQ(filesInFolder(), 0u) << "nothing is left of the check";
+  std::ofstream(target) << "kept";
+  ASSERT_TRUE(checkSaving(target));
+  EXPECT_EQ(read(target), "kept");
+  // A folder without permission; for the administrator, who may write anywhere else, one of the system.
+  const fs::path locked = folder_ / "locked";
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);
+  const bool isAdministrator = std::ofstream(locked / "probe").is_open();
+  const auto checked = checkSaving((isAdministrator ? fs::path("/sys/kernel") : locked) / "a.svg");
+  fs::permissions(locked, fs::perms::owner_all);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().code, ErrorCode::CannotWrite);
+  EXPECT_NE(checked.error().message.find("Choose another place"), std::string::npos) << checked.error().message;
+}
+
 TEST_F(SaveAtomically, AScratchFileGoesWithItsObject) {
   std::string path;
   {

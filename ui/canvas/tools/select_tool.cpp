@@ -31,6 +31,7 @@ class SelectTool final : public CanvasTool {
     if (*curve == scene_.session.selectedCurve() && judgedIn(scene_.view) == Judged::Result)
       return pointAtSpanNear(scene_.session, event.px);
     scene_.session.selectCurve(*curve);
+    move(event, false);  // the mouse stands still, but what a click does is another thing now
   }
 
   void move(const ToolEvent& event, bool isPressed) override {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/controls/lines_note.h"
 
+#include <QFrame>
 #include <QHelpEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
 #include <QPainter>
 #include <QTextLayout>
+#include <QVBoxLayout>
+#include <utility>
 
 #include "ui/theme/theme.h"
 #include "ui/theme/tool_tips.h"
@@ -41,7 +46,9 @@ QStringList LinesNote::shownLines() const {
       }
       // The last line takes all that is left, and is cut where it has to be.
       const QString rest = text().mid(begin + line.textStart()).simplified();
-      shown << fontMetrics().elidedText(rest, Qt::ElideRight, width());
+      const bool fits = fontMetrics().horizontalAdvance(rest) <= width();
+      const int room = width() - (fits ? 0 : fontMetrics().horizontalAdvance(moreText()));
+      shown << fontMetrics().elidedText(rest, Qt::ElideRight, room);
       layout.endLayout();
       return shown;
     }
@@ -53,20 +60,72 @@ QStringList LinesNote::shownLines() const {
 
 bool LinesNote::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip || !toolTip().isEmpty()) return QLabel::event(event);
-  const QStringList shown = shownLines();
-  const bool isCut = !shown.isEmpty() && shown.last().endsWith(QChar(0x2026)) && !text().endsWith(QChar(0x2026));
-  showToolTip(static_cast<QHelpEvent*>(event)->globalPos(), isCut ? text() : QString(), this);
+  showToolTip(static_cast<QHelpEvent*>(event)->globalPos(), isCut() ? text() : QString(), this);
   return true;
 }
 
+bool LinesNote::isCut() const {
+  const QStringList shown = shownLines();
+  return !shown.isEmpty() && shown.last().endsWith(QChar(0x2026)) && !text().endsWith(QChar(0x2026));
+}
+
+QString LinesNote::moreText() const { return QLatin1Char(' ') + tr("more"); }
+
+void LinesNote::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && isCut()) return showWhole();
+  QLabel::mouseReleaseEvent(event);
+}
+
+void LinesNote::keyPressEvent(QKeyEvent* event) {
+  const bool isPressed =
+      event->key() == Qt::Key_Space || event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+  if (isPressed && isCut()) return showWhole();
+  QLabel::keyPressEvent(event);
+}
+
+// Over the note, so that it is read on from where the eye is. A click elsewhere or Esc closes it.
+void LinesNote::showWhole() {
+  constexpr int kMarginPx = 10;
+  auto* frame = new QFrame(this, Qt::Popup);
+  frame->setObjectName(QStringLiteral("note.whole"));
+  frame->setAttribute(Qt::WA_DeleteOnClose);
+  frame->setFrameStyle(QFrame::Box | QFrame::Plain);
+  auto* whole = new QLabel(text(), frame);
+  whole->setFont(font());
+  whole->setTextFormat(Qt::PlainText);
+  whole->setWordWrap(true);
+  whole->setFixedWidth(width());
+  auto* layout = new QVBoxLayout(frame);
+  layout->setContentsMargins(kMarginPx, kMarginPx, kMarginPx, kMarginPx);
+  layout->addWidget(whole);
+  frame->setAccessibleName(text());
+  frame->adjustSize();
+  frame->move(mapToGlobal(QPoint(-kMarginPx - frame->frameWidth(), -kMarginPx - frame->frameWidth())));
+  frame->show();
+  frame->setFocus(Qt::PopupFocusReason);
+}
+
 void LinesNote::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
   QPainter painter(this);
   painter.setPen(palette().color(foregroundRole()));
+  const QStringList shown = shownLines();
   int y = 0;
-  for (const QString& line : shownLines()) {
+  for (const QString& line : shown) {
     painter.drawText(QRect(0, y, width(), fontMetrics().lineSpacing()), Qt::AlignLeft | Qt::AlignTop, line);
     y += fontMetrics().lineSpacing();
   }
+  if (std::exchange(isCut_, isCut()) != isCut_) {
+    // The keyboard stops at a note only where there is more to read.
+    setFocusPolicy(isCut_ ? Qt::TabFocus : Qt::NoFocus);
+    setCursor(isCut_ ? Qt::PointingHandCursor : Qt::ArrowCursor);
+  }
+  if (!isCut_) return;
+  const int top = y - fontMetrics().lineSpacing(), left = fontMetrics().horizontalAdvance(shown.last());
+  painter.setPen(theme.accent);
+  painter.drawText(QRect(left, top, width() - left, fontMetrics().lineSpacing()), Qt::AlignLeft | Qt::AlignTop,
+                   moreText());
+  if (hasFocus()) drawFocusRing(painter, rect(), 3, theme);
 }
 
 void keepRoom(QWidget* widget) {

@@ -6,7 +6,7 @@
 namespace batten {
 
 /// A note with room for so many lines, whatever it says, so that what stands below it stays where it is. A longer text
-/// ends in "…", and its tool tip holds the whole.
+/// ends in "… more"; a click on it, or Space when it has the keyboard, shows the whole, as its tool tip does.
 class LinesNote final : public QLabel {
  public:
   LinesNote(int lines, QWidget* parent);
@@ -15,13 +15,20 @@ class LinesNote final : public QLabel {
   int roomFor(int lines) const;
   /// The lines as they are shown.
   QStringList shownLines() const;
+  bool isCut() const;
 
  protected:
   bool event(QEvent*) override;
+  void keyPressEvent(QKeyEvent*) override;
+  void mouseReleaseEvent(QMouseEvent*) override;
   void paintEvent(QPaintEvent*) override;
 
  private:
+  /// Where the text is cut.
+  void showWhole();
+  QString moreText() const;
   int lines_;
+  bool isCut_ = false;
 };
 
 /// The widget keeps its room while it is hidden.

@@ -2,6 +2,7 @@
 #include "ui/panels/controls/panel_parts.h"
 
 #include <QCoreApplication>
+#include <QHBoxLayout>
 #include <QHelpEvent>
 #include <QLabel>
 #include <QLayout>
@@ -52,15 +53,27 @@ QLabel* heading(const QString& text, QWidget* parent) {
   return label;
 }
 
-QLabel* caption(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text.toUpper(), parent);
+QFont captionFont() {
   QFont font = uiFont(11, QFont::DemiBold);
   font.setLetterSpacing(QFont::AbsoluteSpacing, 0.4);
-  label->setFont(font);
+  return font;
+}
+
+QLabel* caption(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text.toUpper(), parent);
+  label->setFont(captionFont());
   label->setForegroundRole(QPalette::PlaceholderText);
   label->setContentsMargins(0, 6, 0, 0);
   label->setAccessibleName(text);
   return label;
+}
+
+QLayout* captionRow(const QString& text, const std::vector<QPushButton*>& links, QWidget* parent) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(10);
+  row->addWidget(caption(text, parent), 1);
+  for (QPushButton* link : links) row->addWidget(link);
+  return row;
 }
 
 QLabel* note(const QString& text, QWidget* parent) {
@@ -95,6 +108,12 @@ void FigureTable::setHeader(const QString& first, const QStringList& columns) {
   updateGeometry();
 }
 
+void FigureTable::setTitle(const QString& title) {
+  title_ = title.toUpper();
+  setAccessibleName(title);
+  update();
+}
+
 void FigureTable::setRows(std::vector<Row> rows) {
   rows_ = std::move(rows);
   QStringList spoken;
@@ -124,7 +143,10 @@ void FigureTable::paintEvent(QPaintEvent*) {
   const int shownColumns = static_cast<int>(columns_.size());
   if (shownColumns > 0) {
     painter.setPen(theme.mute);
-    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft, first_);
+    if (!title_.isEmpty()) painter.setFont(captionFont());
+    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft,
+                     title_.isEmpty() ? first_ : title_);
+    painter.setFont(uiFont(12));
     for (int c = 0; c < shownColumns; ++c)
       painter.drawText(columnRect(shownColumns - 1 - c, y, std::max(2, shownColumns)),
                        Qt::AlignVCenter | Qt::AlignRight, columns_[c]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QFont>
 #include <QString>
 #include <QStringList>
 #include <QWidget>
@@ -8,6 +9,7 @@
 #include <vector>
 
 class QLabel;
+class QLayout;
 class QPushButton;
 class QToolButton;
 class QVBoxLayout;
@@ -18,7 +20,10 @@ namespace batten {
 
 QLabel* heading(const QString& text, QWidget* parent);  ///< "Fairing": bold, 13 px.
 QLabel* caption(const QString& text, QWidget* parent);  ///< "BEFORE AND AFTER": small, grey, spaced.
-QLabel* note(const QString& text, QWidget* parent);     ///< Grey 12 px, wraps.
+/// A caption with what is done to all below it at its right, where it takes no line of its own.
+QLayout* captionRow(const QString& text, const std::vector<QPushButton*>& links, QWidget* parent);
+QFont captionFont();                                 ///< Of a caption that is painted.
+QLabel* note(const QString& text, QWidget* parent);  ///< Grey 12 px, wraps.
 QPushButton* plainButton(const QString& text, const QString& name, QWidget* parent);
 QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent);  ///< Accent text without frame.
 
@@ -41,6 +46,8 @@ class FigureTable : public QWidget {
   };
   explicit FigureTable(QWidget* parent = nullptr);
   void setHeader(const QString& first, const QStringList& columns);
+  /// The caption of the table, in the line of its header, where it takes no room of its own.
+  void setTitle(const QString& title);
   void setRows(std::vector<Row> rows);
   const std::vector<Row>& rows() const { return rows_; }
   QSize sizeHint() const override;
@@ -51,7 +58,7 @@ class FigureTable : public QWidget {
   bool event(QEvent*) override;
 
  private:
-  QString first_;
+  QString first_, title_;
   QStringList columns_;
   std::vector<Row> rows_;
 };

@@ -84,7 +84,7 @@ QString label(PanelStage stage) {
   return {};
 }
 
-QString hint(PanelStage stage, bool isOpen) {
+QString hint(PanelStage stage, bool isOpen, bool isCurveSelected) {
   switch (stage) {
     case PanelStage::Scan:
       return isOpen ? tr("Check the resolution: all lengths in mm depend on it. Then continue with the threshold.")
@@ -98,7 +98,9 @@ QString hint(PanelStage stage, bool isOpen) {
     case PanelStage::Corners:
       return tr("Click a line to mark a corner; click a corner to select it, again to remove it.");
     case PanelStage::Curves:
-      return tr("Click a curve to show its measurements.");
+      return isCurveSelected
+                 ? tr("Hover over the comb or the plot to read the curvature; choose a method at the right.")
+                 : tr("Click a curve to show its measurements.");
     case PanelStage::Fairing:
       return tr("Choose a mode, or hover a target below the drawing to see its curve.");
     case PanelStage::Export:

@@ -19,7 +19,8 @@ inline constexpr std::array kPanelStages = {PanelStage::Scan,    PanelStage::Thr
 /// Its place in arrays with one entry a panel.
 constexpr std::size_t indexOf(PanelStage stage) { return static_cast<std::size_t>(stage); }
 QString label(PanelStage);
-QString hint(PanelStage, bool isOpen);  ///< One line: what to do here, with a drawing open or without.
+/// One line: what to do here, with a drawing open or without, with a curve selected or without.
+QString hint(PanelStage, bool isOpen, bool isCurveSelected);
 /// "scan", "threshold", …: object names, help pages, settings.
 QString key(PanelStage);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/corner_rounding.h"
 
+#include <QAbstractButton>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -73,7 +74,6 @@ void CornerRounding::buildChoices() {
       tr("Continuity with the adjacent curves. G1: tangent, by two typical curves. G2: curvature. "
          "G3: rate of change of curvature."));
   setSettingName(joint_, tr("Continuity of the rounding"));
-  for (QWidget* one : {roundBy_, joint_}) keepRoom(one);
   auto* choices = new QHBoxLayout;
   choices->addWidget(roundBy_, 1);
   choices->addWidget(joint_, 1);
@@ -88,10 +88,13 @@ void CornerRounding::buildChoices() {
 
 void CornerRounding::showMark(const std::optional<CornerMark>& mark) {
   size_->setEnabled(mark.has_value());
-  // What a sharp corner would be rounded by is of no interest.
+  // What a sharp corner would be rounded by is of no interest, but a gap that fills later would be.
   const bool isRound = mark && mark->roundMm > 0.0;
-  roundBy_->setVisible(isRound);
-  joint_->setVisible(isRound);
+  roundBy_->setEnabled(isRound);
+  joint_->setEnabled(isRound);
+  for (auto* choice : {roundBy_, joint_})
+    for (auto* segment : choice->findChildren<QAbstractButton*>())
+      segment->setToolTip(isRound ? choice->toolTip() : tr("Only for a corner with a rounding above 0: set it first."));
   if (isRound) {
     roundBy_->setCurrent(positionIn(kRoundingSizes, mark->roundBy));
     joint_->setCurrent(positionIn(kRoundingJoints, mark->joint));

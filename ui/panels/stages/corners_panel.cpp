@@ -30,7 +30,8 @@
 namespace batten {
 namespace {
 
-constexpr int kRows = 6;  // of the lists
+constexpr int kRows = 6;        // of the lists
+constexpr int kFoundLines = 3;  // beside the link
 
 QString across(const Vec2& px) { return QString::number(px.x(), 'f', 1); }
 QString down(const Vec2& px) { return QCoreApplication::translate("CornersPanel", "%1 px").arg(px.y(), 0, 'f', 1); }
@@ -60,16 +61,16 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       session_(session),
       view_(view),
       marks_(new HintList(tr("No corner is marked yet."), kRows, this)),
-      found_(new LinesNote(2, this)),
-      restore_(plainButton(tr("Restore all"), QStringLiteral("corners.restore"), this)),
+      found_(new LinesNote(kFoundLines, this)),
+      restore_(linkButton(tr("Restore all"), QStringLiteral("corners.restore"), this)),
       close_(note({}, this)),
-      remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
-      removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
+      remove_(linkButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
+      removeAll_(linkButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
       rounding_(new CornerRounding(this)),
-      suggested_(new HintList(tr("No further candidate above this angle."), kRows, this)),
+      suggested_(new HintList({}, kRows, this)),
       suggestedNote_(note({}, this)),
-      take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
-      takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
+      take_(linkButton(tr("Mark"), QStringLiteral("corners.take"), this)),
+      takeAll_(linkButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
   auto* column = panelColumn(this, tr("Corners"));
   column->addWidget(note(tr("Click a sharp corner of a line to mark it; click a mark to select it, and again to "
                             "remove it."),
@@ -89,8 +90,10 @@ QVBoxLayout* CornersPanel::column() const { return static_cast<QVBoxLayout*>(lay
 
 void CornersPanel::buildFound() {
   found_->setObjectName(QStringLiteral("corners.found"));
-  column()->addWidget(found_);
-  column()->addWidget(restore_, 0, Qt::AlignLeft);
+  auto* row = new QHBoxLayout;
+  row->addWidget(found_, 1);
+  row->addWidget(restore_, 0, Qt::AlignTop);
+  column()->addLayout(row);
   connect(restore_, &QPushButton::clicked, this, [this] {
     Recipe after = session_.recipe();
     after.refusedCornersPx.clear();
@@ -99,13 +102,8 @@ void CornersPanel::buildFound() {
 }
 
 void CornersPanel::buildMarks() {
-  column()->addWidget(caption(tr("Marked"), this));
-  // Buttons stand above what grows.
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(remove_);
-  buttons->addWidget(removeAll_);
-  buttons->addStretch();
-  column()->addLayout(buttons);
+  // Links stand above what grows.
+  column()->addLayout(captionRow(tr("Marked"), {remove_, removeAll_}, this));
   column()->addWidget(rounding_);
   marks_->setObjectName(QStringLiteral("corners.list"));
   marks_->setAccessibleName(tr("Marked corners"));
@@ -137,16 +135,11 @@ void CornersPanel::followSession() {
 }
 
 void CornersPanel::buildSuggestions() {
-  column()->addWidget(caption(tr("Suggestions"), this));
+  column()->addLayout(captionRow(tr("Suggestions"), {take_, takeAll_}, this));
   column()->addWidget(new SuggestionSliders(session_, view_, this));
   column()->addWidget(suggestedNote_);
   suggestedNote_->setMinimumHeight(2 * suggestedNote_->fontMetrics().lineSpacing());
   suggestedNote_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(take_);
-  buttons->addWidget(takeAll_);
-  buttons->addStretch();
-  column()->addLayout(buttons);
   suggested_->setObjectName(QStringLiteral("corners.suggestions"));
   suggested_->setAccessibleName(tr("Suggested corners"));
   suggestedColumns_ = new ColumnDelegate({Qt::AlignRight, Qt::AlignRight, Qt::AlignRight}, *suggested_);
@@ -293,7 +286,7 @@ void CornersPanel::showSuggestions() {
   }
   suggestedColumns_->measure();
   suggestedNote_->setText(suggestions_.empty()
-                              ? QString()  // the empty list says so, and the note keeps its place
+                              ? tr("No further candidate above this angle.")
                               : counted(static_cast<qint64>(suggestions_.size()),
                                         tr("1 possible corner. It is used only if you mark it."),
                                         tr("%1 possible corners. They are used only if you mark them.")));

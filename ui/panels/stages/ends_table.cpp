@@ -4,6 +4,7 @@
 #include <QAbstractButton>
 #include <QPainter>
 
+#include "ui/panels/controls/panel_parts.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -94,9 +95,12 @@ void EndsTable::paintEvent(QPaintEvent*) {
   const Theme& theme = themeOf(palette());
   QPainter painter(this);
   painter.setFont(uiFont(12));
-  const std::array<QString, 3> rows = {tr("Position"), tr("Tangent"), tr("Curvature")};
+  const std::array<QString, 3> rows = {tr("Hold position"), tr("Hold tangent"), tr("Hold curvature")};
   painter.setPen(theme.mute);
-  painter.drawText(QRect(0, 0, width(), kEndRow), Qt::AlignVCenter | Qt::AlignLeft, tr("Hold"));
+  // The caption of the table stands in the line of its header, where it takes no room of its own.
+  painter.setFont(captionFont());
+  painter.drawText(QRect(0, 0, width(), kEndRow), Qt::AlignVCenter | Qt::AlignLeft, tr("Ends").toUpper());
+  painter.setFont(uiFont(12));
   const auto column = [this](int end) { return QRect(width() - (2 - end) * kEndColumn, 0, kEndColumn, kEndRow); };
   painter.drawText(column(0), Qt::AlignVCenter | Qt::AlignRight, tr("start"));
   painter.drawText(column(1), Qt::AlignVCenter | Qt::AlignRight, tr("end"));

@@ -69,8 +69,10 @@ void addTargetRows(std::vector<FigureTable::Row>& rows, const EditorSession& ses
 
 }  // namespace
 
-std::vector<FigureTable::Row> noFairingRows() {
-  return {{FairingPanel::tr("No curve selected"), {noFigure(), noFigure()}, {}}};
+std::vector<FigureTable::Row> noFairingRows(const EditorSession& session) {
+  std::vector<FigureTable::Row> rows = fairingRows(session, TracedCurve{});
+  for (FigureTable::Row& row : rows) row.cells.assign(2, noFigure());
+  return rows;
 }
 
 std::vector<FigureTable::Row> fairingRows(const EditorSession& session, const TracedCurve& curve) {

@@ -13,7 +13,7 @@ namespace batten {
 /// A curve before and after fairing, in figures; of the target that it follows too, once that is computed.
 std::vector<FigureTable::Row> fairingRows(const EditorSession& session, const TracedCurve& curve);
 /// The same while no curve is selected.
-std::vector<FigureTable::Row> noFairingRows();
+std::vector<FigureTable::Row> noFairingRows(const EditorSession& session);
 
 /// What is to be said of a curve's fairing.
 struct FairingNote {

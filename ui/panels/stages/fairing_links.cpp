@@ -3,6 +3,7 @@
 
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <initializer_list>
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/like_link.h"
@@ -10,6 +11,11 @@
 #include "ui/session/edits/piece_choice.h"
 
 namespace batten {
+namespace {
+
+constexpr int kBelowCaption = 4;  // px
+
+}  // namespace
 
 FairingLinks::FairingLinks(EditorSession& session, QWidget* parent)
     : QWidget(parent),
@@ -24,13 +30,22 @@ FairingLinks::FairingLinks(EditorSession& session, QWidget* parent)
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
       followAll_(linkButton(tr("Use the common setting"), QStringLiteral("fairing.followAll"), this)) {
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
-  // Close together: what stands below them is to fit into a low window.
+  // Close together: there are many.
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  for (QPushButton* link :
-       {split_, whole_, unsplit_, draw_, forget_, like_, logAesthetic_, compare, useForAll_, followAll_})
-    column->addWidget(link, 0, Qt::AlignLeft);
+  const auto add = [&](const QString& title, std::initializer_list<QPushButton*> links) {
+    column->addWidget(caption(title, this));
+    column->addSpacing(kBelowCaption);
+    for (QPushButton* link : links) {
+      column->addWidget(link, 0, Qt::AlignLeft);
+      // A click that disables the link would hand the keyboard on to the next, and the panel would scroll there.
+      link->setFocusPolicy(Qt::TabFocus);
+    }
+  };
+  add(tr("Target profile"), {split_, whole_, unsplit_, draw_, forget_, like_, logAesthetic_});
+  column->addSpacing(2 * kBelowCaption);
+  add(tr("Selected curve"), {compare, useForAll_, followAll_});
   whole_->setToolTip(tr("The targets apply to the span you clicked. Click here to return to the whole curve."));
   forget_->setToolTip(tr("Follows a polynomial again."));
   compare->setToolTip(tr("Similarity of two curves and fairness of this one, as a table."));

@@ -88,11 +88,13 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   buildTolerance();
   buildSettingsOfModes();
   buildNote();
-  // Above what the selected curve has: a click on a row leaves the rows where they are.
+  // What decides comes first. The tables have the same rows for every curve: a click in the list leaves it in its
+  // place.
+  buildFigures();
   column->addWidget(caption(tr("Curves"), this));
   column->addWidget(new CurveList(session, Judged::Result, this));
   buildLinks();
-  buildFigures();
+  column->addWidget(editor_);
   // Last: the list grows with what is saved.
   buildProfiles();
   column->addStretch();
@@ -205,12 +207,13 @@ void FairingPanel::buildProfiles() {
 }
 
 void FairingPanel::buildFigures() {
-  column()->addWidget(caption(tr("Before and after"), this));
+  figures_->setObjectName(QStringLiteral("fairing.figures"));
+  figures_->setTitle(tr("Before and after"));
   figures_->setHeader({}, {tr("sketched"), tr("faired")});
   column()->addWidget(figures_);
-  column()->addWidget(caption(tr("Ends"), this));
+  ends_->setObjectName(QStringLiteral("fairing.ends"));
+  ends_->setAccessibleName(tr("Ends"));
   column()->addWidget(ends_);
-  column()->addWidget(editor_);
 }
 
 void FairingPanel::followSession() {
@@ -328,7 +331,7 @@ void FairingPanel::refresh() {
 void FairingPanel::refreshFigures() {
   const TracedCurve* curve = session_.selected();
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
-  figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows());
+  figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows(session_));
   const FairingMode mode = shown(session_.recipe()).mode;
   note_->setText(mode == FairingMode::None && said.text.isEmpty()
                      ? tr("Fairing is off: the curves stay as they are in Curves.")

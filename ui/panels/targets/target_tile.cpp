@@ -89,7 +89,8 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     spoken += tr(", moves the curve by %1, %2 extrema")
                   .arg(millimetres(faired.report.maxDeviationMm))
                   .arg(faired.report.extremaAfter);
-    tip += tr("\nS %1, moves the curve by at most %2; left: %3.")
+    tip += tr("\nS %1: similarity of this profile to that of the sketched curve; 1 is the same.\nMoves the curve by at "
+              "most %2; left: %3.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (faired.report.similarityAfter)
@@ -122,6 +123,10 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     else if (fits())
       spoken += tr(", simplest fit");
   }
+  if (spoken.endsWith(tr(", recommended")))
+    tip += tr(
+        "\n✓ recommended: the simplest profile that is reached within the tolerance without an extremum more. S rises "
+        "with the degree, so it does not choose.");
   if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);

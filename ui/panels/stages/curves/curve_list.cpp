@@ -48,7 +48,7 @@ enum Role {
 
 int heightOfRows(int rows) { return kCurveRow * std::max(1, rows) + 2; }
 
-/// Of S: fair, nearly so, or far from it.
+/// Of M: fair, nearly so, or far from it.
 QColor fairnessColour(double similarity, const Theme& theme) {
   constexpr double kFairSimilarity = 0.99, kNearlyFair = 0.95;  // from here on
   return similarity >= kFairSimilarity ? theme.good : similarity >= kNearlyFair ? theme.mute : theme.amber;
@@ -130,7 +130,7 @@ CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setToolTip(
       tr("Click a curve to select it; click its eye, or press Space, to exclude it from fairing "
-         "and export."));
+         "and export. M: how near the curve is to one whose curvature only rises or only falls."));
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::runFinished, &EditorSession::selectionChanged})
     connect(&session_, signal, this, &CurveList::refresh);
   connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
