@@ -274,6 +274,17 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
   return batch;
 }
 
+int runOrReport(int argc, char** argv);
+
+/// @param program its name as it was called.
+int callHere(char* program, const std::vector<std::string>& words) {
+  std::vector<std::string> kept = words;
+  std::vector<char*> pointers{program};
+  for (std::string& word : kept) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return runOrReport(static_cast<int>(pointers.size()) - 1, pointers.data());
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Batten: from a designer's sketch to fair curves", "batten-cli");
   app.set_version_flag("--version", std::string("batten-cli ") + BATTEN_VERSION);
@@ -310,15 +321,12 @@ int run(int argc, char** argv) {
   if (options->parsed()) return runOptions(app);
   if (compare->parsed()) return runCompare(first, second);
   if (suggest->parsed()) return runSuggest(arguments);
-  if (batch->parsed()) return runBatch(many, argv[0]);
+  if (batch->parsed())
+    return runBatch(many, argv[0], [&](const std::vector<std::string>& words) { return callHere(argv[0], words); });
   return parameters->parsed() ? runParameters(asJson) : runTrace(arguments);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the program.
-  batten::reportLargeFilesAsErrors();
+int runOrReport(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
@@ -327,4 +335,12 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     return reportError({ErrorCode::Numerical, std::string("Unexpected error: ") + e.what(), {}});
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the program.
+  batten::reportLargeFilesAsErrors();
+  return runOrReport(argc, argv);
 }

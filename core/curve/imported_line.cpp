@@ -5,13 +5,14 @@
 #include <cmath>
 #include <string>
 
+#include "core/curve/import_limits.h"
+
 namespace batten {
 namespace {
 
 constexpr double kFarthestMm = 1e5;          // 100 m: no drawing is larger
 constexpr std::size_t kMostLines = 20000;    // of a file: bounds what a foreign one may take of time and memory
 constexpr std::size_t kMostPoints = 500000;  // of all lines, as well
-constexpr std::size_t kMostCorners = 50000;  // of points that turn sharply
 /// Of the size of a line: curves that are farther apart do not follow each other.
 constexpr double kSamePlace = 1e-6;
 
@@ -65,6 +66,13 @@ std::optional<Error> validateLine(const ImportedLine& line) {
 
 }  // namespace
 
+std::optional<Error> tooManySharpTurns(std::size_t turns) {
+  if (turns <= kMostSharpTurns) return std::nullopt;
+  return bad("The points of a file may turn sharply at " + std::to_string(kMostSharpTurns) +
+             " places at most, but do so at " + std::to_string(turns) +
+             ": put them in the order in which the line runs.");
+}
+
 std::optional<Error> validate(const ImportedFile& file) {
   if (file.lines.size() > kMostLines) return bad("At most 20000 lines can be imported from a file.");
   std::size_t points = 0, corners = 0;
@@ -74,10 +82,7 @@ std::optional<Error> validate(const ImportedFile& file) {
     for (const auto& [curve, name] : line.curves) points += curve.isEmpty() ? 0 : curve.controlPointCount();
   }
   if (points > kMostPoints) return bad("At most 500000 points can be imported from a file.");
-  if (corners > kMostCorners) {
-    return bad("The points of a file may turn sharply at 50000 places at most, but do so at " +
-               std::to_string(corners) + ": put them in the order in which the line runs.");
-  }
+  if (auto wrong = tooManySharpTurns(corners)) return wrong;
   for (const ImportedLine& line : file.lines) {
     if (auto wrong = validateLine(line)) return wrong;
   }

@@ -47,8 +47,10 @@ class SampleTree {
       if (box.isLeaf) {
         for (std::size_t k = box.first; k < box.last; ++k) {
           const std::size_t i = order_[k];
+          const double most = bound();
+          if (isBeyond(i, p, most + places_[i].bulge)) continue;
           const double distance = distanceToChords(i, p) - places_[i].bulge;
-          if (distance <= bound()) near.push_back({distance, i});
+          if (distance <= most) near.push_back({distance, i});
         }
       }
       ++node;
@@ -86,6 +88,13 @@ class SampleTree {
   const Vec2& before(std::size_t i) const { return places_[i > 0 ? i - 1 : i].point; }
   const Vec2& behind(std::size_t i) const { return places_[std::min(i + 1, places_.size() - 1)].point; }
   double distanceToChords(std::size_t i, const Vec2& p) const;
+  /// Whether the box of a place's chords lies farther than that: told at once, and of most chords in a long one's box.
+  bool isBeyond(std::size_t i, const Vec2& p, double distance) const {
+    constexpr double kRoom = 1.0 + 1e-9;  // for rounding
+    const Vec2 &a = before(i), &b = places_[i].point, &c = behind(i);
+    const Vec2 low = a.cwiseMin(b).cwiseMin(c) - p, high = p - a.cwiseMax(b).cwiseMax(c);
+    return low.cwiseMax(high).maxCoeff() > kRoom * distance;
+  }
   void build(std::size_t first, std::size_t last);
   /// From the box, a little less than exact, so that rounding hides no place.
   static double distanceTo(const Box& box, const Vec2& p);

@@ -11,6 +11,7 @@
 #include "core/base/number_text.h"
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
+#include "core/curve/import_limits.h"
 #include "core/exchange/cad/dxf_reader.h"
 #include "core/exchange/cad/iges_reader.h"
 #include "core/exchange/cad/step_reader.h"
@@ -194,10 +195,8 @@ void makeNamesShown(ImportedLine& line) {
 Result<void> checkSharpTurns(const ImportedFile& file) {
   std::size_t turns = 0;
   for (const ImportedLine& line : file.lines) turns += sharpTurnsOf(line);
-  if (turns <= kMostSharpTurns) return {};
-  return fail(ErrorCode::BadParameter, "The points of a file may turn sharply at " + std::to_string(kMostSharpTurns) +
-                                           " places at most, but do so at " + std::to_string(turns) +
-                                           ": put them in the order in which the line runs.");
+  if (auto wrong = tooManySharpTurns(turns)) return fail(*wrong);
+  return {};
 }
 
 }  // namespace

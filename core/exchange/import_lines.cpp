@@ -12,6 +12,7 @@
 
 #include "core/base/angle.h"
 #include "core/base/statistics.h"
+#include "core/curve/import_limits.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {

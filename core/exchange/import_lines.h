@@ -25,8 +25,6 @@ std::vector<ImportedLine> linesOf(const ExportDocument&);
 /// counts as far as it is seen over more of the line, or moves farther than a tremor does.
 std::vector<int> sharpPoints(const std::vector<Vec2>& points, bool closed);
 
-/// Places at which a file may turn sharply. Beyond that its points are in no order, and their lines would take minutes.
-inline constexpr std::size_t kMostSharpTurns = 50'000;
 /// At how many places a line turns sharply: corners of points, and straight curves that meet at an angle.
 std::size_t sharpTurnsOf(const ImportedLine&);
 

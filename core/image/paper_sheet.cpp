@@ -124,7 +124,7 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     const bool isPaper = mean[0] >= level + kSolidContrast && roughness <= grain;
     if (isPaper) continue;
     if (!shaded) shaded.emplace(sheet, cells);
-    if (shaded->isOne(patch)) continue;
+    if (shaded->isOne(patch) || shaded->showsThrough(patch)) continue;
     const double apart =
         std::max({std::fabs(mean[0] - level), std::fabs(mean[1] - sheetMean[1]), std::fabs(mean[2] - sheetMean[2])});
     if (apart < kSheetContrast && roughness <= kMostRoughness) continue;

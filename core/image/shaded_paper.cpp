@@ -15,7 +15,9 @@ constexpr double kEqualGrain = 0.05;                              // share: grai
 constexpr double kLeastDrawn = 0.003, kLeastDrawnOfSheet = 0.25;  // of a patch, and of what the sheet has drawn on it
 constexpr double kLeastInkDepth = 2.0;                            // [grey]
 constexpr double kInkSigmas = 4.0;                                // of the noise
-constexpr int kLeastLineCells = 8;                                // noise makes no line of so many cells
+constexpr int kBetweenLettersCells = 9;     // across: no letter or stroke of dense ones is broader
+constexpr double kLeastShownThrough = 0.5;  // of a patch lies beside paper
+constexpr int kLeastLineCells = 8;          // noise makes no line of so many cells
 
 /// Thin lines that are darker than what is around them, by cells.
 cv::Mat1b drawnCells(const SheetCells& cells) {
@@ -37,6 +39,32 @@ cv::Mat1b drawnCells(const SheetCells& cells) {
   return drawn;
 }
 
+/// What the paper of a sheet is like: the smoother half of its cells, for ink makes cells rough.
+struct PaperLook {
+  cv::Vec3f colour;
+  float rough = 0.0f;
+};
+
+PaperLook paperLookOf(const cv::Mat1b& sheet, const SheetCells& cells) {
+  std::vector<float> roughs;
+  for (int j = 0; j < sheet.rows; ++j) {
+    for (int i = 0; i < sheet.cols; ++i)
+      if (sheet(j, i) != 0) roughs.push_back(cells.rough(j, i));
+  }
+  PaperLook look;
+  if (roughs.empty()) return look;
+  look.rough = upperMedian(roughs);
+  for (int k = 0; k < 3; ++k) {
+    std::vector<float> values;
+    for (int j = 0; j < sheet.rows; ++j) {
+      for (int i = 0; i < sheet.cols; ++i)
+        if (sheet(j, i) != 0 && cells.rough(j, i) <= look.rough) values.push_back(cells.colour(j, i)[k]);
+    }
+    look.colour[k] = upperMedian(values);
+  }
+  return look;
+}
+
 double shareOf(const cv::Mat1b& drawn, const cv::Mat1b& within) {
   const int all = cv::countNonZero(within);
   return all > 0 ? static_cast<double>(cv::countNonZero(drawn & within)) / all : 0.0;
@@ -47,6 +75,7 @@ double shareOf(const cv::Mat1b& drawn, const cv::Mat1b& within) {
 ShadedPaper::ShadedPaper(const cv::Mat1b& sheet, const SheetCells& cells)
     : cells_(cells),
       drawn_(drawnCells(cells)),
+      sheet_(sheet),
       mean_(cv::mean(cells.colour, sheet)),
       rough_(cv::mean(cells.rough, sheet)[0]),
       drawnOnSheet_(shareOf(drawn_, sheet)) {
@@ -63,6 +92,22 @@ bool ShadedPaper::isOne(const cv::Mat1b& patch) const {
   if (grain > kSameGrain) return false;
   // The edge itself is of neither.
   return isDrawnOn(patch & (near_ == 0));
+}
+
+bool ShadedPaper::showsThrough(const cv::Mat1b& patch) const {
+  const PaperLook paper = paperLookOf(sheet_, cells_);
+  const float grain = static_cast<float>(kSameGrain) * std::max(paper.rough, static_cast<float>(kLeastGrain));
+  cv::Mat1b shows(patch.size(), static_cast<unsigned char>(0)), around;
+  for (int j = 0; j < patch.rows; ++j) {
+    for (int i = 0; i < patch.cols; ++i) {
+      if (patch(j, i) == 0 || cells_.rough(j, i) > grain) continue;
+      const cv::Vec3f apart = cells_.colour(j, i) - paper.colour;
+      if (std::max({std::fabs(apart[0]), std::fabs(apart[1]), std::fabs(apart[2])}) <= kMostSheetStep)
+        shows(j, i) = 255;
+    }
+  }
+  cv::dilate(shows, around, cv::getStructuringElement(cv::MORPH_RECT, {kBetweenLettersCells, kBetweenLettersCells}));
+  return shareOf(around, patch) >= kLeastShownThrough;
 }
 
 bool ShadedPaper::isDrawnOn(const cv::Mat1b& patch) const {

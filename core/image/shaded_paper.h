@@ -22,10 +22,13 @@ class ShadedPaper {
   bool isOne(const cv::Mat1b& patch) const;
   /// Whether the drawing goes on upon a patch.
   bool isDrawnOn(const cv::Mat1b& patch) const;
+  /// Whether the paper of the sheet, as bright and even as on the sheet, shows all over a patch between what is drawn
+  /// there: text and dense lines up to the border of the picture. A table shows it nowhere.
+  bool showsThrough(const cv::Mat1b& patch) const;
 
  private:
   const SheetCells& cells_;
-  cv::Mat1b drawn_, near_;
+  cv::Mat1b drawn_, near_, sheet_;
   cv::Scalar mean_;
   double rough_ = 0.0, drawnOnSheet_ = 0.0;
 };

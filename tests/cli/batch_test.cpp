@@ -363,10 +363,20 @@ TEST_F(Batch, RunsAsManyPagesAsTheSystemStarts) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0) << test::readFile(file("err.txt"));
   EXPECT_EQ(statusesOf(test::readFile(file("out.txt"))), (Statuses{"a done", "b done", "c done"}));
+  // And one that starts none: the pages are traced one after the other, with the same outputs.
+  const std::string before = test::readFile(file("a.svg"));
+  ASSERT_FALSE(before.empty());
   const int none = std::system(("BATTEN_NO_PROCESSES=1 " + words).c_str());
   ASSERT_TRUE(WIFEXITED(none));
-  EXPECT_EQ(WEXITSTATUS(none), 6);
-  EXPECT_NE(test::readFile(file("out.txt")).find("Allow more processes"), std::string::npos);
+  EXPECT_EQ(WEXITSTATUS(none), 0) << test::readFile(file("err.txt"));
+  EXPECT_EQ(statusesOf(test::readFile(file("out.txt"))), (Statuses{"a done", "b done", "c done"}));
+  EXPECT_EQ(test::readFile(file("err.txt")), "");
+  EXPECT_EQ(test::readFile(file("a.svg")), before);
+  // Nothing ends a page here that takes too long.
+  const int timed = std::system(("BATTEN_NO_PROCESSES=1 " + words + " --page-timeout 60").c_str());
+  ASSERT_TRUE(WIFEXITED(timed));
+  EXPECT_EQ(WEXITSTATUS(timed), 6);
+  EXPECT_NE(test::readFile(file("out.txt")).find("leave these out"), std::string::npos);
 }
 
 }  // namespace

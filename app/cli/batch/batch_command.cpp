@@ -220,7 +220,7 @@ int writeManifest(const std::string& file, const std::vector<BatchPage>& pages) 
 
 }  // namespace
 
-int runBatch(const BatchArguments& arguments, char* program) {
+int runBatch(const BatchArguments& arguments, char* program, const CallHere& callHere) {
   const auto pages = pagesFor(arguments);
   if (!pages) return reportError(pages.error());
   if (auto checked = checkSideFiles(arguments, *pages); !checked) return reportError(checked.error());
@@ -234,7 +234,7 @@ int runBatch(const BatchArguments& arguments, char* program) {
   int count = 1;
   char* words[] = {program, nullptr};
   const QCoreApplication application(count, words);
-  BatchRun run(settings, *pages, *lines);
+  BatchRun run(settings, *pages, *lines, callHere);
   run.run();
   return finish(arguments, *pages, run);
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/batch/page_call.h"
+
 namespace batten::cli {
 
 /// The words of `batten-cli batch`, as typed.
@@ -28,7 +30,8 @@ struct BatchArguments {
 };
 
 /// Traces many drawings; one line of JSON for each as it ends. @return kDone if none failed, kPagesFailed, kStopped, or
-/// what is wrong with the words. @param program the program's name as it was called, for the event loop.
-int runBatch(const BatchArguments&, char* program);
+/// what is wrong with the words. @param program the program's name as it was called, for the event loop. @param
+/// callHere for pages that the system starts no process for.
+int runBatch(const BatchArguments&, char* program, const CallHere& callHere);
 
 }  // namespace batten::cli

@@ -74,8 +74,14 @@ struct BatchRun::Running {
   std::unique_ptr<PageCall> call;
 };
 
-BatchRun::BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines)
-    : settings_(settings), pages_(pages), lines_(lines), most_(settings.jobs), showsProgress_(stderrIsTerminal()) {
+BatchRun::BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines,
+                   CallHere callHere)
+    : settings_(settings),
+      pages_(pages),
+      lines_(lines),
+      callHere_(std::move(callHere)),
+      most_(settings.jobs),
+      showsProgress_(stderrIsTerminal()) {
   QObject::connect(&tick_, &QTimer::timeout, &tick_, [this] {
     again_.insert(again_.end(), busy_.begin(), busy_.end());
     busy_.clear();
@@ -249,7 +255,11 @@ void BatchRun::settle(std::size_t index, PageResult result) {
     unstarted_.push_back(std::move(ended->page));
     return startMore();
   }
-  if (!result.isUnstarted) most_ = std::min(most_ + 1, settings_.jobs);  // what stood in the way may be gone
+  if (!result.isUnstarted) {
+    most_ = std::min(most_ + 1, settings_.jobs);  // what stood in the way may be gone
+  } else if (!settings_.pageTimeoutSeconds && canBeTracedHere(pages_[index])) {
+    result = tracedHere(pages_[index], settings_.threads, callHere_);
+  }
   conclude(*ended, std::move(result));
   startMore();
 }

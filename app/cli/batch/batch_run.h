@@ -41,10 +41,11 @@ struct BatchCounts {
 /// Runs over the pages in their order, several at once, each in a process of its own. SIGINT or SIGTERM: no page is
 /// started any more and the running ones end; a second time ends them as well. A page is started beside others only
 /// while free memory holds it and the system starts a process for it, else once another has ended; and never while
-/// another call works on it: then it waits, and finds the page done.
+/// another call works on it: then it waits, and finds the page done. Where the system starts not even one, a page is
+/// traced in this process, unless that needs a process of its own: for a timeout or a printed report.
 class BatchRun {
  public:
-  BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines);
+  BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines, CallHere callHere);
   ~BatchRun();
 
   /// Returns when the last page has ended, or no more are to be started. Needs a QCoreApplication.
@@ -80,6 +81,7 @@ class BatchRun {
   const BatchSettings& settings_;
   const std::vector<BatchPage>& pages_;
   ResultLines& lines_;
+  const CallHere callHere_;
   std::size_t next_ = 0;
   int most_;                                          ///< Pages at once that the system lets run; at most the jobs.
   std::unique_ptr<Candidate> candidate_;              ///< The page that waits for memory.

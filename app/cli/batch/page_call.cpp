@@ -3,6 +3,9 @@
 
 #include <QCoreApplication>
 #include <QFile>
+#include <algorithm>
+#include <iostream>
+#include <sstream>
 
 #include "app/cli/exit_codes.h"
 #include "core/base/json_text.h"
@@ -21,7 +24,62 @@ std::string lastLine(const QByteArray& text) {
   return line.toStdString();
 }
 
+/// What became of a page whose call has ended by itself, from what it printed.
+PageResult resultOfCall(int exitCode, const QByteArray& out, const QByteArray& errors) {
+  PageResult result;
+  result.exitCode = exitCode;
+  result.error = lastLine(errors);
+  if (exitCode == kNoCurve) result.status = PageStatus::Empty;
+  if (exitCode != kDone) return result;
+  auto said = parseJson(out.toStdString());
+  if (!said || !said->is_object()) {
+    result.error = "The output of the subprocess could not be read.";
+    return result;
+  }
+  for (const char* key : {"scan", "files"}) said->erase(key);  // the line has them from the manifest
+  result.status = PageStatus::Done;
+  result.error.clear();
+  result.figures = std::move(*said);
+  return result;
+}
+
+double secondsOf(const QElapsedTimer& clock) {
+  constexpr double kMsInASecond = 1000.0;  // divided, so that the quotient prints with three digits
+  return static_cast<double>(clock.elapsed()) / kMsInASecond;
+}
+
+/// What is printed to a stream while this lives.
+class Caught {
+ public:
+  explicit Caught(std::ostream& stream) : stream_(stream), before_(stream.rdbuf(text_.rdbuf())) {}
+  ~Caught() { stream_.rdbuf(before_); }
+  Caught(const Caught&) = delete;
+  Caught& operator=(const Caught&) = delete;
+  QByteArray text() const { return QByteArray::fromStdString(text_.str()); }
+
+ private:
+  std::ostream& stream_;
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
+
 }  // namespace
+
+bool canBeTracedHere(const BatchPage& page) {
+  // Its text needs an application with fonts, and a process has one application only: that of the event loop.
+  return std::none_of(page.outputs.begin(), page.outputs.end(),
+                      [](const std::string& name) { return name.ends_with(".report.pdf"); });
+}
+
+PageResult tracedHere(const BatchPage& page, int threads, const CallHere& call) {
+  QElapsedTimer clock;
+  clock.start();
+  const Caught out(std::cout), errors(std::cerr);
+  const int exitCode = call(traceWords(page, threads));
+  PageResult result = resultOfCall(exitCode, out.text(), errors.text());
+  result.seconds = secondsOf(clock);
+  return result;
+}
 
 PageCall::PageCall(const BatchPage& page, int threads, std::optional<double> timeoutSeconds, Ended ended)
     : timeoutSeconds_(timeoutSeconds.value_or(0.0)), ended_(std::move(ended)) {
@@ -76,35 +134,19 @@ void PageCall::finish() {
 
 PageResult PageCall::result() {
   PageResult result;
-  constexpr double kMsInASecond = 1000.0;  // divided, so that the quotient prints with three digits
-  result.seconds = static_cast<double>(clock_.elapsed()) / kMsInASecond;
   if (process_.error() == QProcess::FailedToStart) {
     result.isUnstarted = true;
     result.error = "Cannot start a subprocess (" + process_.errorString().toStdString() +
-                   "). Allow more processes, or free some memory.";
-    return result;
-  }
-  if (isTooSlow_) {
+                   "), which --page-timeout and a .report.pdf need. Allow more processes, free some memory, or leave "
+                   "these out.";
+  } else if (isTooSlow_) {
     result.error = "It took longer than " + numberToText(timeoutSeconds_) + " s. Raise --page-timeout.";
-    return result;
-  }
-  if (process_.exitStatus() != QProcess::NormalExit) {
+  } else if (process_.exitStatus() != QProcess::NormalExit) {
     result.error = "The subprocess was killed or crashed (signal " + std::to_string(process_.exitCode()) + ").";
-    return result;
+  } else {
+    result = resultOfCall(process_.exitCode(), process_.readAllStandardOutput(), process_.readAllStandardError());
   }
-  result.exitCode = process_.exitCode();
-  result.error = lastLine(process_.readAllStandardError());
-  if (result.exitCode == kNoCurve) result.status = PageStatus::Empty;
-  if (result.exitCode != kDone) return result;
-  auto said = parseJson(process_.readAllStandardOutput().toStdString());
-  if (!said || !said->is_object()) {
-    result.error = "The output of the subprocess could not be read.";
-    return result;
-  }
-  for (const char* key : {"scan", "files"}) said->erase(key);  // the line has them from the manifest
-  result.status = PageStatus::Done;
-  result.error.clear();
-  result.figures = std::move(*said);
+  result.seconds = secondsOf(clock_);
   return result;
 }
 

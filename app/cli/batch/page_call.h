@@ -14,6 +14,14 @@
 
 namespace batten::cli {
 
+/// Runs `batten-cli` with these words in this process: prints to std::cout and std::cerr, and returns its exit code.
+using CallHere = std::function<int(const std::vector<std::string>& words)>;
+
+/// A page traced in this process, for where the system starts no other: with the outputs of a call, but a page that
+/// crashes or takes all memory ends the others as well. @pre canBeTracedHere()
+bool canBeTracedHere(const BatchPage& page);
+PageResult tracedHere(const BatchPage& page, int threads, const CallHere& call);
+
 /// One page, traced by a call of this program in a process of its own: a page that crashes, hangs or takes all memory
 /// takes none of the others with it, and its outputs are those of the call alone, byte for byte.
 class PageCall {

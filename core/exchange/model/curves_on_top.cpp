@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -53,9 +54,10 @@ struct CurveStretch {
 std::vector<CurveStretch> partsOfSpans(const NurbsCurve& curve, double near) {
   const SpanBasis basis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);
   const SpanCurve spans(basis, curve.controlPoints());
-  const int parts = kMostStretches / basis.spanCount();
+  const int most = kMostStretches / basis.spanCount();
   std::vector<CurveStretch> stretches;
   for (int span = 0; span < basis.spanCount(); ++span) {
+    const int parts = spans.bendBound(span) <= near ? 1 : most;  // a straight span is one chord
     const double reach = spans.bendBound(span) / (8.0 * parts * parts) + near;
     Vec2 from = spans.at({span, 0.0}, 0)[0];
     for (int k = 1; k <= parts; ++k) {
@@ -67,9 +69,11 @@ std::vector<CurveStretch> partsOfSpans(const NurbsCurve& curve, double near) {
   return stretches;
 }
 
-std::vector<CurveStretch> stretchesOf(const NurbsCurve& curve, const std::vector<CurvePlace>& places) {
+std::vector<CurveStretch> stretchesOf(const NurbsCurve& curve, CancelCheck check) {
   const double near = 2.0 * kOnTop * extent(curve);  // what lies on a curve is no larger than it
   if (!curve.isRational() && 2 * std::ssize(curve.breaks()) <= kMostStretches) return partsOfSpans(curve, near);
+  const ClosestPointFinder finder(curve, check);
+  const std::vector<CurvePlace>& places = finder.places();
   const std::size_t last = places.size() - 1, step = last / kMostStretches + 1;
   std::vector<CurveStretch> stretches;
   for (std::size_t first = 0; first < last; first += step) {
@@ -88,72 +92,91 @@ std::vector<CurveStretch> stretchesOf(const NurbsCurve& curve, const std::vector
 /// A curve that stays, with what is needed to ask it for distances.
 struct KeptCurve {
   KeptCurve(const TopCandidate& one, CancelCheck check)
-      : candidate(one), finder(*one.curve, check), stretches(stretchesOf(*one.curve, finder.places())) {}
+      : candidate(one), stretches(stretchesOf(*one.curve, check)), check_(check) {}
   bool mayHold(const Vec2& place) const {
     return std::any_of(stretches.begin(), stretches.end(),
                        [&](const CurveStretch& stretch) { return stretch.mayHold(place); });
   }
+  double distanceTo(const Vec2& place) {
+    if (!finder_) finder_.emplace(*candidate.curve, check_);
+    return finder_->closestTo(place).distance;
+  }
   const TopCandidate& candidate;
-  ClosestPointFinder finder;
   std::vector<CurveStretch> stretches;
+
+ private:
+  CancelCheck check_;
+  std::optional<ClosestPointFinder> finder_;  ///< Few curves are ever asked; it takes far more memory than they do.
 };
 
-/// Stretches of curves by squares of the page that are as large as they, so that the curves that may lie under a place
-/// are known without looking at all of them.
+/// Stretches of curves by the squares of the page that they run through, so that the curves that may lie under a place
+/// are known without looking at all of them. A long straight curve runs through few of the squares within its box.
 class StretchSquares {
  public:
-  void add(const KeptCurve& curve) {
-    for (const CurveStretch& stretch : curve.stretches) add(stretch, curve);
+  void add(KeptCurve& curve) {
+    double length = 0.0, reach = 0.0;
+    for (const CurveStretch& stretch : curve.stretches) {
+      length += (stretch.to - stretch.from).norm();
+      reach = std::max(reach, stretch.reach);
+    }
+    const int level = std::ilogb(std::max({length / kSquaresAlong, 2.0 * reach, kLeastSquareMm})) + 1;
+    levels_.insert(level);
+    for (const CurveStretch& stretch : curve.stretches) add(stretch, level, curve);
   }
   /// Whether `isIt(curve)` holds for one that may hold the place.
   template <class IsIt>
   bool anyAt(const Vec2& place, const IsIt& isIt) const {
-    for (const int level : levels_) {
-      for (int square = 0; square < 4; ++square) {  // a box begins in the square of the place or one before it
-        const auto found = squares_.find(keyOf(level, place, -(square % 2), -(square / 2)));
-        if (found == squares_.end()) continue;
-        const auto holds = [&](const Entry& one) { return one.stretch->mayHold(place) && isIt(*one.curve); };
-        if (std::any_of(found->second.begin(), found->second.end(), holds)) return true;
-      }
-    }
-    return false;
+    return std::any_of(levels_.begin(), levels_.end(), [&](int level) {
+      const auto found = squares_.find(keyOf(level, place));
+      if (found == squares_.end()) return false;
+      return std::any_of(found->second.begin(), found->second.end(),
+                         [&](const Entry& one) { return one.stretch->mayHold(place) && isIt(*one.curve); });
+    });
   }
 
  private:
   using Key = std::array<std::int64_t, 3>;
-  static constexpr double kLeastSquareMm = 1e-6, kRoom = 1.01;  ///< The latter for rounding at the border of a box.
+  static constexpr double kLeastSquareMm = 1e-6;
+  static constexpr double kRoom = 1.01;          ///< For rounding at the border of a box.
+  static constexpr double kSquaresAlong = 32.0;  ///< Of a curve: more take more memory, fewer hold more curves each.
 
   struct Entry {
     const CurveStretch* stretch = nullptr;
-    const KeptCurve* curve = nullptr;
+    KeptCurve* curve = nullptr;
   };
 
-  void add(const CurveStretch& stretch, const KeptCurve& curve) {
-    const Vec2 reach = Vec2::Constant(stretch.reach);
-    const Vec2 low = stretch.from.cwiseMin(stretch.to) - reach, high = stretch.from.cwiseMax(stretch.to) + reach;
-    const int level = levelOf((high - low).maxCoeff());
-    levels_.insert(level);
-    squares_[keyOf(level, low, 0, 0)].push_back({&stretch, &curve});
+  /// The squares around each part of the chord that is no longer than a square.
+  void add(const CurveStretch& stretch, int level, KeptCurve& curve) {
+    const Vec2 reach = Vec2::Constant(kRoom * stretch.reach), along = stretch.to - stretch.from;
+    const int parts = static_cast<int>(along.norm() / std::ldexp(1.0, level)) + 1;
+    std::vector<Key> keys;
+    for (int k = 0; k < parts; ++k) {
+      const Vec2 a = stretch.from + along * k / parts, b = stretch.from + along * (k + 1) / parts;
+      const Key low = keyOf(level, a.cwiseMin(b) - reach), high = keyOf(level, a.cwiseMax(b) + reach);
+      for (std::int64_t x = low[1]; x <= high[1]; ++x)
+        for (std::int64_t y = low[2]; y <= high[2]; ++y) keys.push_back({level, x, y});
+    }
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    for (const Key& key : keys) squares_[key].push_back({&stretch, &curve});
   }
-  /// The square's side is the power of two above the box.
-  static int levelOf(double size) { return std::ilogb(std::max(kRoom * size, kLeastSquareMm)) + 1; }
-  static Key keyOf(int level, const Vec2& place, int right, int up) {
+  static Key keyOf(int level, const Vec2& place) {
     const double side = std::ldexp(1.0, level);
     constexpr double kFarthest = 1e15;  // squares from the origin; a 64 bit number holds it
     const auto numberOf = [&](double v) {
       return static_cast<std::int64_t>(std::clamp(std::floor(v / side), -kFarthest, kFarthest));
     };
-    return {level, numberOf(place.x()) + right, numberOf(place.y()) + up};
+    return {level, numberOf(place.x()), numberOf(place.y())};
   }
 
   std::set<int> levels_;
   std::map<Key, std::vector<Entry>> squares_;
 };
 
-bool liesOn(const std::vector<CurveSample>& samples, const KeptCurve& longer, double near) {
+bool liesOn(const std::vector<CurveSample>& samples, KeptCurve& longer, double near) {
   return longer.mayHold(samples[kTopSamples / 2].point) && longer.mayHold(samples.back().point) &&
          std::all_of(samples.begin(), samples.end(),
-                     [&](const CurveSample& sample) { return longer.finder.closestTo(sample.point).distance <= near; });
+                     [&](const CurveSample& sample) { return longer.distanceTo(sample.point) <= near; });
 }
 
 }  // namespace
@@ -175,7 +198,7 @@ Result<PiecesOnTop> piecesOnTop(const ExportDocument& document, const RunContext
     const double near = kOnTop * extent(*one.curve);
     const auto samples = sampleByArcLength(*one.curve, kTopSamples, context);
     const std::string& layer = document.curves[one.line].layer;
-    const bool isOnTop = squares.anyAt(samples.front().point, [&](const KeptCurve& other) {
+    const bool isOnTop = squares.anyAt(samples.front().point, [&](KeptCurve& other) {
       return document.curves[other.candidate.line].layer == layer && liesOn(samples, other, near);
     });
     if (isOnTop) {

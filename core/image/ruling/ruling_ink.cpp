@@ -42,11 +42,14 @@ struct Stretch {
 class StretchInk {
  public:
   StretchInk(const Plane& grey, double noise, const RulingLattice& lattice, double line, Stretch stretch)
-      : grey_(grey), noise_(noise), lattice_(lattice), line_(line), stretch_(stretch) {}
+      : grey_(grey), noise_(noise), spacing_(lattice.spacing), stretch_(stretch) {
+    for (int x = firstRow(); x < stretch.end + kMostGrain; ++x)
+      rows_.push_back(static_cast<int>(std::floor(lattice.at(line, x + 0.5))));
+  }
 
   /// Share of the columns that hold ink; 0 where the stretch leaves the page or has no line.
   double share() const {
-    const int half = std::max(kOffCourse, static_cast<int>(0.5 * lattice_.spacing));
+    const int half = std::max(kOffCourse, static_cast<int>(0.5 * spacing_));
     const int first = rowAt(stretch_.begin), last = rowAt(stretch_.end - 1);
     if (std::min(first, last) < half || std::max(first, last) + half >= grey_.height) return 0.0;
     std::vector<float> around;
@@ -77,7 +80,8 @@ class StretchInk {
   }
 
  private:
-  int rowAt(int x) const { return static_cast<int>(std::floor(lattice_.at(line_, x + 0.5))); }
+  int firstRow() const { return stretch_.begin - kMostGrain; }
+  int rowAt(int x) const { return rows_[x - firstRow()]; }
 
   /// Half the length to average over so that noise alone makes no gap in a line of this depth: letters stand close.
   int grainFor(double depth) const {
@@ -95,9 +99,9 @@ class StretchInk {
 
   const Plane& grey_;
   double noise_;
-  const RulingLattice& lattice_;
-  double line_;
+  double spacing_;
   Stretch stretch_;
+  std::vector<int> rows_;  ///< Of the line, column by column: each is asked for many times.
 };
 
 }  // namespace

@@ -43,6 +43,7 @@ constexpr double kTornShare = 0.75;          // of the half level: grains are da
 constexpr double kMorePieces = 1.25;         // of those with more smoothing: it closed gaps
 constexpr double kNever = -1000.0;           // [grey] darker than anything
 constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";  // a note
+constexpr double kLeastPaper = 0.005;  // of the cells: the paper is measured on no fewer
 constexpr int kNoiseSamples = 20000;   // cells that the noise is measured on: bounds the time
 constexpr int kDepthsPerBlock = 1024;  // one part of the work of the threads
 
@@ -153,10 +154,28 @@ Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& d
   return out;
 }
 
-RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
-                                     const RunContext& context) {
-  RegionThresholds out;
-  Contrasts found;
+/// Whether the paper was measured: not where hardly a cell lies free of lines, and not where it came out brighter than
+/// any pixel, as from a few cells that the lines of close hatching meet by chance.
+bool isPaperSeen(const Plane& grey, const PaperEstimate& estimate) {
+  const auto cells = static_cast<double>(std::count(estimate.isPaper.begin(), estimate.isPaper.end(), std::uint8_t{1}));
+  if (cells < kLeastPaper * static_cast<double>(estimate.isPaper.size())) return false;
+  float brightest = 0.0f;
+  for (int y = 0; y < grey.height; ++y)
+    brightest = std::max(brightest, *std::max_element(grey.row(y), grey.row(y) + grey.width));
+  return upperMedian(std::vector<float>(estimate.paper.grey)) <= brightest;
+}
+
+/// Thresholds against the paper.
+struct AgainstPaper {
+  RegionThresholds thresholds;
+  bool isPaperSeen = true;  ///< False: hardly any paper lies free of lines, and its brightness is a guess.
+};
+
+AgainstPaper flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
+                                 const RunContext& context) {
+  AgainstPaper found;
+  RegionThresholds& out = found.thresholds;
+  Contrasts contrasts;
   const int cellPx = kCellPx * std::max(1, shrink / 2);
   PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
   Depths depths;
@@ -168,27 +187,28 @@ RegionThresholds flattenedThresholds(const Plane& grey, const PageEdges& edges, 
     depths = measureDepths(grey, edges, estimate, shrink, kernel, context);
     out.smoothingPx = q;
     if (std::fabs(depths.mean) < kContrastPerNoise * depths.noise) continue;
-    found = contrastsOf(grey, edges, depths, 1.0);
+    contrasts = contrastsOf(grey, edges, depths, 1.0);
     const InkGrain grain =
-        measureGrain(inkOfPlane({grey, estimate.paper, found.contrast, shrink}, kernel, context), context);
+        measureGrain(inkOfPlane({grey, estimate.paper, contrasts.contrast, shrink}, kernel, context), context);
     if (grain.perWidth <= kTorn) break;
     if (std::exchange(isFirst, false)) out.halfLevelShare = kTornShare;
     roomPx = std::min(roomPx, kSmoothingPerWidth * grain.widthPx * shrink);
   }
+  found.isPaperSeen = isPaperSeen(grey, estimate);
   out.paperNoise = depths.noise;
   out.faintLimit = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
   out.paper = std::move(estimate.paper);
   const bool enough = edges.crests.size() >= kMinVotes;
   out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, kLinePerNoise * depths.noise);
   if (out.foundLine) {
-    found = contrastsOf(grey, edges, depths, strength * out.halfLevelShare);
+    contrasts = contrastsOf(grey, edges, depths, strength * out.halfLevelShare);
   } else {
     out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "No ink contrast was found.";
-    found.contrast.fill(kNever);
+    contrasts.contrast.fill(kNever);
   }
-  out.measured = found.measured;
-  out.contrast = found.contrast;
-  return out;
+  out.measured = contrasts.measured;
+  out.contrast = contrasts.contrast;
+  return found;
 }
 
 RegionThresholds ofCloseLines(RegionThresholds out) {
@@ -241,33 +261,35 @@ struct PlaneScale {
 };
 
 /// The folds are taken out of the picture, and the thresholds found on what is left. Unfinished when cancelled.
-RegionThresholds thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds, int shrink,
-                                       double strength, const RunContext& context) {
+AgainstPaper thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds, int shrink, double strength,
+                                   const RunContext& context) {
   const Plane grey = shrinkGrey(withoutFolds(image, folds, context), shrink, context);
   if (context.isCancelled()) return {};
   const PageEdges edges = findPageEdges(statisticsPlane(grey, shrink, context), context);
   if (context.isCancelled()) return {};
-  RegionThresholds out = flattenedThresholds(grey, edges, shrink, strength, context);
+  AgainstPaper found = flattenedThresholds(grey, edges, shrink, strength, context);
+  RegionThresholds& out = found.thresholds;
   if (out.note.empty())
     out.note = folds.size() == 1 ? "A fold or shadow edge across the page was removed."
                                  : "Folds or shadow edges across the page were removed.";
   out.paper.folds = std::move(folds);
-  return out;
+  return found;
 }
 
 /// With what was taken for folds taken out, unless that was ink: a wall that is drawn right across the page steps like
 /// a shadow. Paper on both sides of a fold is one paper once the fold is out, and lines stay darker than it; where they
 /// turn out brighter, the dark side was drawn, and stays as it is.
-RegionThresholds thresholdsByFolds(const GreyImage& image, const Plane& grey, const PageEdges& edges,
-                                   std::vector<PaperFold> folds, const PlaneScale& scale, const RunContext& context) {
+AgainstPaper thresholdsByFolds(const GreyImage& image, const Plane& grey, const PageEdges& edges,
+                               std::vector<PaperFold> folds, const PlaneScale& scale, const RunContext& context) {
   const bool anyFold = !folds.empty();
-  RegionThresholds out;
+  AgainstPaper out;
   if (anyFold) {
     out = thresholdsBesideFolds(image, std::move(folds), scale.shrink, scale.strength, context);
-    if (context.isCancelled() || out.foundLine || out.note != kBrighterLines) return out;
+    const RegionThresholds& beside = out.thresholds;
+    if (context.isCancelled() || beside.foundLine || beside.note != kBrighterLines) return out;
   }
-  RegionThresholds kept = flattenedThresholds(grey, edges, scale.shrink, scale.strength, context);
-  return anyFold && !kept.foundLine ? out : kept;
+  AgainstPaper kept = flattenedThresholds(grey, edges, scale.shrink, scale.strength, context);
+  return anyFold && !kept.thresholds.foundLine ? out : kept;
 }
 
 /// With the user's own values where set, and the acting contrast everywhere.
@@ -342,8 +364,9 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
       std::vector<PaperFold> folds;
       if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);
       if (context.isCancelled()) return cancelled();
-      out = thresholdsByFolds(image, grey, edges, std::move(folds), {shrink, params.strength}, context);
-      if (!out.foundLine) {
+      AgainstPaper found = thresholdsByFolds(image, grey, edges, std::move(folds), {shrink, params.strength}, context);
+      out = std::move(found.thresholds);
+      if (!out.foundLine || !found.isPaperSeen) {
         auto hatched = thresholdsWithoutPaper(image, smoothed, params.strength, out.note == kBrighterLines, context);
         if (hatched) out = std::move(*hatched);
       }

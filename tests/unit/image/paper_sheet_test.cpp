@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <random>
 
+#include "core/image/file/scan_reader.h"
 #include "core/image/page_preparation.h"
 #include "tests/support/colour_page.h"
 #include "tests/support/stress_page.h"
@@ -268,6 +270,13 @@ TEST(PaperSheet, AFoldThatDarkensPartOfADrawingIsNoEdge) {
       EXPECT_FALSE(sheetOf(scan).has_value()) << scene.name << " on " << paper.name;
     }
   }
+}
+
+// Letters make cells as rough as a carpet, and rows of them run along the border.
+TEST(PaperSheet, DenseTextUpToTheBorderIsNoTable) {
+  const auto text = readScan(std::filesystem::path(BATTEN_TEST_DATA) / "dense_text.png", {}, {});
+  ASSERT_TRUE(text.has_value());
+  EXPECT_FALSE(sheetOf(*text).has_value());
 }
 
 TEST(PaperSheet, TinyPicturesHaveNone) {

@@ -158,6 +158,16 @@ TEST(Thresholds, FindRulingsGridsAndHatchingAFewPixelsApart) {
     }
     expectLines(page, 50, std::to_string(pitch) + " px");
   }
+  // How the lines meet the cells that the paper is measured on is chance.
+  for (const int first : {0, 1, 2}) {
+    GreyImage across(600, 400), down(400, 600);
+    for (int y = 0; y < 400; ++y) {
+      for (int x = 0; x < 600; ++x)
+        across.row(y)[x] = down.row(x)[y] = static_cast<std::uint16_t>((y % 3 == first ? 20 : 235) * 257);
+    }
+    expectLines(across, 50, "across every 3 px from " + std::to_string(first));
+    expectLines(down, 50, "down every 3 px from " + std::to_string(first));
+  }
   GreyImage grid(600, 400);
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 600; ++x)
