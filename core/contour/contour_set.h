@@ -52,7 +52,7 @@ struct Contour {
   bool closed = false;  ///< The last point is followed by the first; the first is not repeated at the end.
   bool hole = false;    ///< An inner border (outline mode with internal contours on).
   std::vector<ContourPoint> points;
-  std::optional<double> blurPx;  ///< [px] standard deviation of the optical blur along an outline, where measured.
+  std::optional<double> blurPx;    ///< [px] standard deviation of the optical blur along an outline, where measured.
   std::optional<double> pencilPx;  ///< [px] width of the pencil that filled what an outline encloses; absent: no grain.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   std::optional<EdgeChoice> traceMode;       ///< The user's choice for its ink, if there is one.
