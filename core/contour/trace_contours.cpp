@@ -18,13 +18,12 @@
 #include "core/contour/ink/ink_split.h"
 #include "core/contour/ink/line_choices.h"
 #include "core/contour/ink/tone_grain.h"
-#include "core/contour/outline/crack_contours.h"
 #include "core/contour/outline/implied_borders.h"
+#include "core/contour/outline/ink_borders.h"
 #include "core/contour/outline/soft_borders.h"
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
 #include "core/contour/outline/texture_holes.h"
-#include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
@@ -142,52 +141,6 @@ void append(ContourSet& to, ContourSet&& from) {
   std::move(from.junctions.begin(), from.junctions.end(), std::back_inserter(to.junctions));
 }
 
-// [px] What a line has to be long, by the width of the pen.
-double shortestPx(const ContourParams& params, double penPx) {
-  return std::max(params.minLengthPx, params.minWidths * penPx);
-}
-
-// [px] A pen width for ink that is followed along its borders alone: that of its borders in the middle, where twice
-// the area by the border is the width of a line; never more than a small mark may be wide.
-double penOfBorders(const ContourSet& borders) {
-  constexpr double kMostPenPx = 40.0 / 3.0;  // of whose usual least length, three widths, a small mark has 40 px
-  std::vector<std::pair<double, double>> widths;
-  double all = 0.0, sum = 0.0;
-  for (const Contour& c : borders.contours) {
-    if (c.hole) continue;
-    widths.emplace_back(2.0 * c.areaPx / std::max(1.0, c.lengthPx), c.lengthPx);
-    all += c.lengthPx;
-  }
-  std::sort(widths.begin(), widths.end());
-  for (const auto& [width, length] : widths) {
-    sum += length;
-    if (2.0 * sum >= all) return std::min(width, kMostPenPx);
-  }
-  return 0.0;
-}
-
-// The borders of ink that is followed along them, but the short ones. `penPx` absent: taken from the borders.
-// `pencil`: what was drawn with one, whose grain leaves specks and holes; absent: nothing is known.
-Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, std::optional<double> penPx,
-                             const PencilInk* pencil, const RunContext& context) {
-  // Of a line's least length: a dot half as wide as the pen, and the eye of an e.
-  constexpr double kLeastDot = 0.5, kLeastHole = 1.0 / 3.0;
-  constexpr double kGrain = 4.0;  // of it: specks and holes of a pencil are smaller
-  Result<ContourSet> set = crackContours(ink, holes, params.minLengthPx, context);
-  if (!set) return set;
-  const double shortest = shortestPx(params, penPx ? *penPx : penOfBorders(*set));
-  const auto isGrainy = [&](const Contour& c) {
-    return pencil != nullptr && anyInDisc(pencil->ink, c.points.front().unrefined, 1.0);
-  };
-  const auto dropped = std::erase_if(set->contours, [&](const Contour& c) {
-    return c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : kLeastDot);
-  });
-  set->report.droppedShort += static_cast<int>(dropped);
-  for (Contour& c : set->contours)
-    if (isGrainy(c)) c.pencilPx = pencil->widthPx;
-  return set;
-}
-
 // Whether the user says how short a line may be.
 bool hasOwnLengths(const ContourParams& params) {
   return params.minLengthPx > 0.0 || params.minWidths != ContourParams{}.minWidths;
@@ -245,16 +198,17 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   const bool isPaintedInVain = split->painted && both(found.blots, *split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
-  if (split->pencil) split->pencil->ink = without(std::move(split->pencil->ink), found.blots);
+  const auto grainy = split->pencil ? std::optional(without(BitImage(split->pencil->ink), found.blots)) : std::nullopt;
   int texture = 0;
   if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
     EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);
     split->shapes = without(std::move(even.ink), split->strokes);
     texture = even.filled;
   }
-  Result<ContourSet> borders = bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx,
-                                         split->pencil ? &*split->pencil : nullptr, context);
+  Result<ContourSet> borders =
+      bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, grainy ? &*grainy : nullptr, context);
   if (!borders) return fail(borders.error());
+  if (split->pencil) notePencil(*borders, split->pencil->ink, split->pencil->pencilPx);
   borders->report.droppedHoles += texture;
   borders->report.droppedFaint = faint;
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);

@@ -22,8 +22,8 @@ class ShadedPaper {
   bool isOne(const cv::Mat1b& patch) const;
   /// Whether the drawing goes on upon a patch.
   bool isDrawnOn(const cv::Mat1b& patch) const;
-  /// Whether the paper of the sheet, as bright and even as on the sheet, shows all over a patch between what is drawn
-  /// there: text and dense lines up to the border of the picture. A table shows it nowhere.
+  /// Whether the paper of the sheet, as bright and even as on the sheet, shows near most places of a patch between what
+  /// is drawn there: text and dense lines up to the border of the picture. Most tables show it nowhere.
   bool showsThrough(const cv::Mat1b& patch) const;
 
  private:

@@ -33,8 +33,7 @@ namespace batten {
 namespace {
 
 constexpr double kPencilSmoothingPx = 3.0;  // of the middles along a pencil stroke, whose grain moves every one
-
-constexpr double kAtRimPx = 2.0;  // a skeleton that was cut at a rim ends nearer to the shape
+constexpr double kAtRimPx = 2.0;            // a skeleton that was cut at a rim ends nearer to the shape
 
 // A stroke that runs into a shape has no free end there.
 void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
@@ -274,17 +273,19 @@ struct PathsFound {
   double widthPx = 0.0;            ///< Median of the strokes as they were thresholded.
 };
 
-// The strokes of a pencil are followed where they fade: as the bodies end, not as the threshold tore them.
-void addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeParams& params, const CentrelineOptions& options,
-                  const RunContext& context) {
-  const GraininessMap grain = grainOf(found.strokes.paths, grey, options, context);
+// Follows the bodies of pencil strokes on where they fade. @return the grain of the strokes as they then are.
+GraininessMap addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeParams& params,
+                           const CentrelineOptions& options, const RunContext& context) {
+  GraininessMap grain = grainOf(found.strokes.paths, grey, options, context);
+  if (context.isCancelled()) return grain;
   const BitImage all = options.shapes != nullptr ? either(*found.bodies, *options.shapes) : *found.bodies;
   BitImage trails = followFaintEnds(
       found.strokes.paths, [&](int i) { return grain.isPencil(i); }, all, grey, context, options.pixelsPerPx());
-  if (context.isCancelled() || trails.count() == 0) return;
+  if (context.isCancelled() || trails.count() == 0) return grain;
   found.bodies = either(std::move(*found.bodies), std::move(trails));
   if (options.shapes != nullptr) found.bodies = without(std::move(*found.bodies), *options.shapes);
   found.strokes = centrelinesOf(*found.bodies, options, params, context);
+  return grainOf(found.strokes.paths, grey, options, context);
 }
 
 // The stroke paths, with the gaps between them bridged. Unfinished when cancelled.
@@ -308,9 +309,8 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
     found.bodies = bodiesOf(strokes, grey, paths, grain, pixelsPerPx, context);
     if (context.isCancelled()) return found;
     found.strokes = centrelinesOf(*found.bodies, options, params, context);
-    addFaintEnds(found, grey, params, options, context);
+    const GraininessMap ofBodies = addFaintEnds(found, grey, params, options, context);
     if (context.isCancelled()) return found;
-    const GraininessMap ofBodies = grainOf(paths, grey, options, context);
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));
   } else {
     pencil.assign(paths.size(), false);

@@ -184,17 +184,15 @@ class EndFollower {
     while (static_cast<double>(std::ssize(trail)) < end.mostPx && isInside(at)) {
       const Step step = darkestFrom(at, along);
       const int toInk = pxToInk(step.from, step.along);
-      if (toInk < static_cast<int>(meter_.stepPx())) {
+      if (toInk < wholeStep()) {
         const bool isClear = best >= kClearTrail && kept == std::ssize(trail);
-        if (!(isClear && isSoftSide(toInk)) && !(best < kClearTrail && continues(step, toInk, score, end))) break;
-        at = step.from;
-        append(trail, at, step.along, toInk);
+        if (!(isClear && isSoftSide(toInk)) && !continues(step, toInk, score, end)) break;
+        append(trail, at, step, toInk);
         return trail;
       }
-      score += evidence(at, step.depth, end);
-      at = step.from;
+      score += evidence(step, wholeStep(), end);
+      append(trail, at, step, wholeStep());
       along = step.along;
-      append(trail, at, along, static_cast<int>(meter_.stepPx()));
       if (score > best) {
         best = score;
         kept = std::ssize(trail);
@@ -212,13 +210,18 @@ class EndFollower {
     double depth = 0.0;
   };
 
-  // What a step of this depth speaks for a line, less what speaks for any.
-  double evidence(const Vec2& at, double depth, const FaintEnd& end) const {
+  int wholeStep() const { return static_cast<int>(meter_.stepPx()); }
+
+  // What the first px of a step speak for a line, less what speaks for any.
+  double evidence(const Step& step, int count, const FaintEnd& end) const {
+    const Vec2& at = step.from;
     const int region = regionOf(static_cast<int>(at.x()), static_cast<int>(at.y()), ink_.width, ink_.height);
+    const double depth = count == wholeStep() ? step.depth : meter_.depth(at, step.along, count);
     const double surplus = depth - static_cast<double>(paper_.mean[region]);
     const bool isInk =
         depth > std::max(kLeastTrailShare * end.depth, kLeastTrailDepth) && depth < kMostTrailShare * end.depth;
-    const double sigma = std::max(static_cast<double>(paper_.sigma[region]), kLeastSigma);
+    const double sigma =
+        std::max(static_cast<double>(paper_.sigma[region]), kLeastSigma) * std::sqrt(meter_.stepPx() / count);
     return (isInk ? std::min(surplus / sigma, kMostEvidence) : 0.0) - kNoEvidence;
   }
 
@@ -228,9 +231,10 @@ class EndFollower {
   // Whether the ink that a step reaches runs on in its direction, the other side of a gap in one line. Then half as
   // much evidence is enough; the part of the step before that ink counts, too.
   bool continues(const Step& step, int toInk, double score, const FaintEnd& end) const {
-    if (!isSoftSide(toInk)) score += evidence(step.from, meter_.depth(step.from, step.along, toInk), end);
+    const int clearOfInk = toInk - static_cast<int>(meter_.softEndPx());
+    if (clearOfInk > 0) score += evidence(step, clearOfInk, end);
     if (score < 0.5 * kClearTrail) return false;
-    const int count = static_cast<int>(meter_.stepPx());
+    const int count = wholeStep();
     const Vec2 across = leftNormal(step.along);
     int inked = 0;
     for (int k = 0; k < count; ++k) {
@@ -245,7 +249,7 @@ class EndFollower {
   }
 
   int pxToInk(const Vec2& from, const Vec2& along) const {
-    const int most = static_cast<int>(meter_.stepPx());
+    const int most = wholeStep();
     for (int k = 1; k <= most; ++k) {
       const Vec2 at = from + k * along;
       if (ink_.at(static_cast<int>(at.x()), static_cast<int>(at.y()))) return k;
@@ -253,8 +257,12 @@ class EndFollower {
     return most + 1;
   }
 
-  static void append(std::vector<Vec2>& trail, Vec2& at, const Vec2& along, int count) {
-    for (int k = 0; k < count; ++k) trail.push_back(at += along);
+  // From the end of the last step to the place that this one starts from, and on.
+  static void append(std::vector<Vec2>& trail, Vec2& at, const Step& step, int count) {
+    const Vec2 aside = step.from - at;
+    for (double part = 1.0; part < aside.norm(); part += 1.0) trail.push_back(at + part * aside.normalized());
+    at = step.from;
+    for (int k = 0; k < count; ++k) trail.push_back(at += step.along);
   }
 
   bool isInside(const Vec2& at) const {

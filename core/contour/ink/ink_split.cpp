@@ -151,6 +151,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   split.strokes = without(std::move(split.strokes), solids);
   split.shapes = either(std::move(split.shapes), solids);
   drawn.widthPx = std::max(split.penPx.value_or(0.0), widthPx);
+  drawn.pencilPx = widthPx;
   drawn.body = std::move(*body);
   split.pencil = std::move(drawn);
   return split;

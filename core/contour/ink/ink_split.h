@@ -16,9 +16,10 @@ namespace batten {
 
 /// What a pencil drew of a page.
 struct PencilInk {
-  BitImage ink;          ///< As it was thresholded.
-  BitImage body;         ///< All of it but its shapes, with the grain closed.
-  double widthPx = 1.0;  ///< [px] Of its strokes.
+  BitImage ink;           ///< As it was thresholded.
+  BitImage body;          ///< All of it but its shapes, with the grain closed.
+  double widthPx = 1.0;   ///< [px] Of its strokes, or of the pens beside them if those are wider.
+  double pencilPx = 1.0;  ///< [px] Of its strokes alone.
 };
 
 /// The ink of a page by trace mode. Both pictures have the size of the ink and share no pixel.

@@ -154,15 +154,15 @@ Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& d
   return out;
 }
 
-/// Whether the paper was measured: not where hardly a cell lies free of lines, and not where it came out brighter than
-/// any pixel, as from a few cells that the lines of close hatching meet by chance.
+/// Whether the paper was measured: not where hardly a cell lies free of lines, and not where it came out clearly
+/// brighter than any pixel, as from a few cells that the lines of close hatching meet by chance.
 bool isPaperSeen(const Plane& grey, const PaperEstimate& estimate) {
   const auto cells = static_cast<double>(std::count(estimate.isPaper.begin(), estimate.isPaper.end(), std::uint8_t{1}));
   if (cells < kLeastPaper * static_cast<double>(estimate.isPaper.size())) return false;
   float brightest = 0.0f;
   for (int y = 0; y < grey.height; ++y)
     brightest = std::max(brightest, *std::max_element(grey.row(y), grey.row(y) + grey.width));
-  return upperMedian(std::vector<float>(estimate.paper.grey)) <= brightest;
+  return static_cast<double>(upperMedian(std::vector<float>(estimate.paper.grey)) - brightest) <= kLeastContrast;
 }
 
 /// Thresholds against the paper.

@@ -97,7 +97,7 @@ double shareFound(const ContourSet& set, double from, double to) {
   return found;
 }
 
-// A line that the hand hardly pressed for a part of its course, where the threshold sees nothing, is one line.
+// A line that the hand hardly pressed for a part of its course, where the threshold sees nothing, is found all along.
 TEST(FaintEnds, AWeakPartBetweenTwoStrongOnesIsFollowedThrough) {
   constexpr double kFrom = 180.0, kTo = 260.0;
   constexpr float kWeak = 0.2f;
@@ -106,6 +106,26 @@ TEST(FaintEnds, AWeakPartBetweenTwoStrongOnesIsFollowedThrough) {
     const auto set = traceContours(inkOf(grey), grey, {}, {}, {});
     ASSERT_TRUE(set);
     EXPECT_GT(shareFound(*set, kFrom, kTo), 0.9) << "seed " << seed;
+  }
+}
+
+// Dashes of one line with clean paper between them are not joined by following.
+TEST(FaintEnds, DashesStayApart) {
+  constexpr double kGapsPx[] = {8.0, 10.0, 14.0};
+  for (const double gap : kGapsPx) {
+    for (const std::uint32_t seed : kWeakSeeds) {
+      const double from = 220.0, to = from + kWeakPencilPx + gap;  // the ends of the strokes are round
+      const GreyImage grey = pageWeakBetween(from, to, 0.0f, seed);
+      const BitImage ink = inkOf(grey);
+      BitImage skeleton = ink;
+      ASSERT_TRUE(thinToSkeleton(skeleton, {}));
+      const auto paths = findStrokePaths(skeleton, ink, {}, {});
+      const BitImage trails = followFaintEnds(paths, [](int) { return true; }, ink, grey, {});
+      int joined = 0;
+      const int middle = static_cast<int>(0.5 * (from + to));
+      for (int y = 0; y < kWeakHeight; ++y) joined += trails.at(middle, y) ? 1 : 0;
+      EXPECT_EQ(joined, 0) << "gap " << gap << ", seed " << seed;
+    }
   }
 }
 
