@@ -118,6 +118,7 @@ Scan StrokeDrawing::page() const {
                   kShift);
   }
   Scan scan = blankScan(pageWidth, pageHeight, kDpi);
+  scan.grey = GreyImage(pageWidth, pageHeight);  // one row a line, to be drawn on
   scan.info.format = "PNG";
   for (int y = 0; y < pageHeight; ++y)
     for (int x = 0; x < pageWidth; ++x)

@@ -47,7 +47,10 @@ std::vector<std::vector<Vec2>> curvesOf(const Scan& scan, const Recipe& recipe) 
   request.needEdges = false;
   const PipelineOutput output = runPipeline(scan, recipe, cache, request, {});
   std::vector<std::vector<Vec2>> curves;
-  if (!output.faired) return curves;
+  if (!output.faired) {
+    std::fprintf(stderr, "no curves: %s\n", output.error ? output.error->message.c_str() : "the run ended early");
+    return curves;
+  }
   int last = -1;
   for (const TracedCurve& c : output.faired->curves) {
     if (c.contour != last) curves.emplace_back();

@@ -14,12 +14,15 @@
 #include "core/construct/fair/fair_prepare.h"
 #include "core/construct/fair/smooth_sections.h"
 #include "core/construct/fair/stroke_grain.h"
+#include "core/curve/arc_length.h"
+#include "core/polyline/point_grid.h"
 
 namespace batten {
 namespace {
 
 constexpr int kFitRounds = 6;              // of fits of a contour; stretches are cut where a round has failed
 constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
+constexpr double kLeastReachPx = 8.0;      // of a curve from the points of a border with grain
 constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
 /// The rest of the frame, which is most of what a piece holds, is of no use after the noise is known.
@@ -139,6 +142,27 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
   return out;
 }
 
+// Whether all of the curves lies within `reachPx` of some point. Where few points tell of a border, and with much
+// noise, a curve may swing out between them.
+bool keepsToPoints(const std::vector<ConstructedPiece>& fitted, const ConstructContour& contour, double reachPx,
+                   const RunContext& context) {
+  PointGrid<Vec2> points(reachPx);
+  double length = 0.0;
+  for (const ConstructPiece& piece : contour.pieces) {
+    for (const PiecePoint& p : piece.points) points.add(p.at, p.at);
+    length += static_cast<double>(piece.points.size());
+  }
+  for (const ConstructedPiece& piece : fitted) {
+    const int count = std::max(8, static_cast<int>(2.0 * length / reachPx / std::ssize(fitted)));
+    for (const CurveSample& sample : sampleByArcLength(piece.curve, count, context)) {
+      bool isNear = false;
+      points.around(sample.point, [&](const Vec2& at) { isNear = isNear || (at - sample.point).norm() <= reachPx; });
+      if (!isNear) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 double costAsked(const ConstructContour& contour, const FairFitOptions& options) {
@@ -165,6 +189,9 @@ Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, c
     const StrokeGrain grain = strokeGrain(contour);
     for (ConstructPiece& piece : grained.pieces) piece.grain = grain;
     auto pieces = fitParts(grained, asked, context);
+    if (pieces && contour.pencilPx && grain.density > 0.0 &&
+        !keepsToPoints(*pieces, contour, std::max(kLeastReachPx, *contour.pencilPx), context))
+      pieces = fitParts(contour, asked, context);
     if (!pieces) return pieces;
     for (ConstructedPiece& piece : *pieces) {
       for (ExtremumNote& note : piece.report.extrema) note.askedCost = asked.extremumSignificance;

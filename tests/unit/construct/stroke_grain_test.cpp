@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/construct/fair/fair_fit.h"
+#include "core/curve/arc_length.h"
 
 namespace batten {
 namespace {
@@ -140,6 +141,22 @@ TEST(StrokeGrain, OfAFilledShapeIsNoShapeOfItsOutline) {
   }
   EXPECT_LE(with, 5 * 14) << "the ellipse has four";
   EXPECT_GT(without, 5 * 40);
+}
+
+TEST(StrokeGrain, ACurveDoesNotSwingOutWherePointsAreMissing) {
+  // A quarter of the points was not placed, and the rest scatters: no part of the curve leaves what there is.
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    ConstructContour contour = filled(3.0, seed, true);
+    std::vector<PiecePoint>& points = contour.pieces[0].points;
+    for (std::size_t i = points.size() / 2; i < 3 * points.size() / 4; ++i) points[i].refined = false;
+    const auto fit = fairFit(contour, {}, {});
+    ASSERT_TRUE(fit);
+    for (const CurveSample& sample : sampleByArcLength(fit->front().curve, 400)) {
+      double nearest = 1e9;
+      for (const PiecePoint& p : points) nearest = std::min(nearest, (p.at - sample.point).norm());
+      EXPECT_LT(nearest, kStrokeWidthPx + 1.0) << "seed " << seed;
+    }
+  }
 }
 
 TEST(StrokeGrain, ABendOfAnOutlineIsNone) {
