@@ -73,6 +73,7 @@ class Trace {
   }
 
   Result<void> run() {
+    if (auto checked = checkOutputs(); !checked) return checked;
     auto scan = readDrawing();
     if (!scan) return fail(scan.error());
     auto page = rectified(std::move(*scan), plan_.recipe.preparation.rectify, context_);
@@ -136,6 +137,21 @@ class Trace {
   }
 
  private:
+  /// A folder that takes no file is known before all the work.
+  Result<void> checkOutputs() const {
+    std::vector<std::filesystem::path> names;
+    for (const auto& output : plan_.outputs) names.push_back(output.path);
+    for (const auto& report : plan_.reports) names.push_back(report.path);
+    for (const auto& dump : plan_.dumps) names.push_back(dump.path);
+    for (const std::string& name : {arguments_.report, arguments_.saveRecipe}) {
+      if (!name.empty()) names.emplace_back(name);
+    }
+    for (const auto& name : names) {
+      if (auto checked = checkSaving(name); !checked) return checked;
+    }
+    return {};
+  }
+
   /// The scan named; without a name the empty page on which the recipe was drawn.
   Result<Scan> readDrawing() const {
     if (!arguments_.scan.empty()) {
