@@ -274,18 +274,18 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
   return batch;
 }
 
-int runOrReport(int argc, char** argv);
+int runOrReport(int argc, char** argv, const TraceHost& host);
 
 /// @param program its name as it was called.
-int callHere(char* program, const std::vector<std::string>& words) {
+int callHere(char* program, const std::vector<std::string>& words, const CancelToken& cancel) {
   std::vector<std::string> kept = words;
   std::vector<char*> pointers{program};
   for (std::string& word : kept) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  return runOrReport(static_cast<int>(pointers.size()) - 1, pointers.data());
+  return runOrReport(static_cast<int>(pointers.size()) - 1, pointers.data(), {cancel, true});
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, const TraceHost& host) {
   CLI::App app("Batten: from a designer's sketch to fair curves", "batten-cli");
   app.set_version_flag("--version", std::string("batten-cli ") + BATTEN_VERSION);
   app.footer(footer());
@@ -322,13 +322,14 @@ int run(int argc, char** argv) {
   if (compare->parsed()) return runCompare(first, second);
   if (suggest->parsed()) return runSuggest(arguments);
   if (batch->parsed())
-    return runBatch(many, argv[0], [&](const std::vector<std::string>& words) { return callHere(argv[0], words); });
-  return parameters->parsed() ? runParameters(asJson) : runTrace(arguments);
+    return runBatch(many, argv[0],
+                    [&](const auto& words, const auto& cancel) { return callHere(argv[0], words, cancel); });
+  return parameters->parsed() ? runParameters(asJson) : runTrace(arguments, host);
 }
 
-int runOrReport(int argc, char** argv) {
+int runOrReport(int argc, char** argv, const TraceHost& host) {
   try {
-    return run(argc, argv);
+    return run(argc, argv, host);
   } catch (const std::bad_alloc&) {
     return reportError(
         {ErrorCode::OutOfMemory, "There is not enough memory. Close other programs or use a smaller scan.", {}});
@@ -342,5 +343,5 @@ int runOrReport(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the program.
   batten::reportLargeFilesAsErrors();
-  return runOrReport(argc, argv);
+  return runOrReport(argc, argv, {});
 }

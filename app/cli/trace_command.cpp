@@ -64,11 +64,16 @@ double millisecondsSince(Clock::time_point begin) {
 /// One trace from the plan to the files. Each step returns an error or nothing; the first error ends the command.
 class Trace {
  public:
-  Trace(const TraceArguments& arguments, TracePlan plan) : arguments_(arguments), plan_(std::move(plan)) {
+  Trace(const TraceArguments& arguments, TracePlan plan, const TraceHost& host)
+      : arguments_(arguments), plan_(std::move(plan)), isShared_(host.isShared) {
     context_.threads = plan_.threads;
+    context_.cancel = host.cancel;
+    // Alone in its process, a drawing also takes what the start of the program did.
+    if (isShared_ || arguments_.isOneOfAll) processorSecondsBefore_ = processorSeconds();
   }
 
   Result<void> run() {
+    if (auto checked = checkOutputs(); !checked) return checked;
     auto scan = readDrawing();
     if (!scan) return fail(scan.error());
     auto page = rectified(std::move(*scan), plan_.recipe.preparation.rectify, context_);
@@ -120,8 +125,9 @@ class Trace {
     json["corners_without_mark"] = unmarkedCornerCount(*out_.pieces);
     json["doubtful_junctions"] = doubtfulCount(*out_.contours);
     json["milliseconds"] = withDecimals(millisecondsSince(begin_), kDecimalsOfMs);
-    json["processor_milliseconds"] = withDecimals(1000.0 * processorSeconds(), kDecimalsOfMs);
-    json["peak_memory_bytes"] = peakMemoryBytes().value_or(0);
+    json["processor_milliseconds"] =
+        withDecimals(1000.0 * (processorSeconds() - processorSecondsBefore_), kDecimalsOfMs);
+    if (!isShared_) json["peak_memory_bytes"] = peakMemoryBytes().value_or(0);
     json["files"] = files_;
     json["checks"] = checks_;
     if (scan_.rectification) json["rectified"] = rectificationFigures(*scan_.rectification);
@@ -131,6 +137,21 @@ class Trace {
   }
 
  private:
+  /// A folder that takes no file is known before all the work.
+  Result<void> checkOutputs() const {
+    std::vector<std::filesystem::path> names;
+    for (const auto& output : plan_.outputs) names.push_back(output.path);
+    for (const auto& report : plan_.reports) names.push_back(report.path);
+    for (const auto& dump : plan_.dumps) names.push_back(dump.path);
+    for (const std::string& name : {arguments_.report, arguments_.saveRecipe}) {
+      if (!name.empty()) names.emplace_back(name);
+    }
+    for (const auto& name : names) {
+      if (auto checked = checkSaving(name); !checked) return checked;
+    }
+    return {};
+  }
+
   /// The scan named; without a name the empty page on which the recipe was drawn.
   Result<Scan> readDrawing() const {
     if (!arguments_.scan.empty()) {
@@ -174,7 +195,7 @@ class Trace {
     if (out_.faired && arguments_.reportTargets) extras.targets = targetsForAll(out_.faired->curves, context_);
     extras.series = arguments_.reportSeries;
     extras.explanation = explanation_;
-    extras.peakMemoryBytes = peakMemoryBytes();
+    if (!isShared_) extras.peakMemoryBytes = peakMemoryBytes();
     return save(arguments_.report, reportToJson(scan_, plan_.recipe, out_, extras));
   }
 
@@ -295,6 +316,8 @@ class Trace {
 
   const TraceArguments& arguments_;
   TracePlan plan_;
+  bool isShared_ = false;  ///< As of TraceHost.
+  double processorSecondsBefore_ = 0.0;
   RunContext context_;
   Clock::time_point begin_ = Clock::now();
   Scan scan_;
@@ -326,10 +349,10 @@ int reportPage(const TraceArguments& arguments, Error error) {
   return written == kDone ? code : written;
 }
 
-int traceOne(const TraceArguments& arguments) {
+int traceOne(const TraceArguments& arguments, const TraceHost& host) {
   auto plan = planTrace(arguments);
   if (!plan) return reportError(plan.error());
-  Trace trace(arguments, std::move(*plan));
+  Trace trace(arguments, std::move(*plan), host);
   if (auto done = trace.run(); !done)
     return arguments.isOneOfAll ? reportPage(arguments, done.error()) : reportError(done.error());
   std::cout << trace.summary() << '\n';
@@ -338,9 +361,9 @@ int traceOne(const TraceArguments& arguments) {
 
 }  // namespace
 
-int runTrace(const TraceArguments& given) {
+int runTrace(const TraceArguments& given, const TraceHost& host) {
   const TraceArguments arguments = withCurvesAsImport(given);
-  if (arguments.page != "all") return traceOne(arguments);
+  if (arguments.page != "all") return traceOne(arguments, host);
   if (arguments.scan.empty()) return reportError({ErrorCode::BadParameter, "--page needs a scan: name the file.", {}});
   int code = kDone;
   const int pages = [&] {
@@ -352,7 +375,7 @@ int runTrace(const TraceArguments& given) {
     one.isOneOfAll = true;
     // Words that are wrong are so for all pages.
     if (auto plan = planTrace(one); !plan) return reportError(plan.error());
-    if (const int ended = traceOne(one); code == kDone) code = ended;
+    if (const int ended = traceOne(one, host); code == kDone) code = ended;
   }
   return code;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/cancel_token.h"
+
 namespace batten::cli {
 
 /// The words of `batten-cli trace`, as typed.
@@ -51,9 +53,15 @@ struct TraceArguments {
   std::optional<std::string> threads;      ///< --threads
 };
 
+/// The process in which a trace is made.
+struct TraceHost {
+  CancelToken cancel;
+  bool isShared = false;  ///< It traces other drawings, too: its peak of memory is not that of this one.
+};
+
 /// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code. Of all
 /// pages of a file there is a line for each; that of a failing page says why, as does stderr, and it does not stop the
 /// others. The exit code is that of the first one that failed.
-int runTrace(const TraceArguments&);
+int runTrace(const TraceArguments&, const TraceHost& = {});
 
 }  // namespace batten::cli

@@ -28,7 +28,8 @@ Result<OpenFile> saveAndHold(const std::filesystem::path& path, std::string_view
 
 /// Whether anything is known beforehand to stand in the way of saving: for work that takes long before it saves. An
 /// empty file is made beside the target and removed again, as only the system knows who may write where.
-/// @return the error that saveAtomically would give.
+/// @return the error that saveAtomically would give. That a disk is full is not known: it takes an empty file all the
+/// same.
 Result<void> checkSaving(const std::filesystem::path& path);
 
 /// The end of the message "Cannot write NAME: …": why, and what to do.

@@ -208,6 +208,33 @@ TEST_F(BadInput, PlacesThatTakeNoFileGiveFive) {
   std::filesystem::create_directories(file("folder.svg"));
   expectError("trace " + scan + " -o " + file("folder.svg"), 5, "folder");
   expectError("trace " + scan + " -o " + file("o.svg") + " --report " + file("no/r.json"), 5, "does not exist");
+  EXPECT_FALSE(std::filesystem::exists(file("o.svg"))) << "it is known before the work";
+}
+
+TEST_F(BadInput, AFolderWithoutPermissionIsKnownBeforeTheWork) {
+  namespace fs = std::filesystem;
+  const fs::path locked = file("locked");
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);
+  // For the administrator, who may write anywhere else, a folder of the system.
+  const bool isAdministrator = std::ofstream(locked / "probe").is_open();
+  const std::string place = isAdministrator ? "/sys/kernel/" : locked.string() + "/";
+  const std::string curves = "trace " + scene() + " -o " + file("o.svg");
+  write("o.svg", "old");
+  for (const std::string& words :
+       {" -o " + place + "a.dxf", " -o " + place + "a.report.html", " --dump edges=" + place + "a.png",
+        " --report " + place + "a.json", " --save-recipe " + place + "r.json"}) {
+    expectError(curves + words, 5, "Choose another place");
+    EXPECT_EQ(test::readFile(file("o.svg")), "old") << "nothing was begun: " << words;
+  }
+  fs::permissions(locked, fs::perms::owner_all);
+  // The check leaves nothing and keeps what is there: here the work comes to no curve.
+  write("blank.png", pngOf(GreyImage(100, 80, 65535)));
+  fs::create_directory(file("out"));
+  write("out/b.svg", "old");
+  expectError("trace " + file("blank.png") + " -o " + file("out/b.svg") + " -o " + file("out/b.json"), 4, "");
+  EXPECT_EQ(test::readFile(file("out/b.svg")), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(file("out")), fs::directory_iterator()), 1);
 }
 
 }  // namespace

@@ -161,6 +161,20 @@ TEST_F(CommandLinePages, EveryPageOfAStackIsTracedWhenAsked) {
   expectError("trace " + stack + " --page none -o " + file("x.svg"), 2, "--page");
 }
 
+TEST_F(CommandLinePages, EachLineStatesTheTimeOfItsPage) {
+  const GreyImage shape = pageOf("car");
+  GreyImage large(3 * shape.width, 3 * shape.height);
+  for (int y = 0; y < large.height; ++y) {
+    for (int x = 0; x < large.width; ++x) large.row(y)[x] = shape.row(y % shape.height)[x % shape.width];
+  }
+  write("stack.tif", twoPageTiff(large, pageOf("ellipse")));
+  const auto done = run("trace " + file("stack.tif") + " --dpi 254 --page all -o " + file("o.svg"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto end = done.out.find('\n');
+  const auto took = [](const std::string& line) { return json::parse(line)["processor_milliseconds"].get<double>(); };
+  EXPECT_LT(took(done.out.substr(end)), took(done.out.substr(0, end)));
+}
+
 TEST_F(CommandLinePages, ABlankPageDoesNotKeepTheOthers) {
   GreyImage blank(100, 80);
   std::fill(blank.pixels.begin(), blank.pixels.end(), std::uint16_t{65535});

@@ -3,6 +3,7 @@
 
 #include <QEventLoop>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -20,9 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-volatile std::sig_atomic_t signalsCaught = 0;  // a signal handler can reach nothing else
+// A signal handler can reach nothing but such a number and atomics without a lock.
+volatile std::sig_atomic_t signalsCaught = 0;
+std::atomic<const CancelToken*> cutByASecondSignal = nullptr;
+static_assert(std::atomic<const CancelToken*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-void catchSignal(int) { signalsCaught = signalsCaught + 1; }
+void catchSignal(int) {
+  signalsCaught = signalsCaught + 1;
+  if (const CancelToken* const trace = cutByASecondSignal; trace != nullptr && signalsCaught > 1) trace->cancel();
+}
 
 constexpr int kTickMs = 100;                   // signals are heard and memory is looked at this often
 constexpr int kLongestStartsMs = 50;           // the event loop is not held up longer by pages that need no call
@@ -95,6 +102,7 @@ BatchRun::~BatchRun() = default;
 
 void BatchRun::run() {
   signalsCaught = 0;
+  cutByASecondSignal = &cutShort_;
   const auto before = std::signal(SIGINT, catchSignal);
   const auto beforeTerm = std::signal(SIGTERM, catchSignal);
   tieChildrenToThisProcess();
@@ -110,6 +118,7 @@ void BatchRun::run() {
   hideProgress();
   std::signal(SIGINT, before);
   std::signal(SIGTERM, beforeTerm);
+  cutByASecondSignal = nullptr;
 }
 
 bool BatchRun::isLeft() const {
@@ -258,7 +267,8 @@ void BatchRun::settle(std::size_t index, PageResult result) {
   if (!result.isUnstarted) {
     most_ = std::min(most_ + 1, settings_.jobs);  // what stood in the way may be gone
   } else if (!settings_.pageTimeoutSeconds && canBeTracedHere(pages_[index])) {
-    result = tracedHere(pages_[index], settings_.threads, callHere_);
+    result = tracedHere(pages_[index], callHere_, cutShort_);
+    if (cutShort_.isCancelled()) return hearSignals();  // as with the other calls, the page counts as begun
   }
   conclude(*ended, std::move(result));
   startMore();

@@ -39,10 +39,10 @@ struct BatchCounts {
 };
 
 /// Runs over the pages in their order, several at once, each in a process of its own. SIGINT or SIGTERM: no page is
-/// started any more and the running ones end; a second time ends them as well. A page is started beside others only
-/// while free memory holds it and the system starts a process for it, else once another has ended; and never while
-/// another call works on it: then it waits, and finds the page done. Where the system starts not even one, a page is
-/// traced in this process, unless that needs a process of its own: for a timeout or a printed report.
+/// started any more and the running ones end; a second time cuts them short, and they count as begun. A page is started
+/// beside others only while free memory holds it and the system starts a process for it, else once another has ended;
+/// and never while another call works on it: then it waits, and finds the page done. Where the system starts not even
+/// one, a page is traced in this process, unless that needs a process of its own: for a timeout or a printed report.
 class BatchRun {
  public:
   BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines, CallHere callHere);
@@ -92,6 +92,7 @@ class BatchRun {
   BatchCounts counts_;
   std::map<std::size_t, std::string> failed_;
   std::string whyStopped_;
+  CancelToken cutShort_;  ///< Of the page that is traced in this process: a second signal cancels it.
   int signalsHeard_ = 0;
   bool isResultLost_ = false, showsProgress_ = false;
   double shownAtSeconds_ = 0.0;  ///< [s] When progress was shown last.

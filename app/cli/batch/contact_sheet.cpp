@@ -132,8 +132,9 @@ QByteArray figuresOf(const PageRecord& record) {
   };
   QByteArray text = QByteArray::fromStdString(counted(static_cast<int>(number("curves")), "curve", "curves")) + " in " +
                     QByteArray::fromStdString(counted(static_cast<int>(number("pieces")), "piece", "pieces")) + "; " +
-                    QByteArray::number(record.seconds, 'f', 1) + " s, " +
-                    QByteArray::number(1e-6 * number("peak_memory_bytes"), 'f', 0) + " MB";
+                    QByteArray::number(record.seconds, 'f', 1) + " s";
+  if (const double bytes = number("peak_memory_bytes"); bytes > 0.0)
+    text += ", " + QByteArray::number(1e-6 * bytes, 'f', 0) + " MB";
   if (record.figures.is_object() && record.figures.contains("notes") && record.figures["notes"].is_array()) {
     for (const auto& note : record.figures["notes"]) {
       if (note.is_string()) text += "<br>" + escaped(note.get<std::string>());

@@ -12,6 +12,7 @@
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/platform_memory.h"
+#include "core/document/report_pages/report_file.h"
 
 namespace batten::cli {
 namespace {
@@ -33,7 +34,7 @@ PageResult resultOfCall(int exitCode, const QByteArray& out, const QByteArray& e
   if (exitCode != kDone) return result;
   auto said = parseJson(out.toStdString());
   if (!said || !said->is_object()) {
-    result.error = "The output of the subprocess could not be read.";
+    result.error = "What the page printed could not be read.";
     return result;
   }
   for (const char* key : {"scan", "files"}) said->erase(key);  // the line has them from the manifest
@@ -68,14 +69,15 @@ class Caught {
 bool canBeTracedHere(const BatchPage& page) {
   // Its text needs an application with fonts, and a process has one application only: that of the event loop.
   return std::none_of(page.outputs.begin(), page.outputs.end(),
-                      [](const std::string& name) { return name.ends_with(".report.pdf"); });
+                      [](const std::string& name) { return reportFormatOf(name) == ReportFormat::Pdf; });
 }
 
-PageResult tracedHere(const BatchPage& page, int threads, const CallHere& call) {
+PageResult tracedHere(const BatchPage& page, const CallHere& call, const CancelToken& cancel) {
+  constexpr int kAllThreads = 0;
   QElapsedTimer clock;
   clock.start();
   const Caught out(std::cout), errors(std::cerr);
-  const int exitCode = call(traceWords(page, threads));
+  const int exitCode = call(traceWords(page, kAllThreads), cancel);
   PageResult result = resultOfCall(exitCode, out.text(), errors.text());
   result.seconds = secondsOf(clock);
   return result;

@@ -11,16 +11,18 @@
 #include <vector>
 
 #include "app/cli/batch/page_record.h"
+#include "core/base/cancel_token.h"
 
 namespace batten::cli {
 
 /// Runs `batten-cli` with these words in this process: prints to std::cout and std::cerr, and returns its exit code.
-using CallHere = std::function<int(const std::vector<std::string>& words)>;
+using CallHere = std::function<int(const std::vector<std::string>& words, const CancelToken& cancel)>;
 
 /// A page traced in this process, for where the system starts no other: with the outputs of a call, but a page that
-/// crashes or takes all memory ends the others as well. @pre canBeTracedHere()
+/// crashes or takes all memory ends the others as well. No other is traced meanwhile, so it has all threads.
+/// @pre canBeTracedHere() @param cancel ends the trace; what it returns then means nothing.
 bool canBeTracedHere(const BatchPage& page);
-PageResult tracedHere(const BatchPage& page, int threads, const CallHere& call);
+PageResult tracedHere(const BatchPage& page, const CallHere& call, const CancelToken& cancel);
 
 /// One page, traced by a call of this program in a process of its own: a page that crashes, hangs or takes all memory
 /// takes none of the others with it, and its outputs are those of the call alone, byte for byte.

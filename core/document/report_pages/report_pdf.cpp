@@ -294,7 +294,8 @@ Result<std::string> reportPdf(const ReportContent& content, ReportPaper paper, c
   };
   if (content.curves.empty())
     return fail(ErrorCode::NoCurve, "There is no curve to report on. Include at least one curve.");
-  if (QCoreApplication::instance() == nullptr) return failed();
+  // Without one, Qt ends the program as soon as it is asked for a font.
+  if (qobject_cast<QGuiApplication*>(QCoreApplication::instance()) == nullptr) return failed();
   QByteArray bytes;
   QBuffer buffer(&bytes);
   buffer.open(QIODevice::WriteOnly);

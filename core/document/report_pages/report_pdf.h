@@ -14,8 +14,8 @@ enum class ReportPaper { A4, Letter };
 /// 1:1 that overlap by 10 mm and can be put together at their marks, each with a bar of 100 mm; then the tables and two
 /// figures a curve. Beyond 40 sheets the drawing is reduced to one, and the sheet says by how much. The recipe is
 /// attached as a file.
-/// @pre a QGuiApplication, for its fonts; any thread.
-/// @return Cancelled; CannotWrite if the pages could not be made.
+/// Any thread. @return Cancelled; CannotWrite if the pages could not be made, or without a QGuiApplication and its
+/// fonts.
 Result<std::string> reportPdf(const ReportContent&, ReportPaper, const RunContext& = {});
 
 }  // namespace batten
