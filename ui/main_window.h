@@ -110,9 +110,9 @@ class MainWindow : public QMainWindow {
   void refreshTitle();
   void refreshRecent();
   void fillRecent();
-  /// The recent files as drawings, the newest first.
+  /// The recent recipes, and the scans that have none, the newest first.
   QStringList recentDrawings() const;
-  /// Greys what the last look did not find, in its place.
+  /// Greys what the last look did not find, and no more what it found, in its place.
   void greyGone();
   QString stageHint() const;
   /// @param scan of a recipe: that it was saved for.

@@ -66,8 +66,8 @@ void MainWindow::checkRecent(std::function<void()> then) {
   });
 }
 
-// One entry a drawing: its newest recipe that is there stands for the scan. What is gone is greyed, not left out: a
-// drive may only be unplugged.
+// Each recipe is a piece of work and has an entry. The newest one that is there stands for its scan, too. What is gone
+// is greyed, not left out: a drive may only be unplugged.
 QStringList MainWindow::recentDrawings() const {
   const QStringList files = recentFiles(), &gone = parts_->goneFiles;
   const QHash<QString, QString> scans = scansOfRecipes();
@@ -138,9 +138,10 @@ void MainWindow::fillRecent() {
 void MainWindow::greyGone() {
   for (QAction* entry : parts_->recentMenu->actions()) {
     const QString path = entry->data().toString();
-    if (!parts_->goneFiles.contains(path) || !entry->isEnabled()) continue;
-    entry->setEnabled(false);
-    entry->setText(recentText(path) + tr("  (not found)"));
+    if (path.isEmpty()) continue;
+    const bool isGone = parts_->goneFiles.contains(path);
+    entry->setEnabled(!isGone);
+    entry->setText(isGone ? recentText(path) + tr("  (not found)") : recentText(path));
   }
 }
 

@@ -185,6 +185,45 @@ TEST_F(Saving, ADrawingIsOneRecentEntryAndGreyWhereItIsGone) {
   EXPECT_TRUE(menu->actions()[0]->text().contains(QStringLiteral("not found")));
 }
 
+TEST_F(Saving, ARecentEntryThatComesBackIsNoLongerGrey) {
+  QString target;
+  ASSERT_NO_FATAL_FAILURE(saveWorkElsewhere(target));
+  auto* menu = find<QMenu>("recentMenu");
+  const QString away = path_ + QStringLiteral(".away");
+  ASSERT_TRUE(QFile::rename(path_, away));
+  emit menu->aboutToShow();
+  ASSERT_TRUE(waitUntil([&] { return !menu->actions().value(0)->isEnabled(); }, 5000));
+  ASSERT_TRUE(QFile::rename(away, path_));
+  // Open, so that nothing moves in it: the entry that is there has to change.
+  menu->popup(window_->mapToGlobal(QPoint(20, 20)));
+  ASSERT_TRUE(menu->isVisible());
+  ASSERT_FALSE(menu->actions()[0]->isEnabled()) << "until the look is over";
+  const QAction* entry = menu->actions()[0];
+  EXPECT_TRUE(waitUntil([&] { return entry->isEnabled(); }, 5000));
+  EXPECT_EQ(menu->actions().value(0), entry);
+  EXPECT_FALSE(entry->text().contains(QStringLiteral("not found"))) << entry->text().toStdString();
+  menu->close();
+}
+
+TEST_F(Saving, TwoRecipesOfOneScanAreTwoRecentEntries) {
+  QString first;
+  ASSERT_NO_FATAL_FAILURE(saveWorkElsewhere(first));
+  const QString second = folder_.filePath(QStringLiteral("work/other.recipe.json"));
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  saveAs(second, [this] { window_->action(ActionId::SaveRecipeAs)->trigger(); });
+  auto* menu = find<QMenu>("recentMenu");
+  emit menu->aboutToShow();
+  ASSERT_EQ(menu->actions().size(), 2) << "two pieces of work; the scan alone opens the newer one";
+  EXPECT_TRUE(menu->actions()[0]->text().startsWith(QStringLiteral("other.recipe.json")));
+  EXPECT_TRUE(menu->actions()[1]->text().startsWith(QStringLiteral("mine.recipe.json")));
+  // The older one stands for the scan where the newer one is gone.
+  ASSERT_TRUE(QFile::remove(second));
+  emit menu->aboutToShow();
+  const auto isFirst = [&] { return menu->actions().value(0)->text().startsWith(QStringLiteral("mine.recipe.json")); };
+  ASSERT_TRUE(waitUntil(isFirst, 5000)) << menu->actions().value(0)->text().toStdString();
+  EXPECT_TRUE(menu->actions()[0]->isEnabled());
+}
+
 TEST_F(Saving, RecentFilesOfOneNameAreToldApartByTheirFolders) {
   for (const char* name : {"one", "two"}) {
     QDir(folder_.path()).mkdir(QString::fromLatin1(name));

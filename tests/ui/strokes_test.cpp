@@ -4,6 +4,8 @@
 
 #include <QApplication>
 #include <QFrame>
+#include <QLineEdit>
+#include <QScreen>
 #include <QTest>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -119,6 +121,50 @@ TEST_F(Notes, TheRestOfACutNoteIsReachedByClickAndByKey) {
   note->setFocus();
   QTest::keyClick(note, Qt::Key_Space);
   ASSERT_NO_FATAL_FAILURE(expectWhole());
+}
+
+TEST_F(Notes, ACutNoteIsInTheTabOrderBeforeItIsPaintedAndNoLongerThanItIsCut) {
+  QWidget page;
+  auto* column = new QVBoxLayout(&page);
+  auto* note = new LinesNote(2, &page);
+  auto* next = new QLineEdit(&page);
+  column->addWidget(note);
+  column->addWidget(next);
+  page.resize(260, 120);
+  page.show();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&page));
+  const QString all = QStringLiteral("word ").repeated(30);
+  note->setText(all);
+  EXPECT_EQ(note->focusPolicy(), Qt::TabFocus) << "not painted yet";
+  note->setFocus(Qt::TabFocusReason);
+  ASSERT_TRUE(note->hasFocus());
+  note->setText(QStringLiteral("Short."));
+  EXPECT_EQ(note->focusPolicy(), Qt::NoFocus);
+  EXPECT_FALSE(note->hasFocus()) << "Space would do nothing";
+  EXPECT_TRUE(next->hasFocus());
+  note->setText(all);
+  ASSERT_TRUE(note->isCut());
+  note->setLines(40);
+  EXPECT_EQ(note->focusPolicy(), Qt::NoFocus) << "there is room for all";
+}
+
+TEST_F(Notes, TheWholeNoteStaysOnTheScreen) {
+  QWidget page;
+  auto* note = new LinesNote(2, &page);
+  note->setText(QStringLiteral("word ").repeated(200));
+  note->setGeometry(10, 10, 240, note->roomFor(2));
+  page.resize(260, 60);
+  page.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&page));
+  const QRect room = page.screen()->availableGeometry();
+  page.move(room.bottomRight() - QPoint(260, 60));
+  ASSERT_TRUE(waitUntil([&] { return note->mapToGlobal(QPoint()).y() > room.bottom() - 200; }, 5000));
+  QTest::mouseClick(note, Qt::LeftButton);
+  auto* whole = page.findChild<QFrame*>(QStringLiteral("note.whole"));
+  ASSERT_NE(whole, nullptr);
+  EXPECT_GT(whole->height(), 200) << "too much for the room below the note";
+  EXPECT_TRUE(room.contains(whole->geometry())) << whole->y() << " and " << whole->height() << " high";
+  whole->close();
 }
 
 TEST_F(Notes, TheStatusLineDoesNotOfferToSelectWhatIsSelected) {

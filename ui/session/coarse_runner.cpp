@@ -18,7 +18,9 @@ void CoarseRunner::start(Request request) {
 void CoarseRunner::run(const Request& request, const CancelToken& token) {
   RunContext context;
   context.cancel = token;
-  // The exact ink, which is computed beside it, has the other half of the machine. Alone curves take longer than both.
+  // The exact run beside it takes all threads and would wait for these. On two processors, at 10 megapixels, the coarse
+  // ink takes 50 ms with half of the threads and with all of them, and the exact run is done after 275 instead of 295
+  // ms. Coarse curves are asked for where nothing is seen yet: they have all.
   if (!request.withCurves) context.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2);
   // What fails here fails in the full run, which says so.
   (void)guarded<bool>([&]() -> Result<bool> {

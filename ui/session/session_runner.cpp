@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/session_runner.h"
 
+#include <QElapsedTimer>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -41,25 +43,20 @@ double squaredDistance(const Piece& piece, const Vec2& place) {
 EditorSession::Runner::Runner(EditorSession& owner)
     : session(owner),
       coarse(inbox, [this](const auto& scan, auto result) { applyCoarse(scan, std::move(result)); }),
-      targets(inbox, [this](auto outcomes) { applyTargets(std::move(outcomes)); }) {
-  clock.start();
-  grace.setSingleShot(true);
-  QObject::connect(&grace, &QTimer::timeout, &inbox, [this] { stopOvertaken(); });
-}
+      targets(inbox, [this](auto outcomes) { applyTargets(std::move(outcomes)); }) {}
 
 void EditorSession::Runner::run() {
   if (!session.scan_) return;
   const auto runId = ++newestRun;
   isRunning = true;
   isStopped = false;
-  const std::optional<qint64> started = jobStart.ms();
-  const bool spare = started && clock.elapsed() - *started < kGraceMs;
-  overtaken.push_back(newestToken);
+  overtaken.add(newestToken);
   auto job = [this, runId, generation = recipeGeneration, shown = session.scan_, picture = session.picture_,
               saved = session.recipeToSave(), page = numbersPage, isOfWanted = areNumbersOfWantedPage,
               edges = edgesWanted](const CancelToken& token) {
-    const qint64 begin = clock.elapsed();
-    jobStart.begin(begin);
+    QElapsedTimer clock;
+    clock.start();
+    overtaken.runBegins();
     RunContext context;
     context.cancel = token;
     Recipe recipe = saved;
@@ -92,8 +89,8 @@ void EditorSession::Runner::run() {
       output = std::move(*done);
     else
       output.error = done.error();
-    const double milliseconds = static_cast<double>(clock.elapsed() - begin);
-    jobStart.end();
+    const double milliseconds = static_cast<double>(clock.elapsed());
+    overtaken.runEnds();
     // A run that was overtaken makes room for the next one at once, which takes the memory again.
     if (!token.isCancelled()) returnFreeMemory();
     inbox.post([this, scan, generation, runId, output, milliseconds] {
@@ -101,10 +98,6 @@ void EditorSession::Runner::run() {
     });
   };
   newestToken = pipeline.start(std::move(job), BackgroundWorker::Running::Finish);
-  if (!spare)
-    stopOvertaken();
-  else if (!grace.isActive())
-    grace.start(static_cast<int>(kGraceMs - (clock.elapsed() - *started)));
   updateBusy();
   runCoarse();
 }
@@ -121,26 +114,8 @@ void EditorSession::Runner::applyCoarse(const std::shared_ptr<const Scan>& scan,
                                         std::shared_ptr<const CoarseResult> result) {
   if (scan != session.scan_ || result->generation <= shownGeneration[indexOf(StageId::Faired)]) return;
   session.coarse_ = std::move(result);
-  // What an overtaken run would still show lies behind what is seen now.
-  if (session.coarse_->generation == recipeGeneration) dropOvertaken();
+  if (session.coarse_->generation == recipeGeneration) overtaken.newerInkIsSeen(!session.curves().empty());
   emit session.coarseReady();
-}
-
-void EditorSession::Runner::dropOvertaken() {
-  grace.stop();
-  for (const CancelToken& token : overtaken) token.cancel();
-  overtaken.clear();
-}
-
-void EditorSession::Runner::stopOvertaken() {
-  if (const std::optional<qint64> started = jobStart.ms()) {
-    const qint64 elapsed = clock.elapsed() - *started;
-    if (elapsed < kGraceMs) {
-      grace.start(static_cast<int>(kGraceMs - elapsed));
-      return;
-    }
-  }
-  dropOvertaken();
 }
 
 void EditorSession::Runner::applyStage(const std::shared_ptr<const Scan>& scan, std::uint64_t generation, StageId stage,
@@ -177,7 +152,7 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
   }
   if (runId != newestRun) return;
   isRunning = false;
-  overtaken.clear();
+  overtaken.forget();
   if (!wasCancelled) {
     // Only of runs that no newer one has overtaken: a drag does not use up a number for every line it comes past.
     if (output.numbers) {
@@ -266,7 +241,7 @@ void EditorSession::Runner::stopAll() {
   reader.cancelAll();
   const bool wasTargeting = targets.isComputing();
   targets.cancel();
-  overtaken.clear();
+  overtaken.forget();
   ++newestRead;
   const bool ran = isRunning;
   if (ran) ++newestRun;  // What a stopped run still reports is no longer the newest.

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QElapsedTimer>
-#include <QTimer>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -15,25 +12,10 @@
 #include "ui/session/editor_session.h"
 #include "ui/session/inbox.h"
 #include "ui/session/opened_scan.h"
+#include "ui/session/overtaken_runs.h"
 #include "ui/session/target_runner.h"
 
 namespace batten {
-
-/// When the running job began. The job writes it, the GUI thread reads it.
-class JobStart {
- public:
-  void begin(qint64 ms) { ms_ = ms; }
-  void end() { ms_ = kNone; }
-  /// On the clock of the runner; absent while no job runs.
-  std::optional<qint64> ms() const {
-    const qint64 ms = ms_;
-    return ms == kNone ? std::nullopt : std::optional(ms);
-  }
-
- private:
-  static constexpr qint64 kNone = -1;  // no time of a clock; in the same word, so that both change at once
-  std::atomic<qint64> ms_{kNone};
-};
 
 /// The background side of a session. Jobs hold values only (scan, recipe, the shared cache) and post their results to
 /// `inbox`, which lives in the GUI thread; everything else here belongs to the GUI thread.
@@ -70,14 +52,8 @@ struct EditorSession::Runner {
   bool selectsItself = true;  ///< Until the user selects: the longest curve.
   std::optional<Vec2> anchorPx;
 
-  /// A run that a newer request overtakes still gets this long since its start, so that a drag that never pauses shows
-  /// results all the same.
-  static constexpr int kGraceMs = 150;
-  JobStart jobStart;
-  QElapsedTimer clock;
-  QTimer grace;
   CancelToken newestToken;
-  std::vector<CancelToken> overtaken;
+  OvertakenRuns overtaken;
 
   /// Last, so that they are stopped and joined before anything they use goes away.
   CoarseRunner coarse;
@@ -102,8 +78,6 @@ struct EditorSession::Runner {
   void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,
                 const PipelineOutput&, double milliseconds);
   void applyTargets(std::shared_ptr<const TargetOutcomes> outcomes);
-  void stopOvertaken();
-  void dropOvertaken();
   void runCoarse();
   void dropCoarse(std::uint64_t generation);
   void applyCoarse(const std::shared_ptr<const Scan>&, std::shared_ptr<const CoarseResult>);

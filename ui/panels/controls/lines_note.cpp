@@ -6,9 +6,10 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScreen>
 #include <QTextLayout>
 #include <QVBoxLayout>
-#include <utility>
+#include <algorithm>
 
 #include "ui/theme/theme.h"
 #include "ui/theme/tool_tips.h"
@@ -23,10 +24,16 @@ LinesNote::LinesNote(int lines, QWidget* parent) : QLabel(parent), lines_(lines)
   setFixedHeight(roomFor(lines));
 }
 
+void LinesNote::setText(const QString& text) {
+  QLabel::setText(text);
+  findCut();
+}
+
 void LinesNote::setLines(int lines) {
   if (lines == lines_) return;
   lines_ = lines;
   setFixedHeight(roomFor(lines));
+  findCut();
   update();
 }
 
@@ -64,9 +71,25 @@ bool LinesNote::event(QEvent* event) {
   return true;
 }
 
-bool LinesNote::isCut() const {
+void LinesNote::findCut() {
   const QStringList shown = shownLines();
-  return !shown.isEmpty() && shown.last().endsWith(QChar(0x2026)) && !text().endsWith(QChar(0x2026));
+  const bool was = isCut_;
+  isCut_ = !shown.isEmpty() && shown.last().endsWith(QChar(0x2026)) && !text().endsWith(QChar(0x2026));
+  if (isCut_ == was) return;
+  // As from a widget that is disabled: the next one has the keyboard.
+  if (!isCut_ && hasFocus()) focusNextChild();
+  setFocusPolicy(isCut_ ? Qt::TabFocus : Qt::NoFocus);
+  setCursor(isCut_ ? Qt::PointingHandCursor : Qt::ArrowCursor);
+}
+
+void LinesNote::changeEvent(QEvent* event) {
+  QLabel::changeEvent(event);
+  if (event->type() == QEvent::FontChange) findCut();
+}
+
+void LinesNote::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  findCut();
 }
 
 QString LinesNote::moreText() const { return QLatin1Char(' ') + tr("more"); }
@@ -83,7 +106,8 @@ void LinesNote::keyPressEvent(QKeyEvent* event) {
   QLabel::keyPressEvent(event);
 }
 
-// Over the note, so that it is read on from where the eye is. A click elsewhere or Esc closes it.
+// Over the note, so that it is read on from where the eye is, but within the screen. A click elsewhere or Esc closes
+// it.
 void LinesNote::showWhole() {
   constexpr int kMarginPx = 10;
   auto* frame = new QFrame(this, Qt::Popup);
@@ -100,7 +124,12 @@ void LinesNote::showWhole() {
   layout->addWidget(whole);
   frame->setAccessibleName(text());
   frame->adjustSize();
-  frame->move(mapToGlobal(QPoint(-kMarginPx - frame->frameWidth(), -kMarginPx - frame->frameWidth())));
+  const int edge = kMarginPx + frame->frameWidth();
+  const QRect room = screen()->availableGeometry();
+  QRect box(mapToGlobal(QPoint(-edge, -edge)), frame->size());
+  box.moveBottomRight({std::min(box.right(), room.right()), std::min(box.bottom(), room.bottom())});
+  box.moveTopLeft({std::max(box.left(), room.left()), std::max(box.top(), room.top())});
+  frame->move(box.topLeft());
   frame->show();
   frame->setFocus(Qt::PopupFocusReason);
 }
@@ -114,11 +143,6 @@ void LinesNote::paintEvent(QPaintEvent*) {
   for (const QString& line : shown) {
     painter.drawText(QRect(0, y, width(), fontMetrics().lineSpacing()), Qt::AlignLeft | Qt::AlignTop, line);
     y += fontMetrics().lineSpacing();
-  }
-  if (std::exchange(isCut_, isCut()) != isCut_) {
-    // The keyboard stops at a note only where there is more to read.
-    setFocusPolicy(isCut_ ? Qt::TabFocus : Qt::NoFocus);
-    setCursor(isCut_ ? Qt::PointingHandCursor : Qt::ArrowCursor);
   }
   if (!isCut_) return;
   const int top = y - fontMetrics().lineSpacing(), left = fontMetrics().horizontalAdvance(shown.last());

@@ -55,82 +55,15 @@ TargetTile::TargetTile(int degree, QWidget* parent) : QAbstractButton(parent), d
   setFixedHeight(kHeight);
 }
 
-QString TargetTile::problem() const {
-  if (!outcomes_) return {};
-  const int index = degree_ - 1;
-  const TargetProfile& profile = outcomes_->targets.profiles[index];
-  if (!profile.valid)
-    return profile.problem.empty() ? tr("does not fit this curve") : QString::fromStdString(profile.problem);
-  if (!outcomes_->faired[index])
-    return outcomes_->problems[index].empty() ? tr("could not be reached")
-                                              : QString::fromStdString(outcomes_->problems[index]);
-  return {};
-}
-
-bool TargetTile::fits() const {
-  return outcomes_ && isWithinTolerance(*outcomes_, degree_, toleranceMm_) && !addsExtrema(*outcomes_, degree_);
-}
-
 void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double toleranceMm, bool chosen, bool oneCurve,
                       const QString& waiting) {
   outcomes_ = std::move(outcomes);
   waiting_ = outcomes_ ? QString() : waiting;
   toleranceMm_ = toleranceMm;
   chosen_ = chosen;
-  const QString name = tr("Target %1, %2").arg(degree_).arg(degreeName(degree_));
-  QString spoken = name, tip = name;
   setEnabled(outcomes_ && outcomes_->targets.profiles[degree_ - 1].valid);
-  if (const QString why = problem(); !why.isEmpty()) {
-    spoken += QStringLiteral(": ") + why;
-    tip += QStringLiteral(": ") + why;
-  } else if (outcomes_) {
-    const auto& faired = *outcomes_->faired[degree_ - 1];
-    const auto& profile = outcomes_->targets.profiles[degree_ - 1];
-    spoken += tr(", moves the curve by %1, %2 extrema")
-                  .arg(millimetres(faired.report.maxDeviationMm))
-                  .arg(faired.report.extremaAfter);
-    tip += tr("\nS %1: similarity of this profile to that of the sketched curve; 1 is the same.\nMoves the curve by at "
-              "most %2; left: %3.")
-               .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
-                    counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
-    if (faired.report.similarityAfter)
-      tip += tr("\nS of the faired curve against the sketched curve: %1.")
-                 .arg(similarityText(*faired.report.similarityAfter));
-    if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
-      tip += counted(more, tr("\nThat is 1 more than the sketched curve has."),
-                     tr("\nThat is %1 more than the sketched curve has."));
-    if (const double needed = faired.report.neededMm.value_or(0.0);
-        !faired.report.withinTolerance && needed > toleranceMm)
-      tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(needed));
-    else if (!faired.report.withinTolerance)
-      tip += faired.report.maxDeviationMm > 0.0
-                 ? tr("\nThe curve follows it in part: all of it would take more curvature extrema than are left here.")
-                 : tr("\nThe curve is unchanged: any part of it would take more curvature extrema.");
-    if (!profile.isMonotone) tip += tr("\nThis profile is not monotone within a span.");
-    if (outcomes_->span)
-      tip += tr("\nFor the span you clicked; the rest of the curve is unchanged.");
-    else if (!outcomes_->splits.empty())
-      tip += tr("\nOne polynomial for each of %1 spans.").arg(outcomes_->splits.size() + 1);
-    if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares curvatures, because the line has inflections.");
-  }
-  if (outcomes_ && problem().isEmpty() && !isFlat())
-    tip += tr("\nGrey: curvature of the sketched curve; dark: of the target, over the arc length, as the plot runs.");
-  tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
-                                       : tr("Click or press %1: for all curves.").arg(degree_));
-  if (outcomes_ && outcomes_->recommendedDegree == degree_) {
-    if (isAdvisable(*outcomes_, degree_, toleranceMm_))
-      spoken += tr(", recommended");
-    else if (fits())
-      spoken += tr(", simplest fit");
-  }
-  if (spoken.endsWith(tr(", recommended")))
-    tip += tr(
-        "\n✓ recommended: the simplest profile that is reached within the tolerance without an extremum more. S rises "
-        "with the degree, so it does not choose.");
-  if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
-  if (chosen_) spoken += tr(", chosen");
-  setAccessibleName(spoken);
-  setToolTip(tip);
+  setAccessibleName(spokenText());
+  setToolTip(tipText(oneCurve));
   update();
 }
 
@@ -198,14 +131,13 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   painter.setPen(isEnabled() ? theme.text : theme.mute);
   painter.drawText(title, Qt::AlignLeft | Qt::AlignVCenter, number);
   const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
-  // The shape nearest to the sketch is only advice where the tolerance allows it.
-  const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_ && fits();
-  const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, toleranceMm_);
+  const Advice advised = advice();
+  const bool isAdvised = advised == Advice::Recommended;
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
   if (isSimilarityAbove_ && outcomes_ && problem().isEmpty())
     return paintTitleWithSimilarity(painter, title.adjusted(numberWidth, 0, 0, 0), isAdvised);
   const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
-  QString word = isAdvised ? tr("recommended") : isNearest ? tr("simplest fit") : QString();
+  QString word = isAdvised ? tr("recommended") : advised == Advice::SimplestFit ? tr("simplest fit") : QString();
   const auto hasRoom = [&](const QString& one) {
     return numberWidth + nameWidth + 6 + small.horizontalAdvance(one) <= title.width();
   };

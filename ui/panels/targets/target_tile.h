@@ -60,9 +60,15 @@ class TargetTile : public QAbstractButton {
   void keyPressEvent(QKeyEvent*) override;
 
  private:
+  /// Why there are no figures; empty where there are.
   QString problem() const;
-  /// Met within the tolerance, without a curvature extremum more.
-  bool fits() const;
+  /// Of the recommended degree, where it is met within the tolerance, without a curvature extremum more.
+  enum class Advice { None, SimplestFit, Recommended };
+  Advice advice() const;
+  QString nameText() const;
+  QString spokenText() const;
+  QString figuresTip() const;
+  QString tipText(bool oneCurve) const;
   bool isFlat() const { return height() < kLowHeight; }
   void paintTitle(class QPainter&, const QRectF&) const;
   void paintTitleWithSimilarity(class QPainter&, const QRectF& box, bool isAdvised) const;
