@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -32,7 +31,7 @@ struct GrainStretch {
 
 /// Absent where too few points were placed.
 std::vector<std::optional<GrainStretch>> stretchesOf(const std::vector<PiecePoint>& points, double stretchPx,
-                                                     const std::function<bool(const PiecePoint&)>& isPlaced) {
+                                                     bool (*isPlaced)(const PiecePoint&)) {
   std::vector<std::optional<GrainStretch>> means;
   GrainStretch sum;
   double placed = 0.0, length = 0.0;

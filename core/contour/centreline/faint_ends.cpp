@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -272,7 +273,7 @@ class EndFollower {
 
   Step darkestFrom(const Vec2& at, const Vec2& along) const {
     const Vec2 aside = meter_.asidePx() * leftNormal(along);
-    Step best{at, along, meter_.depth(at, along)};
+    Step best{at, along, -std::numeric_limits<double>::infinity()};
     for (const double side : {0.0, -1.0, 1.0}) {
       const Vec2 from = at + side * aside;
       for (const double turn : {0.0, -kTurnDeg * kRadPerDeg, kTurnDeg * kRadPerDeg}) {

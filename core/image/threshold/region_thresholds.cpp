@@ -159,10 +159,12 @@ Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& d
 bool isPaperSeen(const Plane& grey, const PaperEstimate& estimate) {
   const auto cells = static_cast<double>(std::count(estimate.isPaper.begin(), estimate.isPaper.end(), std::uint8_t{1}));
   if (cells < kLeastPaper * static_cast<double>(estimate.isPaper.size())) return false;
-  float brightest = 0.0f;
+  // On most pages one of the first pixels is as bright.
+  const float usual = upperMedian(std::vector<float>(estimate.paper.grey));
+  const auto isAsBright = [&](float pixel) { return static_cast<double>(usual - pixel) <= kLeastContrast; };
   for (int y = 0; y < grey.height; ++y)
-    brightest = std::max(brightest, *std::max_element(grey.row(y), grey.row(y) + grey.width));
-  return static_cast<double>(upperMedian(std::vector<float>(estimate.paper.grey)) - brightest) <= kLeastContrast;
+    if (std::any_of(grey.row(y), grey.row(y) + grey.width, isAsBright)) return true;
+  return false;
 }
 
 /// Thresholds against the paper.

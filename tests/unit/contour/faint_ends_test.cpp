@@ -58,6 +58,18 @@ BitImage inkOf(const GreyImage& grey) {
   return ink;
 }
 
+// Of all strokes of the page. Empty, and the test has failed, where they have no skeleton.
+BitImage trailsOn(const GreyImage& grey) {
+  const BitImage ink = inkOf(grey);
+  BitImage skeleton = ink;
+  if (!thinToSkeleton(skeleton, {})) {
+    ADD_FAILURE() << "no skeleton";
+    return {};
+  }
+  const auto paths = findStrokePaths(skeleton, ink, {}, {});
+  return followFaintEnds(paths, [](int) { return true; }, ink, grey, {});
+}
+
 TEST(FaintEnds, AWeakEndIsFollowedWhereItIsSeenAlongItsLength) {
   for (const std::uint32_t seed : kWeakSeeds) {
     const GreyImage grey = weakPage(0.45f, seed);
@@ -116,11 +128,7 @@ TEST(FaintEnds, DashesStayApart) {
     for (const std::uint32_t seed : kWeakSeeds) {
       const double from = 220.0, to = from + kWeakPencilPx + gap;  // the ends of the strokes are round
       const GreyImage grey = pageWeakBetween(from, to, 0.0f, seed);
-      const BitImage ink = inkOf(grey);
-      BitImage skeleton = ink;
-      ASSERT_TRUE(thinToSkeleton(skeleton, {}));
-      const auto paths = findStrokePaths(skeleton, ink, {}, {});
-      const BitImage trails = followFaintEnds(paths, [](int) { return true; }, ink, grey, {});
+      const BitImage trails = trailsOn(grey);
       int joined = 0;
       const int middle = static_cast<int>(0.5 * (from + to));
       for (int y = 0; y < kWeakHeight; ++y) joined += trails.at(middle, y) ? 1 : 0;
@@ -132,11 +140,7 @@ TEST(FaintEnds, DashesStayApart) {
 TEST(FaintEnds, NothingIsFollowedOnPaper) {
   for (const std::uint32_t seed : kWeakSeeds) {
     const GreyImage grey = weakPage(0.0f, seed);
-    const BitImage ink = inkOf(grey);
-    BitImage skeleton = ink;
-    ASSERT_TRUE(thinToSkeleton(skeleton, {}));
-    const auto paths = findStrokePaths(skeleton, ink, {}, {});
-    const BitImage trails = followFaintEnds(paths, [](int) { return true; }, ink, grey, {});
+    const BitImage trails = trailsOn(grey);
     int onPaper = 0;
     for (int y = 0; y < kWeakHeight; ++y) {
       for (int x = static_cast<int>(kWeakFrom) + 8; x < kWeakWidth; ++x) onPaper += trails.at(x, y) ? 1 : 0;
