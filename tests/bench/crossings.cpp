@@ -25,6 +25,8 @@ namespace {
 using Line = std::vector<Vec2>;
 constexpr int kWidth = 900, kHeight = 700;
 constexpr double kMarginPx = 30.0;
+constexpr double kLeastRadiusPx = 60.0, kMostRadiusPx = 250.0;  // by which lines that touch bend apart
+constexpr std::size_t kBesidePoints = 5;
 
 struct Drawn {
   Line points;
@@ -83,12 +85,20 @@ struct Kind {
   std::string name;
   std::vector<double> widthsPx;  // in turn
   double leastDeg = 0.0, mostDeg = 90.0;
-  bool isBranch = false;  // the second line of a pair begins on the first one
+  bool isBranch = false;     // the second line of a pair begins on the first one
+  bool isTouching = false;   // the second one bends away from the first at either side
+  bool areTogether = false;  // for so long that they cannot be told apart there
 };
 
 Vec2 directionAt(const Line& line, std::size_t i) {
   const Vec2 d = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
   return d / d.norm();
+}
+
+// [1/px] Positive where the line turns from x to y.
+double curvatureAt(const Line& line, std::size_t i) {
+  const Vec2 a = directionAt(line, i - kBesidePoints), b = directionAt(line, i + kBesidePoints);
+  return (a.x() * b.y() - a.y() * b.x()) / (2.0 * static_cast<double>(kBesidePoints));
 }
 
 // Pairs of lines that meet in their middles under an angle of the kind, pairs apart from one another.
@@ -101,6 +111,11 @@ std::vector<Drawn> pairsOf(const Kind& kind, Random& random) {
     const double turn = random.between(kind.leastDeg, kind.mostDeg) * std::numbers::pi / 180.0;
     const double angle = std::atan2(d.y(), d.x()) + (random.between(0.0, 1.0) < 0.5 ? turn : -turn);
     Line second = clothoid(first[middle], angle, random.between(250.0, 450.0), random.between(-1.0, 1.0) / 250.0, 0.0);
+    if (kind.isTouching) {
+      const double away = (random.between(0.0, 1.0) < 0.5 ? 1.0 : -1.0) / random.between(kLeastRadiusPx, kMostRadiusPx);
+      second = clothoid(first[middle], std::atan2(d.y(), d.x()), random.between(150.0, 300.0),
+                        curvatureAt(first, middle) + away, 0.0);
+    }
     if (kind.isBranch) second.erase(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2));
     if (!isOnPage(second)) continue;
     const auto isNear = [](const Line& a, const Line& b) {
@@ -120,6 +135,47 @@ std::vector<Drawn> pairsOf(const Kind& kind, Random& random) {
   return drawn;
 }
 
+double distanceTo(const Line& line, const Vec2& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2& q : line) least = std::min(least, (p - q).norm());
+  return least;
+}
+
+// Of `points` so much lies within `tolerancePx` of one of the lines. Points 1 px apart; every second one is looked at.
+double shareOn(const Line& points, const std::vector<Line>& lines, double tolerancePx) {
+  int on = 0, looked = 0;
+  for (std::size_t i = 0; i < points.size(); i += 2) {
+    ++looked;
+    on += std::ranges::any_of(lines, [&](const Line& line) { return distanceTo(line, points[i]) <= tolerancePx; });
+  }
+  return static_cast<double>(on) / std::max(1, looked);
+}
+
+// Lines that lie on one another for long cannot be told apart there, so that scoreDense() would take a found line for
+// now the one, now the other. Whole is here: one found line lies on this one all along, and covers it. A found line
+// that needs two of the drawn ones to lie on has passed from one to the other.
+DenseScore scoreTogether(const std::vector<Line>& truth, const std::vector<Line>& found, double tolerancePx) {
+  constexpr double kAll = 0.95;
+  DenseScore score;
+  score.drawn = static_cast<int>(truth.size());
+  for (const Line& line : truth) {
+    const bool isWhole = std::ranges::any_of(found, [&](const Line& f) {
+      return shareOn(f, {line}, tolerancePx) >= kAll && shareOn(line, {f}, tolerancePx) >= kAll;
+    });
+    if (isWhole) {
+      ++score.whole;
+    } else if (shareOn(line, found, tolerancePx) >= 0.5) {
+      ++score.inPieces;
+    }
+  }
+  for (const Line& f : found) {
+    const bool isOnOne =
+        std::ranges::any_of(truth, [&](const Line& line) { return shareOn(f, {line}, tolerancePx) >= kAll; });
+    score.bridges += !isOnOne && shareOn(f, truth, tolerancePx) >= kAll;
+  }
+  return score;
+}
+
 // Of the places where two lines meet: how many are right, both lines whole and none passing to the other, and where a
 // junction is shown as doubtful.
 struct Places {
@@ -137,18 +193,16 @@ struct CrossingScore {
   Places places;
 };
 
-double distanceTo(const Line& line, const Vec2& p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec2& q : line) least = std::min(least, (p - q).norm());
-  return least;
+DenseScore scoreLines(const std::vector<Line>& truth, const std::vector<Line>& found, double widest, bool together) {
+  return together ? scoreTogether(truth, found, 0.5 * widest) : scoreDense(truth, found, widest, 3.0 * widest);
 }
 
-Places placesOf(const std::vector<Line>& truth, const PipelineOutput& out, double widest) {
+Places placesOf(const std::vector<Line>& truth, const PipelineOutput& out, double widest, bool together) {
   Places places;
   const std::vector<Line> found = linesOf(out);
   for (std::size_t k = 0; k + 1 < truth.size(); k += 2) {
     const std::vector<Line> two = {truth[k], truth[k + 1]};
-    const DenseScore score = scoreDense(two, found, widest, 3.0 * widest);
+    const DenseScore score = scoreLines(two, found, widest, together);
     const bool isShown =
         out.contours && std::ranges::any_of(out.contours->junctions, [&](const StrokeJunction& j) {
           return j.isDoubtful && std::min(distanceTo(two[0], j.positionPx), distanceTo(two[1], j.positionPx)) < widest;
@@ -168,7 +222,7 @@ Recipe withDoubtOpen(const PipelineOutput& out) {
   return recipe;
 }
 
-CrossingScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed, bool isDoubtOpen) {
+CrossingScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed, bool together, bool isDoubtOpen) {
   std::vector<float> cover(std::ptrdiff_t{kWidth} * kHeight, 0.0f);
   std::vector<Line> truth;
   double widest = 0.0;
@@ -180,9 +234,9 @@ CrossingScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed, bool 
   }
   const Scan scan = scanOfLines(std::move(cover), kWidth, kHeight, seed);
   PipelineOutput out = tracedPage(scan, {});
-  const Places places = placesOf(truth, out, widest);
+  const Places places = placesOf(truth, out, widest, together);
   if (isDoubtOpen && out.contours) out = tracedPage(scan, withDoubtOpen(out));
-  return {scoreDense(truth, linesOf(out), widest, 3.0 * widest), places};
+  return {scoreLines(truth, linesOf(out), widest, together), places};
 }
 
 }  // namespace
@@ -198,8 +252,10 @@ int main(int argc, char** argv) {
   for (const auto& [widths, name] : {std::pair<std::vector<double>, std::string>{{4.0}, "4 and 4 px"},
                                      {{8.0}, "8 and 8 px"},
                                      {{3.0, 8.0}, "3 and 8 px"}}) {
+    kinds.push_back({"touching, " + name, widths, 0.0, 0.0, false, true, true});
+    kinds.push_back({"crossing, " + name, widths, 5.0, 10.0, false, false, true});
     for (const double angle : {10.0, 20.0, 35.0, 60.0})
-      kinds.push_back({"crossing, " + name, widths, angle, angle + 10.0, false});
+      kinds.push_back({"crossing, " + name, widths, angle, angle + 10.0});
     for (const double angle : {15.0, 30.0, 60.0})
       kinds.push_back({"branch, " + name, {widths.rbegin(), widths.rend()}, angle, angle + 15.0, true});
   }
@@ -210,7 +266,8 @@ int main(int argc, char** argv) {
     DenseScore sum;
     for (int seed = 1; seed <= seeds; ++seed) {
       Random random(static_cast<std::uint32_t>(seed));
-      const CrossingScore score = scoreOf(pairsOf(kind, random), static_cast<std::uint32_t>(seed), isDoubtOpen);
+      const CrossingScore score =
+          scoreOf(pairsOf(kind, random), static_cast<std::uint32_t>(seed), kind.areTogether, isDoubtOpen);
       const DenseScore& s = score.lines;
       places.add(score.places);
       for (DenseScore* to : {&sum, &all}) {

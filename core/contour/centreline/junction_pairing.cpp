@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/statistics.h"
+#include "core/contour/centreline/arc_through.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -25,6 +26,10 @@ constexpr double kMissPerWidthDeg = 20.0;    // what a stroke that goes on a wid
 constexpr double kWidthPerOctaveDeg = 40.0;  // and one whose width changes to the double
 // More than a pair that may go on can cost: beside each other by as many [stroke widths], one [octaves] as much wider.
 constexpr double kWorstMissWidths = 4.0, kWorstOctaves = 4.0;
+constexpr double kArcWidths = 10.0;                        // [stroke widths] of each end that an arc is laid through,
+constexpr double kLeastArcShare = 0.5;                     // and what must be seen of that
+constexpr double kArcMissPx = 0.4, kArcMissWidths = 0.05;  // left by a true arc: of the pixels, of the width
+constexpr double kOtherArc = 2.5;                          // so many times more is left where the other end goes on
 constexpr int kMostEnds = 10;  // of a junction that is looked at as a whole: 9496 ways to pair them
 
 struct PairCost {
@@ -122,14 +127,31 @@ MeetingEnd measureFrom(int first, const EdgeFromEnd& points, const SkeletonNode&
   return e;
 }
 
+// The beginning of an edge beyond the junction, in the frame.
+std::vector<Vec2> beginning(const EdgeFromEnd& points, const MeetingEnd& end, double reach, const LocalFrame& frame) {
+  std::vector<Vec2> found;
+  double arc = 0.0;
+  for (int k = end.first; k < points.size() && arc <= reach; ++k) {
+    if (k > end.first) arc += (points[k].at - points[k - 1].at).norm();
+    found.push_back(frame.local(points[k].at));
+  }
+  if (arc < kLeastArcShare * reach) found.clear();
+  return found;
+}
+
 }  // namespace
 
 std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const SkeletonNode& node, double usualRadius) {
   std::vector<MeetingEnd> ends;
   for (const EdgeFromEnd& p : edges) {
+    const JunctionDisc disc = node.discOf(static_cast<int>(ends.size()));
     int first = 0;
-    while (first < p.size() - 1 && (p[first].at - node.centre).norm() < kTrimRadii * node.radius) ++first;
+    while (first < p.size() - 1 && (p[first].at - disc.centre).norm() < kTrimRadii * disc.radius) ++first;
     ends.push_back(measureFrom(first, p, node, usualRadius));
+  }
+  if (node.leading() != nullptr) {
+    for (int i = 0; i < std::ssize(ends); ++i)
+      ends[i] = measureFrom(withoutFatInk(edges[i], ends[i].first), edges[i], node, usualRadius);
   }
   if (ends.size() != 3) return ends;
   const std::array<Vec2, 3> out = {ends[0].out, ends[1].out, ends[2].out};
@@ -163,6 +185,32 @@ std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, doub
     }
   }
   return n <= kMostEnds ? BestPairs(n, costs).find() : greedyPairs(n, std::move(costs));
+}
+
+std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edges, std::span<const MeetingEnd> ends,
+                                                double maxBendDeg) {
+  if (ends.size() != 3) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    const std::array<int, 2> others = {(i + 1) % 3, (i + 2) % 3};
+    if (ends[others[0]].out.dot(ends[others[1]].out) <= kForkCos) continue;
+    const double width = 2.0 * ends[i].radius, reach = kArcWidths * width;
+    const LocalFrame frame{ends[i].at, ends[i].out};
+    const std::vector<Vec2> from = beginning(edges[i], ends[i], reach, frame);
+    std::array<double, 2> left;
+    for (const int k : {0, 1}) {
+      const MeetingEnd& other = ends[others[k]];
+      const std::vector<Vec2> to = beginning(edges[others[k]], other, reach, frame);
+      if (from.empty() || to.empty() || turnDeg(-ends[i].out, other.out) > maxBendDeg) return std::nullopt;
+      const std::optional<LocalArc> arc = arcThrough(from, to);
+      if (!arc) return std::nullopt;
+      left[k] = std::sqrt(0.5 * (squaresLeft(*arc, from) + squaresLeft(*arc, to)));
+    }
+    const int best = left[0] <= left[1] ? 0 : 1;
+    if (!(left[best] <= kArcMissPx + kArcMissWidths * width) || !(left[1 - best] >= kOtherArc * left[best]))
+      return std::nullopt;
+    return std::pair(std::min(i, others[best]), std::max(i, others[best]));
+  }
+  return std::nullopt;
 }
 
 }  // namespace batten

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,5 +35,11 @@ double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, double nodeRadius, 
 /// @return pairs of indices into `ends`, the lower one first.
 std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, double nodeRadius, double usualRadius,
                                           double maxBendDeg);
+
+/// Of three ends of which two leave the junction side by side: which of the two the third goes on to, where one arc of
+/// a circle runs through it and only one of them, as a rim that a straight line touches. Nothing where that tells
+/// nothing.
+std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edges, std::span<const MeetingEnd> ends,
+                                                double maxBendDeg);
 
 }  // namespace batten

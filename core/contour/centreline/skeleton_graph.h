@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/contour/centreline/stroke_paths.h"
@@ -31,10 +32,27 @@ class EdgeFromEnd {
   bool isReversed_;
 };
 
+struct JunctionDisc {
+  Vec2 centre = Vec2::Zero();  ///< [px]
+  double radius = 0.0;         ///< [px]
+};
+
+/// The four ends of a junction as the ink that two strokes share there has told them (shared_ink.h).
+struct LedThrough {
+  std::vector<std::pair<int, int>> pairs;  ///< Which ends are one stroke, as indices into the ends of the node.
+  std::array<JunctionDisc, 4> discs;       ///< Of each end: where the strokes part.
+  bool isDoubtful = false;
+};
+
 struct SkeletonNode {
   Vec2 centre = Vec2::Zero();
   double radius = 0.0;  ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
   std::vector<int> ends;
+  std::optional<LedThrough> led = {};  ///< Not valid any more where there are other than four ends.
+
+  const LedThrough* leading() const { return led && ends.size() == led->discs.size() ? &*led : nullptr; }
+  /// The disc in which the i-th end has no middle of its own.
+  JunctionDisc discOf(int i) const { return leading() ? led->discs[i] : JunctionDisc{centre, radius}; }
 };
 
 /// [px]

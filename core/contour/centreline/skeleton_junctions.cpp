@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/contour/centreline/shared_ink.h"
 #include "core/contour/centreline/skeleton_graph.h"
 
 namespace batten {
@@ -23,7 +24,7 @@ constexpr double kWithinDisc = 1.1;       // of its radius: what stays within is
 
 class JunctionMerger {
  public:
-  explicit JunctionMerger(SkeletonGraph& graph) : graph_(graph), sets_(graph.nodeCount()) {}
+  explicit JunctionMerger(SkeletonGraph& graph) : graph_(graph), sets_(graph.nodeCount()), shared_(graph.edgeCount()) {}
   void merge(bool ofBundles);
 
  private:
@@ -31,13 +32,15 @@ class JunctionMerger {
 
   double sharedLength(int link) const;
   bool isOneCrossing(const std::vector<int>& nodes) const;
-  std::vector<Link> shortLinks() const;
+  std::vector<Link> shortLinks(bool ofBundles);
   std::vector<int> joinLinked(const std::vector<Link>& links, bool ofBundles);
   void moveToDiscs();
+  void leadThrough(const SharedInk& shared, int node);
   void dropWithinDiscs();
 
   SkeletonGraph& graph_;
-  DisjointSets sets_;  // of nodes that become one
+  DisjointSets sets_;                             // of nodes that become one
+  std::vector<std::optional<SharedInk>> shared_;  // per edge
 };
 
 // [px] How long two strokes that cross or touch at the angle seen at both ends of a link can share one skeleton; 0: the
@@ -94,14 +97,15 @@ bool JunctionMerger::isOneCrossing(const std::vector<int>& nodes) const {
 }
 
 // Edges between junctions that may be one, the shortest first.
-std::vector<JunctionMerger::Link> JunctionMerger::shortLinks() const {
+std::vector<JunctionMerger::Link> JunctionMerger::shortLinks(bool ofBundles) {
   std::vector<Link> links;
   for (int i = 0; i < graph_.edgeCount(); ++i) {
     const SkeletonEdge& l = graph_.edge(i);
     if (!l.alive || l.ring) continue;
     const SkeletonNode &a = graph_.node(*l.node[0]), &b = graph_.node(*l.node[1]);
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
-    if (l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i)))
+    shared_[i] = ofBundles ? std::nullopt : findSharedInk(graph_, i);
+    if (shared_[i] || l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i)))
       links.emplace_back(l.length, i);
   }
   std::sort(links.begin(), links.end());
@@ -174,6 +178,7 @@ void JunctionMerger::dropWithinDiscs() {
     const SkeletonEdge& l = graph_.edge(i);
     if (!l.alive || l.ring || l.node[0] != l.node[1]) continue;
     const SkeletonNode& n = graph_.node(*l.node[0]);
+    if (n.leading() != nullptr) continue;
     const bool within = std::all_of(l.points.begin(), l.points.end(), [&](const StrokePathPoint& p) {
       return (p.at - n.centre).norm() <= kWithinDisc * n.radius;
     });
@@ -181,9 +186,33 @@ void JunctionMerger::dropWithinDiscs() {
   }
 }
 
+// The strokes of shared ink, where no other junction became part of its node.
+void JunctionMerger::leadThrough(const SharedInk& shared, int node) {
+  SkeletonNode& n = graph_.node(node);
+  LedThrough led;
+  if (n.ends.size() != led.discs.size()) return;
+  const auto indexOf = [&](int end) { return static_cast<int>(std::ranges::find(n.ends, end) - n.ends.begin()); };
+  for (const auto& [from, to] : shared.strokes) {
+    const int a = indexOf(from), b = indexOf(to);
+    if (std::max(a, b) == std::ssize(n.ends)) return;
+    led.pairs.emplace_back(std::min(a, b), std::max(a, b));
+    led.discs[a] = shared.discs[0];
+    led.discs[b] = shared.discs[1];
+  }
+  std::sort(led.pairs.begin(), led.pairs.end());
+  led.isDoubtful = shared.isDoubtful;
+  n.led = std::move(led);
+}
+
 void JunctionMerger::merge(bool ofBundles) {
-  for (const int edge : joinLinked(shortLinks(), ofBundles)) graph_.removeEdge(edge);
+  const std::vector<int> inner = joinLinked(shortLinks(ofBundles), ofBundles);
+  std::vector<std::pair<int, int>> sharedAt;  // edge, node
+  for (const int edge : inner) {
+    if (shared_[edge]) sharedAt.emplace_back(edge, *graph_.edge(edge).node[0]);
+    graph_.removeEdge(edge);
+  }
   moveToDiscs();
+  for (const auto& [edge, node] : sharedAt) leadThrough(*shared_[edge], sets_.root(node));
   dropWithinDiscs();
   for (int i = 0; i < graph_.nodeCount(); ++i) graph_.splice(i);
 }

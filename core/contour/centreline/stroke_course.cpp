@@ -15,6 +15,7 @@ constexpr int kWidePercent = 90;           // of the points are no wider than th
 constexpr int kTangentReach = 2;           // points to either side
 constexpr double kCourseStairSigma = 1.5;  // points: the stairs of the pixels are about three long
 constexpr double kLeastBaseSigma = 2.0;    // points: thin strokes wander by as much from pixel to pixel
+constexpr double kMostOfRing = 0.06;       // of its length: a ring shrinks by 7 % then
 constexpr double kPaperBesidePx = 3.5;     // beyond the border of the ink: two px of blur, and paper to measure
 constexpr double kParabolaShare = 0.6;     // of the reach: over less only a line is fitted
 constexpr double kWidthOffMedian = 0.4;    // of the median width of the stroke
@@ -112,8 +113,9 @@ StrokeCourse resample(const StrokePath& path) {
   if (path.points.empty()) return course;
   // A light smoothing takes the stairs of the pixels, so that the length and with it the steps come out even.
   resample(smoothPolyline(positions(path.points), path.closed, kCourseStairSigma), path.points, course);
-  const std::vector<Vec2> base = smoothPolyline(valuesOf(course, &CoursePoint::chain), course.closed,
-                                                std::max(kLeastBaseSigma, 0.5 * course.widthPx));
+  double sigma = std::max(kLeastBaseSigma, 0.5 * course.widthPx);
+  if (course.closed) sigma = std::min(sigma, kMostOfRing * course.count());
+  const std::vector<Vec2> base = smoothPolyline(valuesOf(course, &CoursePoint::chain), course.closed, sigma);
   setValues(course, &CoursePoint::base, base);
   setValues(course, &CoursePoint::tangent, directions(base, course.closed, kTangentReach));
   std::vector<float> radius = valuesOf(course, &CoursePoint::radius);
@@ -174,9 +176,9 @@ void layThroughJunctions(StrokeCourse& c) {
       Vec2& at = laid[k];
       if (before && after) {
         const double t = static_cast<double>(k + 1) / (count + 1), u = 1.0 - t;
-        const double length = (after->at - before->at).norm();
+        const double derivative = endDerivative((after->at - before->at).norm(), before->direction, after->direction);
         at = u * u * (1.0 + 2.0 * t) * before->at + t * t * (1.0 + 2.0 * u) * after->at +
-             length * t * u * (u * before->direction - t * after->direction);
+             derivative * t * u * (u * before->direction - t * after->direction);
       } else if (before && openEnd) {
         at = before->at + (k + 1) * before->direction;
       } else if (after && openStart) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/junction_choices.h"
@@ -20,7 +21,9 @@ namespace {
 
 constexpr double kLeastLastStepPx = 0.3;  // a shorter last step is left out
 constexpr double kForwardCos = 0.2;       // 78 degrees: a direction that points away by more looks back
-constexpr double kPlaceWidths = 1.0;      // [stroke widths] beyond the junction: the place that stands for a branch
+constexpr double kBesideDisc = 2.0;   // [half stroke widths] beyond a junction's disc the other stroke is still near
+constexpr double kReadWidths = 10.0;  // [stroke widths] a shorter edge between shared ink lies in its discs
+constexpr double kPlaceWidths = 1.0;  // [stroke widths] beyond the junction: the place that stands for a branch
 
 class StrokePathMaker {
  public:
@@ -68,7 +71,7 @@ class StrokePathMaker {
     for (const int end : node.ends) edges.push_back(fromEnd(end));
     const std::vector<MeetingEnd> meeting = measureEnds(edges, node, graph_.medianRadius());
     for (int i = 0; i < std::ssize(meeting); ++i) ends_[node.ends[i]] = meeting[i];
-    const EndPairs own = pairEnds(meeting, node.radius, graph_.medianRadius(), params_.maxBendDeg);
+    const EndPairs own = ownPairs(node, edges, meeting);
     const EndPairs pairs = choice ? chosenPairs(params_.junctions[*choice], edges) : own;
     for (const auto& [a, b] : pairs) {
       partner_[node.ends[a]] = node.ends[b];
@@ -83,8 +86,16 @@ class StrokePathMaker {
     for (int i = 0; i < std::ssize(edges); ++i) junction.branchesPx.push_back(placeOn(edges[i], meeting[i].first));
     JunctionPairings found = findPairings(meeting, own, node.radius, graph_.medianRadius(), params_.maxBendDeg);
     junction.pairings = std::move(found.pairings);
-    junction.isDoubtful = found.isDoubtful;
+    const LedThrough* led = node.leading();
+    junction.isDoubtful = led != nullptr ? led->isDoubtful : found.isDoubtful;
     return junction;
+  }
+
+  EndPairs ownPairs(const SkeletonNode& node, std::span<const EdgeFromEnd> edges,
+                    std::span<const MeetingEnd> meeting) const {
+    if (const LedThrough* led = node.leading(); led != nullptr) return led->pairs;
+    if (const auto alongArc = pairAlongArc(edges, meeting, params_.maxBendDeg)) return {*alongArc};
+    return pairEnds(meeting, node.radius, graph_.medianRadius(), params_.maxBendDeg);
   }
 
   // Whether strokes part at both ends of an edge of which only one is led through: two may lie on one another there.
@@ -117,19 +128,32 @@ class StrokePathMaker {
     return n.ends.size() > 1 ? &n : nullptr;
   }
 
+  // As of a ring that touches one line or two: too short to have much beyond the discs, all of it is read.
+  bool isShortBetweenLed(int edge) const {
+    const auto isLed = [&](std::optional<int> node) { return node && graph_.nodes()[*node].leading() != nullptr; };
+    const SkeletonEdge& e = edge_(edge);
+    return isLed(e.node[0]) && isLed(e.node[1]) && e.length < kReadWidths * 2.0 * graph_.medianRadius();
+  }
+
+  std::optional<JunctionDisc> discAt(int end) const {
+    const SkeletonNode* node = junctionAt(end);
+    if (node == nullptr) return std::nullopt;
+    return node->discOf(static_cast<int>(std::ranges::find(node->ends, end) - node->ends.begin()));
+  }
+
   // The points of the edge entered at `end`, without those inside the discs at either side.
   void appendEdge(int end, StrokePath& path) const {
     const int n = static_cast<int>(edge_(end / 2).points.size());
-    const SkeletonNode* nodes[2] = {junctionAt(end), junctionAt(end ^ 1)};
-    int from = nodes[0] ? ends_[end].first : 0;
-    int to = nodes[1] ? n - 1 - ends_[end ^ 1].first : n - 1;
+    const std::optional<JunctionDisc> discs[2] = {discAt(end), discAt(end ^ 1)};
+    int from = discs[0] ? ends_[end].first : 0;
+    int to = discs[1] ? n - 1 - ends_[end ^ 1].first : n - 1;
     if (from > to) from = to = std::clamp((from + to) / 2, 0, n - 1);
+    const bool isRead = isShortBetweenLed(end / 2);
     for (int k = from; k <= to; ++k) {
       StrokePathPoint p = point(end, k);
-      for (const SkeletonNode* node : nodes) {
-        if (node && (p.at - node->centre).norm() < node->radius + 2.0 * graph_.medianRadius()) {
+      for (const std::optional<JunctionDisc>& disc : discs) {
+        if (disc && !isRead && (p.at - disc->centre).norm() < disc->radius + kBesideDisc * graph_.medianRadius())
           p.part = StrokePart::Junction;
-        }
       }
       path.points.push_back(p);
     }
@@ -210,18 +234,27 @@ double StrokePath::widthPx() const {
   return std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
 }
 
+// An arc that turns by phi has its derivative 4 tan(phi / 4) r and the chord 2 sin(phi / 2) r. Of more than half a turn
+// the directions alone would not tell it from less.
+double endDerivative(double chord, const Vec2& fromDirection, const Vec2& toDirection) {
+  const double cosPhi = std::clamp(fromDirection.dot(toDirection), -1.0, 1.0);
+  const double cosHalf = std::sqrt(0.5 * (1.0 + cosPhi));
+  return chord / (0.5 * (1.0 + cosHalf));
+}
+
 std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, const Vec2& to, const Vec2& toDirection) {
   const Vec2 d = to - from;
   const double length = d.norm();
   const int steps = static_cast<int>(std::lround(length));
   std::vector<Vec2> points;
+  const double derivative = endDerivative(length, fromDirection, toDirection);
   // A direction that looks back would fold the line: go straight there.
   const bool fair = fromDirection.dot(d) > kForwardCos * length && toDirection.dot(d) > kForwardCos * length;
   for (int k = 1; k < steps; ++k) {
     const double t = static_cast<double>(k) / steps, u = 1.0 - t;
     if (fair) {
       points.push_back(u * u * (1.0 + 2.0 * t) * from + t * t * (1.0 + 2.0 * u) * to +
-                       length * t * u * (u * fromDirection - t * toDirection));
+                       derivative * t * u * (u * fromDirection - t * toDirection));
     } else {
       points.push_back(u * from + t * to);
     }

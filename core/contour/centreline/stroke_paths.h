@@ -54,6 +54,10 @@ std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage
 /// [px] Median over all points of the stroke paths chosen by their index; at least 1, and 1 of none.
 double medianWidth(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen);
 
+/// [px] Of the end derivatives of a cubic over 0..1 that leaves and arrives in these directions (unit vectors), `chord`
+/// px apart: such that it is close to an arc where an arc fits.
+double endDerivative(double chord, const Vec2& fromDirection, const Vec2& toDirection);
+
 /// Points about 1 px apart on a cubic that leaves `from` in direction `fromDirection` and arrives at `to` in
 /// direction `toDirection` (unit vectors), both ends excluded.
 std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, const Vec2& to, const Vec2& toDirection);

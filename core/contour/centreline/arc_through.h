@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/base/vec2.h"
+
+namespace batten {
+
+/// An arc of a circle or a straight line that passes near the origin of its frame, about along the frame's x axis:
+/// y = a + b x + c (x^2 + y^2).
+struct LocalArc {
+  Eigen::Vector3d abc = Eigen::Vector3d::Zero();
+
+  Vec2 gradientAt(const Vec2& p) const { return {abc[1] + 2.0 * abc[2] * p.x(), 2.0 * abc[2] * p.y() - 1.0}; }
+  Vec2 normalAt(const Vec2& p) const { return gradientAt(p).normalized(); }
+  /// From p to the nearest point of the arc, to first order.
+  Vec2 toArc(const Vec2& p) const;
+};
+
+/// Points of the page in a frame at `origin` with its x axis `along` (a unit vector).
+struct LocalFrame {
+  Vec2 origin = Vec2::Zero(), along = Vec2::UnitX();
+  Vec2 local(const Vec2& p) const;
+};
+
+/// The arc that lies nearest to both stretches of points, which count alike, by least squares of the equation above;
+/// nothing where they tell none. Both stretches have points.
+std::optional<LocalArc> arcThrough(const std::vector<Vec2>& a, const std::vector<Vec2>& b);
+
+/// [px^2] Mean of the squared distances of the points.
+double squaresLeft(const LocalArc& arc, const std::vector<Vec2>& points);
+
+}  // namespace batten
