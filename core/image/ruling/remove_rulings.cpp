@@ -30,6 +30,8 @@ constexpr double kSnapPerNoise = 2.5;     // standard deviations of the paper
 constexpr double kLeastStroke = 0.12;     // of the paper's light: what a stroke across takes at least
 // Of what the whole line takes of the light, and of the light: a stretch takes no more.
 constexpr double kMostOfWhole = 1.35, kMostBesides = 0.02;
+// Copied and worn lines change their darkness along them: their darker places, and how much darker those may be.
+constexpr double kDarkRank = 0.08, kMostOfDark = 2.2;
 constexpr double kSteepestStroke = 2.0;  // [px along / px across]
 constexpr int kStrokeSteps = 8;          // to either side
 
@@ -71,20 +73,27 @@ class RulingEraser {
   void erase() {
     straightenCourse();
     measurePaper();
-    whole_ = profileOf(0, blocks_);
+    whole_ = profileOf(0, blocks_, kPaperRank);
     const auto [nearFrom, nearTo] = middleOf(whole_);
     depth_ = 1.0 - *std::min_element(nearFrom, nearTo);
     if (depth_ < kLeastDepthSeen || !findSupport()) return;
     measureRims();
     isSolid_ = 1.0 - depth_ < kSolidLight;
-    std::vector<std::vector<double>> profiles;  // all before the first pixel changes
-    for (int b = 0; b < blocks_; ++b)
-      profiles.push_back(
-          ofLineAlone(profileOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1))));
-    for (int b = 0; b < blocks_; ++b) eraseBlock(b, profiles[b]);
+    std::vector<LinePart> parts;  // all before the first pixel changes
+    for (int b = 0; b < blocks_; ++b) {
+      const int from = std::max(0, b - kProfileBlocks), to = std::min(blocks_, b + kProfileBlocks + 1);
+      parts.push_back({ofLineAlone(profileOf(from, to, kPaperRank), kMostOfWhole),
+                       ofLineAlone(profileOf(from, to, kDarkRank), kMostOfDark)});
+    }
+    for (int b = 0; b < blocks_; ++b) eraseBlock(b, parts[b]);
   }
 
  private:
+  /// Light that comes through one block of the line, per half pixel across: as a rule, and where it is darkest.
+  struct LinePart {
+    std::vector<double> usual, dark;
+  };
+
   int begin(int block) const { return from_ + block * kBlockPx; }
   int end(int block) const { return block + 1 == blocks_ ? to_ : from_ + (block + 1) * kBlockPx; }
   int bins() const { return 2 * kBinsPerPx * reach_ + 1; }
@@ -174,9 +183,9 @@ class RulingEraser {
 
   double lightAt(int x, int y) const { return image_.row(y)[x] / atBlocks(paper_, x); }
 
-  /// Light that comes through the line, per half pixel across: a high rank over blocks, so that strokes across do not
-  /// count.
-  std::vector<double> profileOf(int fromBlock, int toBlock) const {
+  /// Light that comes through the line, per half pixel across: of a high rank over blocks, so that strokes across do
+  /// not count.
+  std::vector<double> profileOf(int fromBlock, int toBlock, double rank) const {
     std::vector<std::vector<float>> light(bins());
     forStrip(begin(fromBlock), end(toBlock - 1), -reach_, reach_, [&](int x, int y, double offset) {
       const auto bin = std::lround((offset + reach_) * kBinsPerPx);
@@ -188,7 +197,7 @@ class RulingEraser {
     for (auto& values : light)
       known.push_back(std::ssize(values) <= least
                           ? std::nullopt
-                          : std::optional(std::min(1.0, static_cast<double>(lowerQuantile(values, kPaperRank)))));
+                          : std::optional(std::min(1.0, static_cast<double>(lowerQuantile(values, rank)))));
     std::vector<double> profile = withoutGaps(known);
     // Beside the line there is paper, whatever the noise and the slope of its grey.
     std::vector<double> beside;
@@ -273,10 +282,10 @@ class RulingEraser {
     return most;
   }
 
-  /// A stroke that runs along the line is no part of it.
-  std::vector<double> ofLineAlone(std::vector<double> profile) const {
+  /// A stroke that runs along the line is no part of it: the line takes at most so many times what the whole takes.
+  std::vector<double> ofLineAlone(std::vector<double> profile, double most) const {
     for (std::size_t i = 0; i < profile.size(); ++i)
-      profile[i] = std::max({profile[i], 1.0 - kMostOfWhole * (1.0 - whole_[i]) - kMostBesides, 0.0});
+      profile[i] = std::max({profile[i], 1.0 - most * (1.0 - whole_[i]) - kMostBesides, 0.0});
     return profile;
   }
 
@@ -287,8 +296,8 @@ class RulingEraser {
     return !isSolid_ && 1.0 - *std::min_element(nearFrom, nearTo) < kPresence * depth_;
   }
 
-  void eraseBlock(int block, const std::vector<double>& profile) {
-    if (isGap(profile)) return;
+  void eraseBlock(int block, const LinePart& line) {
+    if (isGap(line.usual)) return;
     const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
     forStrip(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
       const double paper = atBlocks(paper_, x), light = image_.row(y)[x] / paper;
@@ -297,8 +306,9 @@ class RulingEraser {
       if (isSolid_) {
         if (stroke > leastStroke()) left = std::max(light, 1.0 - stroke);
       } else {
-        left = std::min(1.0, light / std::max(kSolidLight, at(profile, offset)));
-        if (1.0 - left <= snap && stroke <= leastStroke()) left = 1.0;
+        left = std::min(1.0, light / std::max(kSolidLight, at(line.usual, offset)));
+        const bool isLine = 1.0 - left <= snap || light >= at(line.dark, offset);
+        if (isLine && stroke <= leastStroke()) left = 1.0;
       }
       if (left > light) image_.row(y)[x] = static_cast<std::uint16_t>(std::clamp(left * paper, 0.0, 65535.0));
     });

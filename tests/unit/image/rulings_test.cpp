@@ -181,6 +181,22 @@ TEST(Rulings, AreTakenOutWithoutCuttingStrokes) {
   }
 }
 
+// Of a copy, whose lines are darker and lighter every few millimetres.
+TEST(Rulings, GoWithTheirDarkerPlaces) {
+  const Ruling down{.turnedDeg = 0.6, .runsDown = true};
+  const std::vector<float> uneven = layer([&](double x, double y) {
+    const double line = std::floor(x / down.spacing);
+    const double places = std::sin(0.19 * y + 1.7 * line) + 0.6 * std::sin(0.071 * y + 2.3 * line);
+    return static_cast<float>(1.0 + 0.5 * places / 1.6) * 0.6f * covered(offLine(down, x, y), down.width);
+  });
+  const Scan scan = paperWith({{uneven, light(0.45)}, {drawing(), kPen}});
+  const auto found = findRulings(scan.grey, {});
+  ASSERT_EQ(found.size(), 1u);
+  const Wrong wrong = wrongInk(inkOf(withoutRulings(scan.grey, found, {})));
+  EXPECT_LE(wrong.beside, 150);
+  EXPECT_LT(wrong.missed, 0.002);
+}
+
 TEST(Rulings, StrokesKeepTheirGreyAcrossThem) {
   const Scan with = paperWith({{ruling({}), light(0.8)}, {drawing(), kPen}}, 0.0);
   const Scan without = paperWith({{drawing(), kPen}}, 0.0);
