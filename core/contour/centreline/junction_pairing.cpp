@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "core/base/statistics.h"
@@ -14,14 +15,16 @@
 namespace batten {
 namespace {
 
-constexpr double kTrimRadii = 1.1;           // [radii of the junction] beyond its disc a stroke has its own middle
-constexpr double kTangentRadii = 8.0;        // [half stroke widths] over which the direction of an end is taken,
-constexpr double kLeastTangentPx = 8.0;      // and of thin strokes
-constexpr double kCurvedTangent = 0.5;       // of that: over less, a parabola follows the noise
-constexpr double kForkCos = 0.64;            // 50 degrees: two ends side by side
-constexpr double kFatRadius = 1.15;          // of the usual half-width of the edge,
-constexpr double kFatSlackPx = 0.25;         // and [px] what the grid of pixels changes of a half-width
-constexpr double kFatReach = 6.0;            // [half-widths] that two strokes share at most: they part at 20 degrees
+constexpr double kTrimRadii = 1.1;       // [radii of the junction] beyond its disc a stroke has its own middle
+constexpr double kTangentRadii = 8.0;    // [half stroke widths] over which the direction of an end is taken,
+constexpr double kLeastTangentPx = 8.0;  // and of thin strokes
+constexpr double kCurvedTangent = 0.5;   // of that: over less, a parabola follows the noise
+constexpr double kForkCos = 0.64;        // 50 degrees: two ends side by side
+constexpr double kFatRadius = 1.15;      // of the usual half-width of the edge,
+constexpr double kFatSlackPx = 0.25;     // and [px] what the grid of pixels changes of a half-width
+constexpr double kFatReach = 6.0;        // [half-widths] that two strokes share at most: they part at 20 degrees
+// A stroke that goes on aside has to turn there and back. Of the miss so much is noise [px].
+constexpr double kAsideTurns = 2.0, kMissNoisePx = 1.0;
 constexpr double kMissPerWidthDeg = 20.0;    // what a stroke that goes on a width aside costs, against a bend
 constexpr double kWidthPerOctaveDeg = 40.0;  // and one whose width changes to the double
 // More than a pair that may go on can cost: beside each other by as many [stroke widths], one [octaves] as much wider.
@@ -162,25 +165,27 @@ std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const Sk
   return ends;
 }
 
-double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, double nodeRadius, double usualRadius) {
+double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, const PairingScale& scale) {
   const Vec2 d = q.at - p.at;
   const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
   // A pixel more or less says nothing about a width.
   const double octaves = std::max(0.0, std::abs(std::log2(p.radius / q.radius)) - 0.5 / std::min(p.radius, q.radius));
-  return turnDeg(-p.out, q.out) + kMissPerWidthDeg * miss / std::max({2.0 * usualRadius, 2.0 * nodeRadius, 1.0}) +
-         kWidthPerOctaveDeg * octaves;
+  const double aside = std::atan2(std::max(0.0, miss - kMissNoisePx), d.norm()) * 180.0 / std::numbers::pi;
+  const double missDeg =
+      std::max(kMissPerWidthDeg * miss / std::max({2.0 * scale.usualRadius, 2.0 * scale.nodeRadius, 1.0}),
+               scale.ofBundles ? 0.0 : kAsideTurns * aside);
+  return turnDeg(-p.out, q.out) + missDeg + kWidthPerOctaveDeg * octaves;
 }
 
-std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, double nodeRadius, double usualRadius,
-                                          double maxBendDeg) {
+std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, const PairingScale& scale) {
   const int n = static_cast<int>(ends.size());
   std::vector<PairCost> costs;
   // Whatever may go on does: the worst two pairs are better than one good one.
-  const double worst = maxBendDeg + kWorstMissWidths * kMissPerWidthDeg + kWorstOctaves * kWidthPerOctaveDeg;
+  const double worst = scale.maxBendDeg + kWorstMissWidths * kMissPerWidthDeg + kWorstOctaves * kWidthPerOctaveDeg;
   for (int a = 0; a < n; ++a) {
     for (int b = a + 1; b < n; ++b) {
-      if (turnDeg(-ends[a].out, ends[b].out) > maxBendDeg) continue;
-      const double cost = pairCostDeg(ends[a], ends[b], nodeRadius, usualRadius);
+      if (turnDeg(-ends[a].out, ends[b].out) > scale.maxBendDeg) continue;
+      const double cost = pairCostDeg(ends[a], ends[b], scale);
       costs.push_back({a, b, std::max(1.0, worst * worst - cost * cost)});
     }
   }

@@ -24,17 +24,22 @@ struct MeetingEnd {
 /// @param usualRadius [px] of the strokes of the page.
 std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const SkeletonNode& node, double usualRadius);
 
+/// By what the ends of a junction are paired.
+struct PairingScale {
+  double nodeRadius = 0.0;   ///< [px] of the junction's disc.
+  double usualRadius = 0.5;  ///< [px] of the strokes of the page.
+  double maxBendDeg = 0.0;   ///< An end that bends to every other by more stays alone.
+  bool ofBundles = false;    ///< Strokes will be merged: one may go on aside, as another one of its bundle.
+};
+
 /// [deg] What it costs that two ends are one stroke: their bend, and with it how far one lies aside of the other's
 /// course and how their widths differ.
-double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, double nodeRadius, double usualRadius);
+double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, const PairingScale&);
 
 /// Which ends of a junction are one stroke: over all of it at once, by their bend, by how far one lies aside of the
-/// other's course, and by how alike their widths are. An end that bends to every other by more than `maxBendDeg` stays
-/// alone.
-/// @param nodeRadius [px] of the junction's disc.
+/// other's course, and by how alike their widths are.
 /// @return pairs of indices into `ends`, the lower one first.
-std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, double nodeRadius, double usualRadius,
-                                          double maxBendDeg);
+std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, const PairingScale&);
 
 /// Of three ends of which two leave the junction side by side: which of the two the third goes on to, where one arc of
 /// a circle runs through it and only one of them, as a rim that a straight line touches. Nothing where that tells

@@ -24,12 +24,12 @@ struct Pairing {
 // All pairings of the ends of a junction, with their costs.
 class PairingSearch {
  public:
-  PairingSearch(std::span<const MeetingEnd> ends, double nodeRadius, double usualRadius, double maxBendDeg)
-      : used_(ends.size()), openCost_(maxBendDeg * maxBendDeg) {
+  PairingSearch(std::span<const MeetingEnd> ends, const PairingScale& scale)
+      : used_(ends.size()), openCost_(scale.maxBendDeg * scale.maxBendDeg) {
     for (const MeetingEnd& p : ends) {
       std::vector<double>& row = cost_.emplace_back();
       for (const MeetingEnd& q : ends) {
-        const double deg = pairCostDeg(p, q, nodeRadius, usualRadius);
+        const double deg = pairCostDeg(p, q, scale);
         row.push_back(deg * deg);
       }
     }
@@ -74,12 +74,11 @@ class PairingSearch {
 
 }  // namespace
 
-JunctionPairings findPairings(std::span<const MeetingEnd> ends, const EndPairs& own, double nodeRadius,
-                              double usualRadius, double maxBendDeg) {
+JunctionPairings findPairings(std::span<const MeetingEnd> ends, const EndPairs& own, const PairingScale& scale) {
   JunctionPairings found;
   found.pairings.push_back(own);
   if (std::ssize(ends) <= kMostRankedEnds) {
-    PairingSearch search(ends, nodeRadius, usualRadius, maxBendDeg);
+    PairingSearch search(ends, scale);
     std::vector<Pairing> pairings = search.find();
     std::stable_sort(pairings.begin(), pairings.end(),
                      [](const Pairing& a, const Pairing& b) { return a.cost < b.cost; });

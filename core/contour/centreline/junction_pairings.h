@@ -18,7 +18,6 @@ struct JunctionPairings {
 };
 
 /// @param own what pairEnds gave for the ends, by the same parameters.
-JunctionPairings findPairings(std::span<const MeetingEnd> ends, const EndPairs& own, double nodeRadius,
-                              double usualRadius, double maxBendDeg);
+JunctionPairings findPairings(std::span<const MeetingEnd> ends, const EndPairs& own, const PairingScale&);
 
 }  // namespace batten

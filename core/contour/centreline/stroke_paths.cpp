@@ -25,6 +25,8 @@ constexpr double kBesideDisc = 2.0;   // [half stroke widths] beyond a junction'
 constexpr double kReadWidths = 10.0;  // [stroke widths] a shorter edge between shared ink lies in its discs
 constexpr double kPlaceWidths = 1.0;  // [stroke widths] beyond the junction: the place that stands for a branch
 
+bool isOfBundles(const EdgeParams& params) { return params.mergeWidths > 0.0 && !params.intent; }
+
 class StrokePathMaker {
  public:
   StrokePathMaker(const SkeletonGraph& graph, const EdgeParams& params)
@@ -84,7 +86,7 @@ class StrokePathMaker {
     junction.pairs = pairs;
     junction.choice = choice;
     for (int i = 0; i < std::ssize(edges); ++i) junction.branchesPx.push_back(placeOn(edges[i], meeting[i].first));
-    JunctionPairings found = findPairings(meeting, own, node.radius, graph_.medianRadius(), params_.maxBendDeg);
+    JunctionPairings found = findPairings(meeting, own, scaleOf(node));
     junction.pairings = std::move(found.pairings);
     const LedThrough* led = node.leading();
     junction.isDoubtful = led != nullptr ? led->isDoubtful : found.isDoubtful;
@@ -94,8 +96,13 @@ class StrokePathMaker {
   EndPairs ownPairs(const SkeletonNode& node, std::span<const EdgeFromEnd> edges,
                     std::span<const MeetingEnd> meeting) const {
     if (const LedThrough* led = node.leading(); led != nullptr) return led->pairs;
-    if (const auto alongArc = pairAlongArc(edges, meeting, params_.maxBendDeg)) return {*alongArc};
-    return pairEnds(meeting, node.radius, graph_.medianRadius(), params_.maxBendDeg);
+    const auto alongArc = isOfBundles(params_) ? std::nullopt : pairAlongArc(edges, meeting, params_.maxBendDeg);
+    if (alongArc) return {*alongArc};
+    return pairEnds(meeting, scaleOf(node));
+  }
+
+  PairingScale scaleOf(const SkeletonNode& node) const {
+    return {node.radius, graph_.medianRadius(), params_.maxBendDeg, isOfBundles(params_)};
   }
 
   // Whether strokes part at both ends of an edge of which only one is led through: two may lie on one another there.
@@ -267,7 +274,7 @@ StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& in
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
   pruneSpurs(graph, params.spurFactor);
-  mergeJunctions(graph, params.mergeWidths > 0.0 && !params.intent);
+  mergeJunctions(graph, isOfBundles(params));
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params).make();
 }

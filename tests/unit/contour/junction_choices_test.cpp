@@ -26,8 +26,8 @@ MeetingEnd meetingTowards(double angleDeg, double radius = kUsualRadiusPx) {
 }
 
 JunctionPairings pairingsOf(const std::vector<MeetingEnd>& ends) {
-  const EndPairs own = pairEnds(ends, kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg);
-  return findPairings(ends, own, kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg);
+  const PairingScale scale{kNodeRadiusPx, kUsualRadiusPx, kBendLimitDeg};
+  return findPairings(ends, pairEnds(ends, scale), scale);
 }
 
 TEST(JunctionPairings, TheRuleComesFirstThenTheNextBestAndNoneLast) {

@@ -24,7 +24,7 @@ MeetingEnd endTowards(double angleDeg, double radius = kUsualRadius, double asid
   return {0, kNodeRadius * out + aside * Vec2(-out.y(), out.x()), out, radius};
 }
 
-Pairs pairsOf(const std::vector<MeetingEnd>& ends) { return pairEnds(ends, kNodeRadius, kUsualRadius, kMostBendDeg); }
+Pairs pairsOf(const std::vector<MeetingEnd>& ends) { return pairEnds(ends, {kNodeRadius, kUsualRadius, kMostBendDeg}); }
 
 TEST(JunctionPairing, StrokesThatCrossGoStraightOn) {
   EXPECT_THAT(pairsOf({endTowards(0), endTowards(25), endTowards(180), endTowards(205)}),
@@ -42,6 +42,16 @@ TEST(JunctionPairing, TheWholeJunctionIsLookedAt) {
   // on.
   const std::vector<MeetingEnd> ends = {endTowards(0), endTowards(22), endTowards(180), endTowards(164)};
   EXPECT_THAT(pairsOf(ends), testing::UnorderedElementsAre(std::pair(0, 3), std::pair(1, 2)));
+}
+
+// A bundle of three: the middle one is one with the lower on the left, with the upper on the right. As strokes of one
+// width are no wider there, width does not tell that the outer ones change places.
+TEST(JunctionPairing, SideBySideNoStrokeGoesOverToTheOther) {
+  const std::vector<MeetingEnd> ends = {{0, {438, 665}, Vec2(-1.0, -0.09).normalized(), 1.5},
+                                        {0, {438, 672}, Vec2(-1.0, -0.12).normalized(), 3.5},
+                                        {0, {457, 666}, Vec2(1.0, 0.05).normalized(), 3.5},
+                                        {0, {456, 675}, Vec2(1.0, 0.09).normalized(), 1.5}};
+  EXPECT_EQ(pairEnds(ends, {9.0, 1.5, kMostBendDeg}), Pairs({{0, 2}, {1, 3}}));
 }
 
 TEST(JunctionPairing, AnEndThatMeetsNoneStaysAlone) {
