@@ -13,6 +13,7 @@ namespace batten {
 namespace {
 
 constexpr double kShortestStretchPx = 8.0;  // as the blocks of the fit: below, its own noise tells
+constexpr double kLeastGrainPx = 0.05;      // a clean pen has as much: the fit's own noise tells it
 constexpr int kFewestDifferences = 8;       // the middle of fewer is a matter of luck
 constexpr double kMedianOfSquare = 0.4549;  // of the square of a standard normal variable
 constexpr double kFourthDifference[] = {1.0, -4.0, 6.0, -4.0, 1.0};
@@ -128,6 +129,7 @@ StrokeGrain strokeGrain(const ConstructContour& contour) {
   // Where the pen swells, both borders move and the centre does not.
   const double variance = std::min(varianceFrom(squares.ofWidth, kSecondDifferenceVariance),
                                    varianceFrom(squares.ofCentre, kSecondDifferenceVariance));
+  if (variance < kLeastGrainPx * kLeastGrainPx) return {};
   return {stretchPx * variance, std::sqrt(variance)};
 }
 
