@@ -30,7 +30,8 @@ struct EdgeParams {
   /// where it is not 0, is the distance to begin with. Pages without such lines stay as they are.
   bool intent = false;
   double spurFactor = 1.5;   ///< [stroke widths] 0..5. Side branches of the skeleton shorter than this are dropped.
-  double maxBendDeg = 40.0;  ///< [deg] 0..90. A stroke that bends by less than this continues through a crossing.
+  double maxBendDeg = 40.0;  ///< [deg] 0..90. A stroke that bends by less than this continues through a crossing;
+                             ///< strokes that share ink go through it along their arcs.
   std::vector<EdgeChoice> choices;        ///< Pieces of ink with a trace mode of their own.
   std::vector<PaintedInk> painted;        ///< Parts of ink with one; a choice for what was painted counts more.
   std::vector<JunctionChoice> junctions;  ///< Junctions whose strokes the user has paired.

@@ -27,7 +27,8 @@ struct LocalFrame {
 };
 
 /// The arc that lies nearest to both stretches of points, which count alike, by least squares of the equation above;
-/// nothing where they tell none. Both stretches have points.
+/// nothing where that has no finite solution. Both stretches have points; whether the arc lies near them squaresLeft()
+/// says.
 std::optional<LocalArc> arcThrough(const std::vector<Vec2>& a, const std::vector<Vec2>& b);
 
 /// [px^2] Mean of the squared distances of the points.

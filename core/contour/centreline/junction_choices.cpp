@@ -27,6 +27,15 @@ std::optional<int> endNear(const Vec2& place, double reachPx, std::span<const Ed
   return nearest;
 }
 
+// [px^2] To the middle of the junction, or to a fork of the ink that two strokes share there.
+double squaredDistance(const SkeletonNode& node, const Vec2& place) {
+  double least = (node.centre - place).squaredNorm();
+  if (const LedThrough* led = node.leading(); led != nullptr) {
+    for (const JunctionDisc& disc : led->discs) least = std::min(least, (disc.centre - place).squaredNorm());
+  }
+  return least;
+}
+
 }  // namespace
 
 std::vector<std::optional<int>> choicesOfNodes(const SkeletonGraph& graph, std::span<const JunctionChoice> choices) {
@@ -36,7 +45,7 @@ std::vector<std::optional<int>> choicesOfNodes(const SkeletonGraph& graph, std::
     double least = choices[c].reachPx * choices[c].reachPx;
     std::optional<int> nearest;
     for (int i = 0; i < std::ssize(nodes); ++i) {
-      const double distance = (nodes[i].centre - choices[c].positionPx).squaredNorm();
+      const double distance = squaredDistance(nodes[i], choices[c].positionPx);
       if (std::ssize(nodes[i].ends) < kFewestBranches || distance > least || (nearest && distance == least)) continue;
       least = distance;
       nearest = i;

@@ -15,7 +15,6 @@
 namespace batten {
 namespace {
 
-constexpr double kTrimRadii = 1.1;       // [radii of the junction] beyond its disc a stroke has its own middle
 constexpr double kTangentRadii = 8.0;    // [half stroke widths] over which the direction of an end is taken,
 constexpr double kLeastTangentPx = 8.0;  // and of thin strokes
 constexpr double kCurvedTangent = 0.5;   // of that: over less, a parabola follows the noise
@@ -27,8 +26,8 @@ constexpr double kFatReach = 6.0;        // [half-widths] that two strokes share
 constexpr double kAsideTurns = 2.0, kMissNoisePx = 1.0;
 constexpr double kMissPerWidthDeg = 20.0;    // what a stroke that goes on a width aside costs, against a bend
 constexpr double kWidthPerOctaveDeg = 40.0;  // and one whose width changes to the double
-// More than a pair that may go on can cost: beside each other by as many [stroke widths], one [octaves] as much wider.
-constexpr double kWorstMissWidths = 4.0, kWorstOctaves = 4.0;
+// More than a pair that may go on can cost: at right angles to both courses, one [octaves] as much wider.
+constexpr double kWorstAsideDeg = 90.0, kWorstOctaves = 4.0;
 constexpr double kArcWidths = 10.0;                        // [stroke widths] of each end that an arc is laid through,
 constexpr double kLeastArcShare = 0.5;                     // and what must be seen of that
 constexpr double kArcMissPx = 0.4, kArcMissWidths = 0.05;  // left by a true arc: of the pixels, of the width
@@ -181,7 +180,7 @@ std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, cons
   const int n = static_cast<int>(ends.size());
   std::vector<PairCost> costs;
   // Whatever may go on does: the worst two pairs are better than one good one.
-  const double worst = scale.maxBendDeg + kWorstMissWidths * kMissPerWidthDeg + kWorstOctaves * kWidthPerOctaveDeg;
+  const double worst = scale.maxBendDeg + kAsideTurns * kWorstAsideDeg + kWorstOctaves * kWidthPerOctaveDeg;
   for (int a = 0; a < n; ++a) {
     for (int b = a + 1; b < n; ++b) {
       if (turnDeg(-ends[a].out, ends[b].out) > scale.maxBendDeg) continue;
@@ -211,8 +210,8 @@ std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edg
       left[k] = std::sqrt(0.5 * (squaresLeft(*arc, from) + squaresLeft(*arc, to)));
     }
     const int best = left[0] <= left[1] ? 0 : 1;
-    if (!(left[best] <= kArcMissPx + kArcMissWidths * width) || !(left[1 - best] >= kOtherArc * left[best]))
-      return std::nullopt;
+    const double most = kArcMissPx + kArcMissWidths * width;
+    if (!(left[best] <= most) || !(left[1 - best] >= std::max(most, kOtherArc * left[best]))) return std::nullopt;
     return std::pair(std::min(i, others[best]), std::max(i, others[best]));
   }
   return std::nullopt;

@@ -19,7 +19,8 @@ struct MeetingEnd {
   double radius = 0.5;      ///< [px] usual half-width beyond it.
 };
 
-/// The ends of a junction, by the points of their edges from it on. Where two of three ends leave it side by side, the
+/// The ends of a junction, by the points of their edges from it on, and of ink that two strokes share from where they
+/// part and it is as wide as usual. Where two of three ends leave it side by side, the
 /// third begins beyond the ink that is wider than usual: two strokes share it, and its middle is that of neither.
 /// @param usualRadius [px] of the strokes of the page.
 std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const SkeletonNode& node, double usualRadius);
@@ -42,8 +43,8 @@ double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, const PairingScale&
 std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, const PairingScale&);
 
 /// Of three ends of which two leave the junction side by side: which of the two the third goes on to, where one arc of
-/// a circle runs through it and only one of them, as a rim that a straight line touches. Nothing where that tells
-/// nothing.
+/// a circle runs through it and only one of them, whatever the widths, as a rim that a straight line touches. Nothing
+/// where that tells nothing.
 std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edges, std::span<const MeetingEnd> ends,
                                                 double maxBendDeg);
 

@@ -17,7 +17,8 @@ struct JunctionPairings {
   bool isDoubtful = false;
 };
 
-/// @param own what pairEnds gave for the ends, by the same parameters.
+/// @param own what pairEnds gave for the ends, by the same scale, or the pairs of an arc, which may cost more than
+/// others: then they are doubtful.
 JunctionPairings findPairings(std::span<const MeetingEnd> ends, const EndPairs& own, const PairingScale&);
 
 }  // namespace batten

@@ -13,9 +13,10 @@ namespace batten {
 struct SharedInk {
   /// The ends that each stroke comes from and goes on to, at the first and the second node of the edge.
   std::array<std::pair<int, int>, 2> strokes;
-  std::array<JunctionDisc, 2> discs;  ///< Of these nodes.
-  double missPx = 0.0;      ///< Root mean square of what two arcs leave of the strokes' courses and of the ink's width.
-  bool isDoubtful = false;  ///< The other pairing would do too.
+  std::array<JunctionDisc, 2> discs;  ///< Of these nodes, and where the strokes still touch beyond them.
+  /// Root mean square of what two arcs leave of the strokes' courses, of their widths and of the ink's.
+  double missPx = 0.0;
+  bool isDoubtful = false;  ///< The other pairing would do too, or leaves little more.
 };
 
 /// Whether an edge whose nodes each have two further ends is the common ink of two strokes. The ends at one node are

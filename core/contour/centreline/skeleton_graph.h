@@ -32,6 +32,9 @@ class EdgeFromEnd {
   bool isReversed_;
 };
 
+/// [radii of a junction's disc] Beyond it a stroke has its own middle.
+inline constexpr double kTrimRadii = 1.1;
+
 struct JunctionDisc {
   Vec2 centre = Vec2::Zero();  ///< [px]
   double radius = 0.0;         ///< [px]

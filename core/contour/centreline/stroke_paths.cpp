@@ -136,10 +136,10 @@ class StrokePathMaker {
   }
 
   // As of a ring that touches one line or two: too short to have much beyond the discs, all of it is read.
-  bool isShortBetweenLed(int edge) const {
+  bool isWithinLed(int edge) const {
     const auto isLed = [&](std::optional<int> node) { return node && graph_.nodes()[*node].leading() != nullptr; };
     const SkeletonEdge& e = edge_(edge);
-    return isLed(e.node[0]) && isLed(e.node[1]) && e.length < kReadWidths * 2.0 * graph_.medianRadius();
+    return isLed(e.node[0]) && isLed(e.node[1]) && e.length < kReadWidths * 2.0 * graph_.meanRadius(edge);
   }
 
   std::optional<JunctionDisc> discAt(int end) const {
@@ -155,7 +155,7 @@ class StrokePathMaker {
     int from = discs[0] ? ends_[end].first : 0;
     int to = discs[1] ? n - 1 - ends_[end ^ 1].first : n - 1;
     if (from > to) from = to = std::clamp((from + to) / 2, 0, n - 1);
-    const bool isRead = isShortBetweenLed(end / 2);
+    const bool isRead = isWithinLed(end / 2);
     for (int k = from; k <= to; ++k) {
       StrokePathPoint p = point(end, k);
       for (const std::optional<JunctionDisc>& disc : discs) {
@@ -171,7 +171,6 @@ class StrokePathMaker {
   void appendThrough(int from, std::optional<int> to, StrokePath& path) const {
     const MeetingEnd& p = ends_[from];
     const float radius = path.points.back().radius;
-    const SkeletonNode& node = *junctionAt(from);
     const auto add = [&](const Vec2& at) { path.points.push_back({at, radius, StrokePart::Junction}); };
     const Vec2 start = path.points.back().at;
     if (to) {
@@ -179,8 +178,9 @@ class StrokePathMaker {
       for (const Vec2& at : cubicBetween(start, -p.out, point(*to, q.first).at, q.out)) add(at);
       return;
     }
-    const double along = (node.centre - start).dot(-p.out);
-    const double length = std::clamp(along, 0.0, 2.0 * node.radius);
+    const JunctionDisc disc = *discAt(from);
+    const double along = (disc.centre - start).dot(-p.out);
+    const double length = std::clamp(along, 0.0, 2.0 * disc.radius);
     for (int k = 1; k <= static_cast<int>(length); ++k) add(start - static_cast<double>(k) * p.out);
     if (length > std::floor(length) + kLeastLastStepPx) add(start - length * p.out);
   }

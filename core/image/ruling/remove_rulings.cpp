@@ -30,10 +30,12 @@ constexpr double kSnapPerNoise = 2.5;     // standard deviations of the paper
 constexpr double kLeastStroke = 0.12;     // of the paper's light: what a stroke across takes at least
 // Of what the whole line takes of the light, and of the light: a stretch takes no more.
 constexpr double kMostOfWhole = 1.35, kMostBesides = 0.02;
-// Copied and worn lines change their darkness along them: their darker places, and how much darker those may be.
-constexpr double kDarkRank = 0.08, kMostOfDark = 2.2;
-constexpr double kSteepestStroke = 2.0;  // [px along / px across]
-constexpr int kStrokeSteps = 8;          // to either side
+// Copied and worn lines change their darkness along them. How much they do at most places tells how dark they may be at
+// any: a stroke along the line makes one place darker.
+constexpr double kDarkRank = 0.08;                      // of the light along 160 px
+constexpr double kDarkMargin = 1.2, kMostOfDark = 2.2;  // of what is usual, of what the line takes of the light
+constexpr double kSteepestStroke = 2.0;                 // [px along / px across]
+constexpr int kStrokeSteps = 8;                         // to either side
 
 GreyImage transposedGrey(const GreyImage& in, const RunContext& context) {
   GreyImage out(in.height, in.width);
@@ -74,22 +76,33 @@ class RulingEraser {
     straightenCourse();
     measurePaper();
     whole_ = profileOf(0, blocks_, kPaperRank);
-    const auto [nearFrom, nearTo] = middleOf(whole_);
-    depth_ = 1.0 - *std::min_element(nearFrom, nearTo);
+    depth_ = depthOf(whole_);
     if (depth_ < kLeastDepthSeen || !findSupport()) return;
     measureRims();
     isSolid_ = 1.0 - depth_ < kSolidLight;
     std::vector<LinePart> parts;  // all before the first pixel changes
+    std::vector<double> darker;
     for (int b = 0; b < blocks_; ++b) {
       const int from = std::max(0, b - kProfileBlocks), to = std::min(blocks_, b + kProfileBlocks + 1);
-      parts.push_back({ofLineAlone(profileOf(from, to, kPaperRank), kMostOfWhole),
-                       ofLineAlone(profileOf(from, to, kDarkRank), kMostOfDark)});
+      parts.push_back({profileOf(from, to, kPaperRank), profileOf(from, to, kDarkRank)});
+      const double usual = depthOf(parts.back().usual);
+      if (usual >= kLeastDepthSeen) darker.push_back(depthOf(parts.back().dark) / usual);
+    }
+    const double varies = darker.empty() ? 1.0 : kDarkMargin * upperMedian(darker);
+    for (LinePart& part : parts) {
+      part.usual = ofLineAlone(std::move(part.usual), kMostOfWhole);
+      part.dark = ofLineAlone(std::move(part.dark), std::clamp(varies, kMostOfWhole, kMostOfDark));
     }
     for (int b = 0; b < blocks_; ++b) eraseBlock(b, parts[b]);
   }
 
  private:
-  /// Light that comes through one block of the line, per half pixel across: as a rule, and where it is darkest.
+  double depthOf(const std::vector<double>& profile) const {
+    const auto [nearFrom, nearTo] = middleOf(profile);
+    return 1.0 - *std::min_element(nearFrom, nearTo);
+  }
+
+  /// Light that comes through the line about one block, per half pixel across: as a rule, and where it is darkest.
   struct LinePart {
     std::vector<double> usual, dark;
   };
@@ -183,7 +196,7 @@ class RulingEraser {
 
   double lightAt(int x, int y) const { return image_.row(y)[x] / atBlocks(paper_, x); }
 
-  /// Light that comes through the line, per half pixel across: of a high rank over blocks, so that strokes across do
+  /// Light that comes through the line, per half pixel across, of a rank over blocks: of a high one strokes across do
   /// not count.
   std::vector<double> profileOf(int fromBlock, int toBlock, double rank) const {
     std::vector<std::vector<float>> light(bins());
@@ -291,10 +304,7 @@ class RulingEraser {
 
   double leastStroke() const { return std::max(kLeastStroke, 3.0 * noiseLevel_); }
 
-  bool isGap(const std::vector<double>& profile) const {
-    const auto [nearFrom, nearTo] = middleOf(profile);
-    return !isSolid_ && 1.0 - *std::min_element(nearFrom, nearTo) < kPresence * depth_;
-  }
+  bool isGap(const std::vector<double>& profile) const { return !isSolid_ && depthOf(profile) < kPresence * depth_; }
 
   void eraseBlock(int block, const LinePart& line) {
     if (isGap(line.usual)) return;
@@ -307,7 +317,9 @@ class RulingEraser {
         if (stroke > leastStroke()) left = std::max(light, 1.0 - stroke);
       } else {
         left = std::min(1.0, light / std::max(kSolidLight, at(line.usual, offset)));
-        const bool isLine = 1.0 - left <= snap || light >= at(line.dark, offset);
+        // Ink at either rim may end on the line or run into it at a small angle.
+        const bool isFree = above_[x] <= leastStroke() && below_[x] <= leastStroke();
+        const bool isLine = 1.0 - left <= snap || (isFree && light >= at(line.dark, offset));
         if (isLine && stroke <= leastStroke()) left = 1.0;
       }
       if (left > light) image_.row(y)[x] = static_cast<std::uint16_t>(std::clamp(left * paper, 0.0, 65535.0));

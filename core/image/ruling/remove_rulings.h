@@ -10,7 +10,8 @@
 namespace batten {
 
 /// The page without its ruled lines: what a line takes of the paper's light is given back, so that strokes across it
-/// keep their ink. Where a line is as dark as the strokes, ink stays where it goes on at both sides of the line.
+/// keep their ink. A line that is darker here and lighter there goes with its darker places. Where a line is as dark as
+/// the strokes, ink stays where it goes on at both sides of the line.
 /// @return an empty picture when cancelled.
 GreyImage withoutRulings(const GreyImage&, const std::vector<RulingFamily>&, const RunContext&);
 

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <string>
 #include <vector>
 
+#include "core/contour/centreline/arc_through.h"
+#include "core/contour/centreline/stroke_paths.h"
 #include "tests/support/dense_page.h"
 #include "tests/unit/contour/traced_page.h"
 
@@ -54,7 +57,7 @@ double farthest(const SharedLine& from, const SharedLine& to) {
 
 // As many lines as were drawn, each of which lies on one of those all along, and covers it.
 void expectTheLines(const std::vector<SharedLine>& drawn, const ContourSet& set, double tolerancePx,
-                    const std::string& what) {
+                    const testing::Message& what) {
   SCOPED_TRACE(what);
   ASSERT_EQ(set.contours.size(), drawn.size());
   for (const SharedLine& line : drawn) {
@@ -73,7 +76,7 @@ TEST(SharedInk, LinesThatTouchStayThemselves) {
       const std::vector<SharedLine> lines = {arcAt({240, 180}, 10.0, 1.0 / 250.0, 300.0),
                                              arcAt({240, 180}, 10.0, -1.0 / radiusPx, 200.0)};
       expectTheLines(lines, traced(lines, {widthPx, widthPx}), 2.0,
-                     std::to_string(widthPx) + " px, radius " + std::to_string(radiusPx));
+                     testing::Message() << widthPx << " px, radius " << radiusPx);
     }
   }
 }
@@ -81,7 +84,7 @@ TEST(SharedInk, LinesThatTouchStayThemselves) {
 TEST(SharedInk, AThinLineThatTouchesAThickOneGoesOn) {
   const std::vector<SharedLine> lines = {arcAt({240, 180}, 4.0, 0.0, 320.0),
                                          arcAt({240, 180}, 4.0, -1.0 / 120.0, 220.0)};
-  expectTheLines(lines, traced(lines, {8.0, 3.0}), 2.5, "8 and 3 px");
+  expectTheLines(lines, traced(lines, {8.0, 3.0}), 2.5, testing::Message() << "8 and 3 px");
 }
 
 TEST(SharedInk, LinesThatCrossAtAShallowAngleGoStraightOn) {
@@ -90,7 +93,7 @@ TEST(SharedInk, LinesThatCrossAtAShallowAngleGoStraightOn) {
       const std::vector<SharedLine> lines = {arcAt({240, 180}, 11.0, 0.0, 400.0),
                                              arcAt({240, 180}, 11.0 + angleDeg, 0.0, 400.0)};
       expectTheLines(lines, traced(lines, {widthPx, widthPx}), 2.0,
-                     std::to_string(widthPx) + " px, " + std::to_string(angleDeg) + " degrees");
+                     testing::Message() << widthPx << " px, " << angleDeg << " degrees");
     }
   }
 }
@@ -103,13 +106,13 @@ TEST(SharedInk, ARingOnALineIsClosed) {
     const std::vector<SharedLine> lines = {arcAt(bottom, 0.0, 0.0, 300.0),
                                            arcAt(bottom, 0.0, -1.0 / radiusPx, 2.0 * std::numbers::pi * radiusPx)};
     const ContourSet set = traced(lines, {kLineWidthPx, kLineWidthPx});
-    expectTheLines(lines, set, 1.7, "radius " + std::to_string(radiusPx));
+    expectTheLines(lines, set, 1.7, testing::Message() << "radius " << radiusPx);
     EXPECT_EQ(std::ranges::count(set.contours, true, &Contour::closed), 1) << radiusPx;
   }
 }
 
-// One stroke with a branch at either end of a stretch: the stretch is no wider than the stroke, and stays one.
-TEST(SharedInk, AStretchBetweenTwoBranchesIsOneLine) {
+// A branch at either end of a stretch, each to its own side: no arcs lead through both.
+TEST(SharedInk, AStrokeWithABranchAtEitherEndIsWhole) {
   const SharedLine stroke = arcAt({240, 180}, 0.0, 0.0, 400.0);
   SharedLine up = arcAt({180, 180}, -25.0, 0.0, 240.0), down = arcAt({300, 180}, 155.0, 0.0, 240.0);
   up.erase(up.begin(), up.begin() + 120);
@@ -117,8 +120,30 @@ TEST(SharedInk, AStretchBetweenTwoBranchesIsOneLine) {
   const ContourSet set = traced({stroke, up, down}, {4.0, 4.0, 4.0});
   ASSERT_EQ(set.contours.size(), 3u);
   double best = 1e9;
-  for (const Contour& c : set.contours) best = std::min(best, farthest(stroke, positionsOf(c.points)));
+  for (const Contour& c : set.contours)
+    best = std::min(best, std::max(farthest(stroke, positionsOf(c.points)), farthest(positionsOf(c.points), stroke)));
   EXPECT_LT(best, 2.0);
+}
+
+TEST(SharedInk, ACubicThatLeavesAndArrivesOnAnArcIsCloseToIt) {
+  constexpr double kRadius = 50.0;
+  for (const double turn : {0.3, 1.0, 1.6}) {
+    const Vec2 from(0, 0), to(kRadius * std::sin(turn), kRadius * (1.0 - std::cos(turn)));
+    for (const Vec2& p : cubicBetween(from, {1, 0}, to, {std::cos(turn), std::sin(turn)}))
+      EXPECT_NEAR((p - Vec2(0, kRadius)).norm(), kRadius, 0.002 * kRadius) << turn;
+  }
+}
+
+TEST(SharedInk, AnArcIsFoundFromTwoStretchesOfIt) {
+  SharedLine a = arcAt({0, 0}, 0.0, 1.0 / 80.0, 60.0), b = a;
+  a.erase(a.begin() + 15, a.end());
+  b.erase(b.begin(), b.end() - 15);
+  const auto arc = arcThrough(a, b);
+  ASSERT_TRUE(arc);
+  EXPECT_LT(std::sqrt(squaresLeft(*arc, a)), 1e-6);
+  // 1 px within the circle, whose centre lies on the side of positive y.
+  EXPECT_NEAR((arc->toArc({0.0, 1.0}) - Vec2(0.0, -1.0)).norm(), 0.0, 0.02);
+  EXPECT_FALSE(arcThrough({{0, 0}}, {{std::numeric_limits<double>::quiet_NaN(), 0}}));
 }
 
 }  // namespace

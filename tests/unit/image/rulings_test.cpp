@@ -197,6 +197,27 @@ TEST(Rulings, GoWithTheirDarkerPlaces) {
   EXPECT_LT(wrong.missed, 0.002);
 }
 
+// Pencil along the lines of even ruled paper.
+TEST(Rulings, KeepPencilThatRunsAlongThem) {
+  const Ruling across{};
+  const auto isAlong = [](double x) { return std::fmod(x, 190.0) < 60.0; };
+  const std::vector<float> pencil = layer(
+      [&](double x, double y) { return isAlong(x) && x > 80.0 ? 0.9f * covered(offLine(across, x, y), 2.6) : 0.0f; });
+  const Scan scan = paperWith({{ruling(across), light(0.78)}, {pencil, light(0.5)}});
+  const auto found = findRulings(scan.grey, {});
+  ASSERT_EQ(found.size(), 1u);
+  const GreyImage cleaned = withoutRulings(scan.grey, found, {});
+  int all = 0, kept = 0;
+  for (int y = 40; y < kRuledHeight - 40; ++y) {
+    for (int x = 200; x < kRuledWidth - 40; ++x) {
+      if (!isAlong(x - 6.0) || !isAlong(x + 6.0) || std::fabs(offLine(across, x + 0.5, y + 0.5)) > 0.5) continue;
+      ++all;
+      kept += cleaned.level(x, y) < 190.0;
+    }
+  }
+  EXPECT_GT(kept, 0.9 * all);
+}
+
 TEST(Rulings, StrokesKeepTheirGreyAcrossThem) {
   const Scan with = paperWith({{ruling({}), light(0.8)}, {drawing(), kPen}}, 0.0);
   const Scan without = paperWith({{drawing(), kPen}}, 0.0);
