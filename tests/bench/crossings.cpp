@@ -98,7 +98,7 @@ Vec2 directionAt(const Line& line, std::size_t i) {
 // [1/px] Positive where the line turns from x to y.
 double curvatureAt(const Line& line, std::size_t i) {
   const Vec2 a = directionAt(line, i - kBesidePoints), b = directionAt(line, i + kBesidePoints);
-  return (a.x() * b.y() - a.y() * b.x()) / (2.0 * static_cast<double>(kBesidePoints));
+  return cross(a, b) / (2.0 * static_cast<double>(kBesidePoints));
 }
 
 // Pairs of lines that meet in their middles under an angle of the kind, pairs apart from one another.

@@ -13,7 +13,7 @@ Vec2 LocalArc::toArc(const Vec2& p) const {
 
 Vec2 LocalFrame::local(const Vec2& p) const {
   const Vec2 d = p - origin;
-  return {along.dot(d), along.x() * d.y() - along.y() * d.x()};
+  return {along.dot(d), cross(along, d)};
 }
 
 std::optional<LocalArc> arcThrough(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {

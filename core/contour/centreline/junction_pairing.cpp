@@ -192,8 +192,8 @@ std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, cons
 }
 
 std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edges, std::span<const MeetingEnd> ends,
-                                                double maxBendDeg) {
-  if (ends.size() != 3) return std::nullopt;
+                                                const PairingScale& scale) {
+  if (ends.size() != 3 || scale.ofBundles) return std::nullopt;
   for (int i = 0; i < 3; ++i) {
     const std::array<int, 2> others = {(i + 1) % 3, (i + 2) % 3};
     if (ends[others[0]].out.dot(ends[others[1]].out) <= kForkCos) continue;
@@ -204,7 +204,7 @@ std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edg
     for (const int k : {0, 1}) {
       const MeetingEnd& other = ends[others[k]];
       const std::vector<Vec2> to = beginning(edges[others[k]], other, reach, frame);
-      if (from.empty() || to.empty() || turnDeg(-ends[i].out, other.out) > maxBendDeg) return std::nullopt;
+      if (from.empty() || to.empty() || turnDeg(-ends[i].out, other.out) > scale.maxBendDeg) return std::nullopt;
       const std::optional<LocalArc> arc = arcThrough(from, to);
       if (!arc) return std::nullopt;
       left[k] = std::sqrt(0.5 * (squaresLeft(*arc, from) + squaresLeft(*arc, to)));

@@ -46,6 +46,6 @@ std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, cons
 /// a circle runs through it and only one of them, whatever the widths, as a rim that a straight line touches. Nothing
 /// where that tells nothing.
 std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edges, std::span<const MeetingEnd> ends,
-                                                double maxBendDeg);
+                                                const PairingScale&);
 
 }  // namespace batten

@@ -39,6 +39,11 @@ class SharedEdge {
     if (other && (!best || other->ink.missPx < best->ink.missPx)) std::swap(best, other);
     if (!best || !best->fits) return std::nullopt;
     best->ink.isDoubtful = other && (other->fits || other->ink.missPx < kClearMiss * best->ink.missPx);
+    const double clear = clearPx();
+    for (const int side : {0, 1}) {
+      const SkeletonNode& node = graph_.node(*graph_.edge(edge_).node[side]);
+      best->ink.discs[side] = {node.centre, node.radius + clear};
+    }
     return best->ink;
   }
 
@@ -143,10 +148,6 @@ std::optional<SharedEdge::Pairing> SharedEdge::paired(int other) const {
   found.fits = left <= most * most && along <= mostAlong * mostAlong;
   found.ink.missPx = std::sqrt(left + along);
   if (!std::isfinite(found.ink.missPx)) return std::nullopt;
-  for (const int side : {0, 1}) {
-    const SkeletonNode& node = graph_.node(*graph_.edge(edge_).node[side]);
-    found.ink.discs[side] = {node.centre, node.radius + clearPx()};
-  }
   found.ink.strokes = {std::pair(ends_[0][0].end, ends_[1][other].end),
                        std::pair(ends_[0][1].end, ends_[1][1 - other].end)};
   return found;

@@ -96,9 +96,9 @@ class StrokePathMaker {
   EndPairs ownPairs(const SkeletonNode& node, std::span<const EdgeFromEnd> edges,
                     std::span<const MeetingEnd> meeting) const {
     if (const LedThrough* led = node.leading(); led != nullptr) return led->pairs;
-    const auto alongArc = isOfBundles(params_) ? std::nullopt : pairAlongArc(edges, meeting, params_.maxBendDeg);
-    if (alongArc) return {*alongArc};
-    return pairEnds(meeting, scaleOf(node));
+    const PairingScale scale = scaleOf(node);
+    if (const auto alongArc = pairAlongArc(edges, meeting, scale)) return {*alongArc};
+    return pairEnds(meeting, scale);
   }
 
   PairingScale scaleOf(const SkeletonNode& node) const {

@@ -75,7 +75,8 @@ class RulingEraser {
   void erase() {
     straightenCourse();
     measurePaper();
-    whole_ = profileOf(0, blocks_, kPaperRank);
+    LineLight all = lightOf(0, blocks_);
+    whole_ = profileOf(all, kPaperRank);
     depth_ = depthOf(whole_);
     if (depth_ < kLeastDepthSeen || !findSupport()) return;
     measureRims();
@@ -83,8 +84,8 @@ class RulingEraser {
     std::vector<LinePart> parts;  // all before the first pixel changes
     std::vector<double> darker;
     for (int b = 0; b < blocks_; ++b) {
-      const int from = std::max(0, b - kProfileBlocks), to = std::min(blocks_, b + kProfileBlocks + 1);
-      parts.push_back({profileOf(from, to, kPaperRank), profileOf(from, to, kDarkRank)});
+      LineLight light = lightOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1));
+      parts.push_back({profileOf(light, kPaperRank), profileOf(light, kDarkRank)});
       const double usual = depthOf(parts.back().usual);
       if (usual >= kLeastDepthSeen) darker.push_back(depthOf(parts.back().dark) / usual);
     }
@@ -196,18 +197,28 @@ class RulingEraser {
 
   double lightAt(int x, int y) const { return image_.row(y)[x] / atBlocks(paper_, x); }
 
-  /// Light that comes through the line, per half pixel across, of a rank over blocks: of a high one strokes across do
-  /// not count.
-  std::vector<double> profileOf(int fromBlock, int toBlock, double rank) const {
-    std::vector<std::vector<float>> light(bins());
-    forStrip(begin(fromBlock), end(toBlock - 1), -reach_, reach_, [&](int x, int y, double offset) {
+  /// The light of the pixels about some blocks.
+  struct LineLight {
+    std::vector<std::vector<float>> values;  ///< Per half pixel across.
+    int columns = 0;
+  };
+  LineLight lightOf(int fromBlock, int toBlock) const {
+    const int from = begin(fromBlock), to = end(toBlock - 1);
+    LineLight light{std::vector<std::vector<float>>(bins()), to - from};
+    forStrip(from, to, -reach_, reach_, [&](int x, int y, double offset) {
       const auto bin = std::lround((offset + reach_) * kBinsPerPx);
-      light[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));
+      light.values[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));
     });
+    return light;
+  }
+
+  /// Light that comes through the line, per half pixel across, of a rank: of a high one strokes across do not count.
+  /// The values change their order.
+  std::vector<double> profileOf(LineLight& light, double rank) const {
     std::vector<std::optional<double>> known;
     // A line without slope meets every second place only, but for a few pixels, which say nothing of the whole.
-    const auto least = static_cast<int>(kLeastOfColumns * (end(toBlock - 1) - begin(fromBlock)));
-    for (auto& values : light)
+    const auto least = static_cast<int>(kLeastOfColumns * light.columns);
+    for (auto& values : light.values)
       known.push_back(std::ssize(values) <= least
                           ? std::nullopt
                           : std::optional(std::min(1.0, static_cast<double>(lowerQuantile(values, rank)))));
