@@ -93,6 +93,9 @@ struct ConstructParams {
   /// of the ink). Between them the tolerance grows by equal factors; what is smaller than it is smoothed away, and
   /// sharp corners of its size stay sharp.
   double detail = 0.0;
+  /// Light curves: ragged outlines of uneven ink (ConstructContour::isUneven) have a detail of at least 0.8, but where
+  /// one of their own was given.
+  bool smoothRagged = true;
   bool operator==(const ConstructParams&) const = default;
 };
 std::optional<Error> validate(const ConstructParams&);

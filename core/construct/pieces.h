@@ -46,6 +46,7 @@ struct ConstructContour {
   std::vector<ConstructPiece> pieces;
   bool isStroke = false;                  ///< Centre line of a stroke (else an outline).
   std::optional<double> pencilPx = {};    ///< [px] width of the pencil that filled an outline; absent: no grain.
+  bool isUneven = false;                  ///< The outline of uneven ink, whose border the tool may have frayed.
   double pixelMm = 1.0;                   ///< [mm] size of a scan pixel; 1 of a contour in px.
   std::optional<double> inkWidthPx = {};  ///< [px] width of the page's strokes and shapes; absent: not known.
 };

@@ -54,6 +54,7 @@ struct Contour {
   std::vector<ContourPoint> points;
   std::optional<double> blurPx;    ///< [px] standard deviation of the optical blur along an outline, where measured.
   std::optional<double> pencilPx;  ///< [px] width of the pencil that filled what an outline encloses; absent: no grain.
+  bool isUneven = false;           ///< An outline of uneven ink (uneven_ink.h).
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   std::optional<EdgeChoice> traceMode;       ///< The user's choice for its ink, if there is one.
   std::vector<int> joints;                   ///< Imported: points that are corners whatever the user marks, ascending.

@@ -48,6 +48,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   cut.hole = whole.hole;
   cut.blurPx = whole.blurPx;
   cut.pencilPx = whole.pencilPx;
+  cut.isUneven = whole.isUneven;
   cut.traceMode = whole.traceMode;
   const std::size_t n = whole.points.size();
   for (std::size_t i = 0; i < count; ++i) cut.points.push_back(whole.points[(first + i) % n]);

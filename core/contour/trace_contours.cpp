@@ -24,6 +24,7 @@
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
 #include "core/contour/outline/texture_holes.h"
+#include "core/contour/outline/uneven_ink.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
@@ -172,6 +173,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   if (edges.mode == EdgeMode::Outline && edges.choices.empty() && edges.painted.empty()) {
     Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, std::nullopt, nullptr, context);
     if (!borders) return fail(borders.error());
+    noteUnevenInk(*borders, ink, grey);
     found.set = std::move(*borders);
     return found;
   }
@@ -209,6 +211,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
       bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, grainy ? &*grainy : nullptr, context);
   if (!borders) return fail(borders.error());
   if (split->pencil) notePencil(*borders, split->pencil->ink, split->pencil->pencilPx);
+  noteUnevenInk(*borders, split->shapes, grey);
   borders->report.droppedHoles += texture;
   borders->report.droppedFaint = faint;
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <optional>
 
@@ -16,6 +17,7 @@ constexpr double kReachWidths = 2.0, kAlongCos = 0.8;  // of a piece's samples f
 constexpr double kPure = 0.6;                          // of a bundle: less is of no group
 constexpr double kRidge[kIntentRounds] = {1.0, 40.0, 40.0};
 constexpr int kNewtonSteps = 60;
+constexpr double kCautionStep = 0.5, kLeastCautionStep = 0.25;  // log-odds
 
 struct Example {
   Eigen::VectorXd features;
@@ -142,7 +144,7 @@ std::vector<IntentWeights> crossValidatedWeights(const std::vector<LearningPage>
         std::vector<const Example*> others;
         for (std::size_t i = 0; i < pages.size(); ++i)
           for (const Example& e : examples[i])
-            if (static_cast<int>(i % folds) != fold) others.push_back(&e);
+            if (folds == 1 || static_cast<int>(i % folds) != fold) others.push_back(&e);
         if (others.empty()) continue;
         RoundWeights& learned = ofFold[fold][round];
         (isSide ? learned.side : learned.end) = regression(others, kRidge[round]);
@@ -152,6 +154,40 @@ std::vector<IntentWeights> crossValidatedWeights(const std::vector<LearningPage>
   std::vector<IntentWeights> ofPage;
   for (std::size_t i = 0; i < pages.size(); ++i) ofPage.push_back(ofFold[i % folds]);
   return ofPage;
+}
+
+IntentWeights tunedCautions(IntentWeights weights, const std::function<double(const IntentWeights&)>& score) {
+  double best = score(weights);
+  for (double step = kCautionStep; step >= kLeastCautionStep; step *= 0.5) {
+    for (int round = kIntentRounds - 1; round >= 0; --round) {
+      for (double RoundWeights::*number :
+           {&RoundWeights::sideCaution, &RoundWeights::endCaution, &RoundWeights::sideFactor}) {
+        for (const double way : {step, -step}) {
+          for (IntentWeights tried = weights; true; weights = tried) {
+            tried[round].*number += way;
+            const double reached = score(tried);
+            if (reached <= best) break;
+            best = reached;
+          }
+        }
+      }
+    }
+  }
+  return weights;
+}
+
+void printWeights(const IntentWeights& weights) {
+  const auto numbers = [](const std::vector<double>& all) {
+    for (const double w : all) std::printf("%.4f, ", w);
+  };
+  for (const RoundWeights& round : weights) {
+    std::printf("      {.side = {");
+    numbers(round.side);
+    std::printf("},\n       .end = {");
+    numbers(round.end);
+    std::printf("},\n       .sideCaution = %g,\n       .endCaution = %g,\n       .sideFactor = %g},\n",
+                round.sideCaution, round.endCaution, round.sideFactor);
+  }
 }
 
 }  // namespace batten::test

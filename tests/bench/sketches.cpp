@@ -204,7 +204,7 @@ std::optional<Row> trace(const fs::path& file, const Recipe& recipe, const fs::p
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
+  if (argc < 2 || !fs::is_directory(argv[1])) {
     std::fputs("usage: bench_sketches FOLDER [OVERLAY_FOLDER] [--groups] [stage.parameter=value …]\n", stderr);
     return 2;
   }
@@ -234,7 +234,8 @@ int main(int argc, char** argv) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(argv[1])) {
     const std::string ending = entry.path().extension().string();
-    if (ending == ".png" || ending == ".jpg" || ending == ".tif" || ending == ".pgm") files.push_back(entry.path());
+    if (ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".tif" || ending == ".pgm")
+      files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   std::vector<Row> rows;

@@ -5,12 +5,14 @@
 // merged as suggested, and edges.intent. Medians over all drawings and over either half of them.
 // With --folds N also the lines that the intent gives before they are fitted, with the weights of the program and with
 // weights learned in each of N folds from the drawings of the others.
+// With --learn nothing but that: weights are learned from all drawings and printed for intent_weights.cpp.
 //
-//   BATTEN_STROKES=FOLDER bench_strokes [--each] [--only NAME] [--folds N] [stage.parameter=value …]
+//   BATTEN_STROKES=FOLDER bench_strokes [--each] [--only NAME] [--folds N] [--learn] [stage.parameter=value …]
 //
 // FOLDER holds .scap files: `@thickness`, `{ #stroke group x y pressure … }`.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -116,7 +118,7 @@ void printEach(const test::StrokeDrawing& drawing, const char* way, const test::
 
 struct StrokeOptions {
   Recipe recipe;
-  bool each = false;
+  bool each = false, learn = false;
   int folds = 0;
   std::string only;
 };
@@ -128,6 +130,8 @@ std::optional<StrokeOptions> optionsOf(int argc, char** argv) {
     const std::size_t equals = word.find('=');
     if (word == "--each") {
       options.each = true;
+    } else if (word == "--learn") {
+      options.learn = true;
     } else if (word == "--only" && i + 1 < argc) {
       options.only = argv[++i];
     } else if (word == "--folds" && i + 1 < argc) {
@@ -160,13 +164,11 @@ std::vector<test::StrokeDrawing> drawingsOf(const fs::path& folder, const std::s
   return drawings;
 }
 
-// Grouped with weights that were not learned from the drawing itself, before the curves are fitted.
-void printCrossValidated(const std::vector<test::StrokeDrawing>& drawings, const std::vector<Scan>& scans,
-                         const std::vector<test::StrokeJudge>& judges, const StrokeOptions& options) {
+std::vector<test::LearningPage> learningPages(const std::vector<test::StrokeDrawing>& drawings,
+                                              const std::vector<Scan>& scans, Recipe recipe) {
+  recipe.edges.mode = EdgeMode::Centreline;
   std::vector<test::LearningPage> pages;
   for (std::size_t i = 0; i < drawings.size(); ++i) {
-    Recipe recipe = options.recipe;
-    recipe.edges.mode = EdgeMode::Centreline;
     StageCache cache;
     PipelineRequest request;
     request.needEdges = false;
@@ -177,24 +179,53 @@ void printCrossValidated(const std::vector<test::StrokeDrawing>& drawings, const
     pages.back().lines = output.contours->contours;
     pages.back().widthPx = std::max(1.0, output.contours->report.widthPx.value_or(0.0));
   }
-  const auto linesWith = [&](std::size_t i, const IntentWeights& weights) {
-    const auto meant = intendedLines(pages[i].lines, pages[i].widthPx, {}, {}, {weights});
-    std::vector<std::vector<Vec2>> lines;
-    for (const Contour& c : meant ? *meant : pages[i].lines) {
-      lines.push_back(positionsOf(c.points));
-      if (c.closed) lines.back().push_back(lines.back().front());
-    }
-    return judges[i].judge(lines);
-  };
+  return pages;
+}
+
+// Of the lines that the weights give, before curves are fitted.
+test::StrokeFigures judgeLines(const test::LearningPage& page, const test::StrokeJudge& judge,
+                               const IntentWeights& weights) {
+  const auto meant = intendedLines(page.lines, page.widthPx, {}, {}, {weights});
+  std::vector<std::vector<Vec2>> lines;
+  for (const Contour& c : meant ? *meant : page.lines) {
+    lines.push_back(positionsOf(c.points));
+    if (c.closed) lines.back().push_back(lines.back().front());
+  }
+  return judge.judge(lines);
+}
+
+// Grouped with weights that were not learned from the drawing itself.
+void printCrossValidated(const std::vector<test::LearningPage>& pages, const std::vector<test::StrokeJudge>& judges,
+                         const StrokeOptions& options) {
   const std::vector<IntentWeights> others = test::crossValidatedWeights(pages, options.folds);
   std::vector<test::StrokeFigures> own, fair;
-  for (std::size_t i = 0; i < drawings.size(); ++i) {
-    own.push_back(linesWith(i, learnedWeights()));
-    fair.push_back(linesWith(i, others[i]));
-    if (options.each) printEach(drawings[i], "not learned from", fair.back());
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    own.push_back(judgeLines(pages[i], judges[i], learnedWeights()));
+    fair.push_back(judgeLines(pages[i], judges[i], others[i]));
+    if (options.each) printEach(*pages[i].drawing, "not learned from", fair.back());
   }
   printSummaries("lines, as learned", own);
   printSummaries("lines, not learned", fair);
+}
+
+// Pairs of strokes first, wrong pairs more than missed ones, and the number of curves.
+double scoreOf(const test::StrokeFigures& f) {
+  constexpr double kPrecisionShare = 0.2, kCountShare = 0.3;
+  const double curves = std::max(1, f.curves), meant = std::max(1, f.clusters);
+  return f.f1 + kPrecisionShare * f.precision - kCountShare * std::min(1.0, std::fabs(std::log(curves / meant)));
+}
+
+void printLearned(const std::vector<test::LearningPage>& pages, const std::vector<test::StrokeJudge>& judges) {
+  const auto score = [&](const IntentWeights& weights) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < pages.size(); ++i) sum += scoreOf(judgeLines(pages[i], judges[i], weights));
+    return sum / std::max<double>(1.0, static_cast<double>(pages.size()));
+  };
+  const IntentWeights learned = test::crossValidatedWeights(pages, 1).front();
+  const IntentWeights tuned = test::tunedCautions(learned, score);
+  std::printf("score: of the program %.4f, learned %.4f, cautions tuned %.4f\n", score(learnedWeights()),
+              score(learned), score(tuned));
+  test::printWeights(tuned);
 }
 
 }  // namespace
@@ -211,6 +242,10 @@ int main(int argc, char** argv) {
   std::vector<test::StrokeJudge> judges(drawings.begin(), drawings.end());
   std::vector<Scan> scans;
   for (const test::StrokeDrawing& drawing : drawings) scans.push_back(drawing.page());
+  if (options->learn) {
+    printLearned(learningPages(drawings, scans, options->recipe), judges);
+    return 0;
+  }
   for (const Way& way : kWays) {
     std::vector<test::StrokeFigures> figures;
     for (std::size_t i = 0; i < drawings.size(); ++i) {
@@ -219,6 +254,6 @@ int main(int argc, char** argv) {
     }
     printSummaries(way.name, figures);
   }
-  if (options->folds > 1) printCrossValidated(drawings, scans, judges, *options);
+  if (options->folds > 1) printCrossValidated(learningPages(drawings, scans, options->recipe), judges, *options);
   return 0;
 }

@@ -28,6 +28,9 @@ constexpr double kDetailStep = 0.1;          // of `detail`: the steps of which 
 constexpr int kFewestControlPoints = 2;      // of any curve
 constexpr int kMostCompared = 40;            // control points
 constexpr int kFarMore = 2 * kMostCompared;  // what no smaller detail has so many fewer than
+constexpr double kFrayedDetail = 0.8;        // of ragged outlines of uneven ink
+constexpr double kFrayedLength = 4.0;        // tolerances of length for each extremum: waves, not a form that was drawn
+constexpr double kFrayedExtent = 40.0;       // tolerances of length: what is shorter is a form
 constexpr double kRaggedLength = 12.0;       // tolerances of length for each extremum: ragged where there is less
 
 std::string reasonOf(LightObstacle obstacle) {
@@ -162,6 +165,22 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   finishExact(piece, closed, light->report.kind);
 }
 
+/// Whether the tool frayed the border of uneven ink, and nothing says how much of that is meant.
+bool isFrayed(const NurbsCurve& dense, const ConstructContour& contour, int piece, const ConstructParams& params,
+              const RunContext& context) {
+  if (!contour.isUneven || !params.smoothRagged || contour.pieces[piece].detail || params.detail >= kFrayedDetail)
+    return false;
+  const double tolerance = lightOptions(params, contour, dense, kFrayedDetail).tolerance;
+  return ArcLength(dense, context).total() > kFrayedExtent * tolerance &&
+         isRagged(dense, contour.pieces[piece].closed, kFrayedLength / kRaggedLength * tolerance, context);
+}
+
+void noteFrayed(ConstructedPiece& piece) {
+  if (!piece.report.light || !piece.report.light->isSimplified) return;
+  // What the dense curve had to say of sharp turns is not of this one.
+  piece.report.note = "The ink is uneven and its border ragged: drawn with a detail of 0.8 (construct.smooth_ragged).";
+}
+
 }  // namespace
 
 LightOptions lightOptions(const ConstructParams& params, double pixelMm) {
@@ -209,8 +228,11 @@ Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const Construc
   parallelFor(context, static_cast<int>(made.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       if (context.isCancelled() || made[i].curve.isEmpty()) continue;
-      const double detail = contour.pieces[i].detail.value_or(params.detail);
-      lighten(made[i], contour.pieces[i].closed, detail, params, contour, context);
+      const double asked = contour.pieces[i].detail.value_or(params.detail);
+      const bool closed = contour.pieces[i].closed;
+      const double detail = isFrayed(made[i].curve, contour, i, params, context) ? kFrayedDetail : asked;
+      lighten(made[i], closed, detail, params, contour, context);
+      if (detail != asked) noteFrayed(made[i]);
     }
   });
   if (context.isCancelled()) return cancelled();

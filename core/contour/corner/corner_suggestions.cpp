@@ -288,6 +288,30 @@ std::vector<CornerEvidence> evidenceAt(const Contour& contour, const std::vector
   return all;
 }
 
+// Who draws several like corners on one line means the next like one too: what is likely, turns the same way, about as
+// far as they do, and has its tip in the ink is taken for granted with them. Of strokes: ink fills their corners, while
+// a border shows its own.
+void judgeAlike(const Contour& stroke, std::vector<CornerSuggestion>& all) {
+  constexpr int kFewestCertain = 3;
+  constexpr double kTipWidths = 0.6;  // from the line: the ink of a corner and what its filling takes
+  constexpr double kLikely = 0.5, kLeastTurnShare = 0.6;  // of the certain ones' in the middle
+  const std::vector<float> widths = strokeWidthsOf(stroke.points);
+  if (stroke.kind != ContourKind::Centreline || widths.empty()) return;
+  const double farthest = kTipWidths * upperMedian(std::vector<double>(widths.begin(), widths.end()));
+  for (const double sign : {-1.0, 1.0}) {
+    std::vector<double> turns;
+    for (const CornerSuggestion& s : all)
+      if (s.certainty >= kCertainCorner && sign * s.turningAngleRad > 0.0) turns.push_back(sign * s.turningAngleRad);
+    if (std::ssize(turns) < kFewestCertain) continue;
+    const double least = kLeastTurnShare * upperMedian(turns);
+    for (CornerSuggestion& s : all) {
+      const bool isLike = s.certainty >= kLikely && sign * s.turningAngleRad >= least;
+      if (isLike && (s.positionPx - stroke.points[s.pointIndex].at).norm() <= farthest)
+        s.certainty = std::max(s.certainty, kCertainCorner);
+    }
+  }
+}
+
 // Of one contour, whose index is left at 0.
 std::vector<CornerSuggestion> suggestionsAt(const Contour& contour, const std::vector<Candidate>& kept,
                                             const RunContext& context) {
@@ -307,6 +331,7 @@ std::vector<CornerSuggestion> suggestionsAt(const Contour& contour, const std::v
     }
     suggestions.push_back({0, e.pointIndex, e.positionPx, e.angleRad, judge.certainty(e)});
   }
+  judgeAlike(contour, suggestions);
   return suggestions;
 }
 

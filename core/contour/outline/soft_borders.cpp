@@ -65,6 +65,7 @@ Contour stretchOf(const Contour& c, int from, int to) {
   part.hole = c.hole;
   part.blurPx = c.blurPx;
   part.pencilPx = c.pencilPx;
+  part.isUneven = c.isUneven;
   part.traceMode = c.traceMode;
   for (int k = from; k <= to; ++k) part.points.push_back(c.points[wrapIndex(k, n)]);
   measureContour(part);

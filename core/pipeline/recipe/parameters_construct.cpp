@@ -164,6 +164,12 @@ void appendFit(std::vector<Parameter>& table) {
        "Light curves: 0 follows the ink; larger values remove larger deviations, up to a quarter of "
        "the ink width, and keep sharp corners. Taken in steps of 0.1."},
       {0.0, 1.0, 0.1, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
+  table.push_back(boolean(
+      kCurves,
+      {"construct.smooth_ragged", "Smooth ragged outlines", "",
+       "Light curves: outlines of dry brush, chalk and pencil tone are drawn with a detail of at least 0.8 where they "
+       "are ragged. Off: they follow the ink as all others do."},
+      [](auto& r) -> auto& { return r.construct.smoothRagged; }));
   table.push_back(real(
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",

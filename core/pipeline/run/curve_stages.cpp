@@ -60,6 +60,7 @@ ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, con
   ConstructContour input;
   input.isStroke = contour.kind == ContourKind::Centreline;
   input.pencilPx = contour.pencilPx;
+  input.isUneven = contour.isUneven;
   input.pixelMm = frame.mmPerPx;
   for (std::size_t i = range.first; i < range.last; ++i) {
     input.pieces.push_back(pieceInput(pieces.pieces[i], segments.pieces[i], frame));

@@ -132,5 +132,49 @@ TEST(SuggestCorners, EveryCornerOfALetterOnce) {
   }
 }
 
+// A stroke 4 px wide round a hexagon of 90 px, whose corners are rounded by these radii [px].
+ContourSet roundedHexagon(const std::vector<double>& radii, ContourKind kind) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 6; ++i) {
+    const auto vertex = [](int k) {
+      return Vec2(150 + 90 * std::cos(k * std::numbers::pi / 3), 150 + 90 * std::sin(k * std::numbers::pi / 3));
+    };
+    const Vec2 at = vertex(i), in = (at - vertex(i + 5)).normalized(), out = (vertex(i + 1) - at).normalized();
+    const double tangent = radii[i] * std::tan(std::numbers::pi / 6);
+    const Vec2 middle = at - tangent * in + radii[i] * leftNormal(in);
+    for (int k = 0; k <= 10; ++k) {
+      const double a = k / 10.0 * std::numbers::pi / 3;
+      points.push_back(middle - radii[i] * (std::cos(a) * leftNormal(in) - std::sin(a) * in));
+    }
+    const double length = 90 - tangent - radii[(i + 1) % 6] * std::tan(std::numbers::pi / 6);
+    for (double s = 0.8; s < length - 0.4; s += 0.8) points.push_back(at + (tangent + s) * out);
+  }
+  ContourSet set = fromPoints(points, true);
+  set.contours[0].kind = kind;
+  if (kind == ContourKind::Centreline)
+    for (ContourPoint& p : set.contours[0].points) p.widthPx = 4.0f;
+  return set;
+}
+
+int certainOf(const ContourSet& set) {
+  int count = 0;
+  for (const CornerSuggestion& s : suggestCorners(set, 28 * kDeg, 16.0, {})) count += s.certainty >= 0.95 ? 1 : 0;
+  return count;
+}
+
+// Ink fills the corners of strokes, one more than the other; a border is as it is.
+TEST(SuggestCorners, ALikelyCornerIsOneAmongItsLikeOnAStroke) {
+  const std::vector<double> sharp(6, 1.0);
+  std::vector<double> one = sharp, five(6, 12.0);
+  one[2] = 12.0;
+  five[2] = 1.0;
+  EXPECT_EQ(certainOf(roundedHexagon(sharp, ContourKind::Centreline)), 6);
+  EXPECT_EQ(certainOf(roundedHexagon(one, ContourKind::Centreline)), 6);
+  EXPECT_EQ(certainOf(roundedHexagon(five, ContourKind::Centreline)), 1) << "too few like it";
+  EXPECT_EQ(certainOf(roundedHexagon(one, ContourKind::Outline)), 5);
+  one[2] = 30.0;
+  EXPECT_EQ(certainOf(roundedHexagon(one, ContourKind::Centreline)), 5) << "a bend";
+}
+
 }  // namespace
 }  // namespace batten

@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "core/base/vec2.h"
+#include "tests/support/brush_ink.h"
 #include "tests/support/contour_shapes.h"
 
 namespace batten {
@@ -40,17 +40,7 @@ BrushPage ring(const std::vector<Hole>& holes, double mottle) {
   };
   BrushPage page{test::renderShape(inside, s), {}};
   page.ink = test::thresholdMask(page.grey, 135.0);
-  // Ink of a dry brush: patches of 5 px, lighter and darker.
-  std::mt19937 random(7);
-  std::vector<double> patch(61 * 61);
-  for (double& p : patch) p = mottle * (static_cast<double>(random() % 1000) / 500.0 - 1.0);
-  for (int y = 0; y < s.height; ++y) {
-    for (int x = 0; x < s.width; ++x) {
-      if (!page.ink.at(x, y)) continue;
-      const double level = static_cast<double>(page.grey.level(x, y)) + mottle + patch[y / 5 * 61 + x / 5];
-      page.grey.row(y)[x] = static_cast<std::uint16_t>(std::clamp(level, 0.0, 255.0) * GreyImage::kGreyUnit);
-    }
-  }
+  test::dryInk(page.grey, page.ink, mottle);
   return page;
 }
 

@@ -29,11 +29,12 @@ namespace batten {
 namespace {
 
 /// Parameters of the panel, from top to bottom.
-constexpr std::array<std::string_view, 20> kSettings = {"construct.start",
+constexpr std::array<std::string_view, 21> kSettings = {"construct.start",
                                                         "construct.derivative_magnitude",
                                                         "construct.keep_extrema",
                                                         "construct.light",
                                                         "construct.detail",
+                                                        "construct.smooth_ragged",
                                                         "construct.light_tolerance",
                                                         "construct.reduce",
                                                         "construct.lowpass",
@@ -275,6 +276,7 @@ void CurvesPanel::refreshRows() {
   editor_->setRowVisible("construct.light_tolerance", method == ConstructMethod::Fair && light);
   const bool detailed = method == ConstructMethod::Fair && light;
   editor_->setRowVisible("construct.detail", detailed);
+  editor_->setRowVisible("construct.smooth_ragged", detailed);
   detailScope_->setVisible(detailed && session_.curves().size() > 1);
   detailScope_->setSegmentEnabled(1, session_.selected() != nullptr);
   editor_->row("construct.detail")->sync();
