@@ -59,14 +59,14 @@ bool hasKnotsOf(const NurbsCurve& curve, int multiplicity) {
   return false;
 }
 
-/// Ragged: more extrema than a line that was meant so could have.
-bool isRagged(const NurbsCurve& curve, bool closed, double tolerance, const RunContext& context) {
-  return countedExtrema(curve, closed, context) * kRaggedLength * tolerance > ArcLength(curve, context).total();
+/// Ragged: more extrema than a line that was meant so could have. @param lengthForEach of the line, at least
+bool isRagged(const NurbsCurve& curve, bool closed, double lengthForEach, const RunContext& context) {
+  return countedExtrema(curve, closed, context) * lengthForEach > ArcLength(curve, context).total();
 }
 
 Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOptions& options, bool simplified,
                            const RunContext& context) {
-  const bool ragged = simplified && isRagged(dense, closed, options.tolerance, context);
+  const bool ragged = simplified && isRagged(dense, closed, kRaggedLength * options.tolerance, context);
   if (ragged) {
     if (auto simple = simplifiedCurve(dense, closed, options, context)) return std::move(*simple);
   }
@@ -172,7 +172,7 @@ bool isFrayed(const NurbsCurve& dense, const ConstructContour& contour, int piec
     return false;
   const double tolerance = lightOptions(params, contour, dense, kFrayedDetail).tolerance;
   return ArcLength(dense, context).total() > kFrayedExtent * tolerance &&
-         isRagged(dense, contour.pieces[piece].closed, kFrayedLength / kRaggedLength * tolerance, context);
+         isRagged(dense, contour.pieces[piece].closed, kFrayedLength * tolerance, context);
 }
 
 void noteFrayed(ConstructedPiece& piece) {
