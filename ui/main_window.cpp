@@ -194,6 +194,10 @@ void MainWindow::connectSession() {
   connect(p.exportPanel, &ExportPanel::said, this,
           [this](const QString& text) { parts_->status->showMessage(text, {}, {}); });
   connect(p.exportPanel, &ExportPanel::exported, p.rail, &StageRail::setExported);
+  connect(&p.threadShortage, &ThreadShortage::changed, this, [this](bool isShort) {
+    const QString text = tr("Nothing can be computed now: the system has no threads left. Close other programs.");
+    parts_->status->setTrouble(StatusLine::Trouble::Threads, isShort ? text : QString());
+  });
   connect(p.errors, &ErrorStrip::actionPressed, this, [this] {
     if (const auto remedy = parts_->remedy) remedy();
   });
