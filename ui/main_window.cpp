@@ -198,6 +198,11 @@ void MainWindow::connectSession() {
     const QString text = tr("Nothing can be computed now: the system has no threads left. Close other programs.");
     parts_->status->setTrouble(StatusLine::Trouble::Threads, isShort ? text : QString());
   });
+  connect(p.journal.get(), &RecipeJournal::failingChanged, this, [this](bool isFailing) {
+    const QString text = tr("Save the recipe soon: a crash would lose this work, as %1 cannot be written.");
+    parts_->status->setTrouble(StatusLine::Trouble::Journal,
+                               isFailing ? text.arg(shownPath(journalFolder())) : QString());
+  });
   connect(p.errors, &ErrorStrip::actionPressed, this, [this] {
     if (const auto remedy = parts_->remedy) remedy();
   });
