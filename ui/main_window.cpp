@@ -75,7 +75,7 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   row->addWidget(makeInspector());
   parts_->status = new StatusLine(session_, whole);
   column->addWidget(parts_->topBar);
-  column->addWidget(parts_->errors);
+  parts_->errors->layOver(parts_->canvas);
   column->addLayout(row, 1);
   column->addWidget(parts_->status);
   setCentralWidget(whole);
