@@ -26,6 +26,7 @@ namespace {
 constexpr int kCurveRow = 26;          // [px] Height.
 constexpr int kLeastRows = 10;         ///< That are seen without scrolling in the list itself, where there are as many.
 constexpr int kFewRows = 4;            ///< A drawing of so many curves gets a list as short as they are.
+constexpr int kMostKept = 20;          ///< For more rows no room is kept: a high panel would scroll because of it.
 constexpr double kShareOfPanel = 0.4;  ///< That the list may take of a high one.
 constexpr int kEyeWidth = 26;          // [px] At the left.
 constexpr int kIconSize = 14;          // px
@@ -227,7 +228,7 @@ void CurveList::fitHeight() {
   setFixedHeight(heightOfRows(shown));
   // Nor when a setting brings or takes curves: the room for them stays once there were more than a few.
   isLong_ = isLong_ || count() > kFewRows;
-  const int left = isLong_ ? heightOfRows(rows) - heightOfRows(shown) : 0;
+  const int left = isLong_ ? std::max(0, heightOfRows(std::min(rows, kMostKept)) - heightOfRows(shown)) : 0;
   if (left == below_->sizeHint().height()) return;
   below_->changeSize(0, left, QSizePolicy::Minimum, QSizePolicy::Fixed);
   if (parentWidget()->layout()) parentWidget()->layout()->invalidate();
