@@ -2,6 +2,7 @@
 #include "ui/error_strip.h"
 
 #include <QAccessible>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
@@ -35,6 +36,23 @@ ErrorStrip::ErrorStrip(QWidget* parent)
   hide();
 }
 
+void ErrorStrip::layOver(QWidget* drawing) {
+  drawing_ = drawing;
+  drawing->installEventFilter(this);
+}
+
+bool ErrorStrip::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == drawing_ && (event->type() == QEvent::Resize || event->type() == QEvent::Move)) place();
+  return QWidget::eventFilter(watched, event);
+}
+
+void ErrorStrip::place() {
+  if (drawing_ == nullptr || isHidden()) return;
+  const int width = drawing_->width();
+  setGeometry(QRect(drawing_->mapTo(parentWidget(), QPoint(0, 0)), QSize(width, layout()->heightForWidth(width))));
+  raise();
+}
+
 void ErrorStrip::show(const QString& message, const QString& action, const QString& dismiss) {
   text_->setText(message);
   text_->setAccessibleName(message);
@@ -44,6 +62,7 @@ void ErrorStrip::show(const QString& message, const QString& action, const QStri
   dismiss_->setText(dismiss.isEmpty() ? tr("Dismiss") : dismiss);
   dismiss_->setAccessibleName(dismiss_->text());
   QWidget::show();
+  place();
   QAccessibleEvent event(text_, QAccessible::Alert);
   QAccessible::updateAccessibility(&event);
 }

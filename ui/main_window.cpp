@@ -75,7 +75,7 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   row->addWidget(makeInspector());
   parts_->status = new StatusLine(session_, whole);
   column->addWidget(parts_->topBar);
-  column->addWidget(parts_->errors);
+  parts_->errors->layOver(parts_->canvas);
   column->addLayout(row, 1);
   column->addWidget(parts_->status);
   setCentralWidget(whole);
@@ -194,6 +194,15 @@ void MainWindow::connectSession() {
   connect(p.exportPanel, &ExportPanel::said, this,
           [this](const QString& text) { parts_->status->showMessage(text, {}, {}); });
   connect(p.exportPanel, &ExportPanel::exported, p.rail, &StageRail::setExported);
+  connect(&p.threadShortage, &ThreadShortage::changed, this, [this](bool isShort) {
+    const QString text = tr("Nothing can be computed now: the system has no threads left. Close other programs.");
+    parts_->status->setTrouble(StatusLine::Trouble::Threads, isShort ? text : QString());
+  });
+  connect(p.journal.get(), &RecipeJournal::failingChanged, this, [this](bool isFailing) {
+    const QString text = tr("Save the recipe soon: a crash would lose this work, as %1 cannot be written.");
+    parts_->status->setTrouble(StatusLine::Trouble::Journal,
+                               isFailing ? text.arg(shownPath(journalFolder())) : QString());
+  });
   connect(p.errors, &ErrorStrip::actionPressed, this, [this] {
     if (const auto remedy = parts_->remedy) remedy();
   });

@@ -16,6 +16,7 @@
 #include "ui/session/background_worker.h"
 #include "ui/session/inbox.h"
 #include "ui/session/recipe_journal.h"
+#include "ui/session/thread_shortage.h"
 
 class QSplitter;
 class QStackedWidget;
@@ -75,6 +76,7 @@ struct MainWindow::Parts {
   std::function<void()> remedy, dismissal;      ///< Of the message shown.
   std::optional<FailureOrigin> problemOrigin;   ///< Of the message shown.
   UnsavedQuestion unsavedQuestion;
+  ThreadShortage threadShortage{BackgroundThreads::shared()};
   std::unique_ptr<RecipeJournal> journal;
   std::unique_ptr<OpeningGuard> opening;
   std::optional<RecipeJournal::Left> leftWork;  ///< Offered, not yet answered.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/status_line.h"
 
+#include <QAccessible>
 #include <QFontMetrics>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -148,7 +149,25 @@ void StatusLine::showMessage(const QString& text, const QString& actionText, std
 
 void StatusLine::refreshHint() {
   act_->setVisible(action_ != nullptr);
-  hint_->setText(!message_.isEmpty() ? message_ : placeHint_.isEmpty() ? stageHint_ : placeHint_);
+  const bool showsTrouble = message_.isEmpty() && !troubles_.empty();
+  hint_->setForegroundRole(showsTrouble ? QPalette::WindowText : QPalette::PlaceholderText);
+  hint_->setText(!message_.isEmpty()    ? message_
+                 : showsTrouble         ? troubles_.begin()->second
+                 : placeHint_.isEmpty() ? stageHint_
+                                        : placeHint_);
+}
+
+void StatusLine::setTrouble(Trouble trouble, const QString& text) {
+  const auto found = troubles_.find(trouble);
+  if (found == troubles_.end() ? text.isEmpty() : text == found->second) return;
+  if (text.isEmpty())
+    troubles_.erase(found);
+  else
+    troubles_[trouble] = text;
+  refreshHint();
+  if (text.isEmpty()) return;
+  QAccessibleEvent event(hint_, QAccessible::Alert);
+  QAccessible::updateAccessibility(&event);
 }
 
 void StatusLine::updateStageHint(const QString& text) {

@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <QWidget>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "core/base/vec2.h"
@@ -29,6 +30,10 @@ class StatusLine : public QWidget {
   void updateStageHint(const QString& text);
   /// Says what has happened, for five seconds or until the stage changes; with an action, beside a button that does it.
   void showMessage(const QString& text, const QString& actionText = {}, std::function<void()> action = {});
+  /// What keeps the program from its work. Its text stands over every hint until it is over.
+  enum class Trouble { Threads, Journal };
+  /// @param text what is wrong and what to do; empty: it is over.
+  void setTrouble(Trouble trouble, const QString& text);
 
  signals:
   void scaleAsked();  ///< "no scale: set it" was pressed.
@@ -47,6 +52,7 @@ class StatusLine : public QWidget {
   void refreshHint();
   EditorSession& session_;
   QString stageHint_, placeHint_, message_;
+  std::map<Trouble, QString> troubles_;  ///< The first one is shown.
   QTimer messageTimer_;
   QLabel *millimetres_, *pixels_, *scale_, *zoom_, *hint_, *work_;
   QPushButton* setScale_;

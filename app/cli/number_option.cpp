@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 
 namespace batten::cli {
 namespace {
@@ -15,7 +16,7 @@ CLI::Option* addRead(CLI::App& app, const std::string& name, const std::function
     const std::optional<Number> number = read(text);
     // NaN lies in no range.
     const bool isWithin = number && *number >= range.least && *number <= range.most;
-    if (!isWithin) throw CLI::ValidationError(name + " takes " + range.what + ", not \"" + text + "\"");
+    if (!isWithin) throw CLI::ValidationError(name + " takes " + range.what + ", not " + quotedText(text));
     set(*number);
   };
   return app.add_option_function<std::string>(name, take, help);

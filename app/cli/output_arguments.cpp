@@ -8,6 +8,7 @@
 #include "app/cli/stage_dump.h"
 #include "app/cli/wrong_words.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/exchange/format_options.h"
 
 namespace batten::cli {
@@ -41,7 +42,7 @@ Result<OutputPlan::Output> outputOf(const std::string& path, const TraceArgument
   if (!arguments.preset.empty()) {
     const ExportPreset* preset = findPreset(arguments.preset);
     if (preset == nullptr)
-      return wrong("There is no preset \"" + arguments.preset + "\". Presets: " + presetNames() + ".");
+      return wrong("There is no preset " + quotedText(arguments.preset) + ". Presets: " + presetNames() + ".");
     if (isFor(*preset, *format)) settings = settingsFor(*preset, *format);
   }
   settings.format = *format;
@@ -49,14 +50,14 @@ Result<OutputPlan::Output> outputOf(const std::string& path, const TraceArgument
   if (arguments.scale) {
     const auto scale = numberFromText(*arguments.scale);
     if (!scale)
-      return wrong("--scale takes a number from 0.000001 to 1000000, such as 0.5 or 2, not \"" + *arguments.scale +
-                   "\".");
+      return wrong("--scale takes a number from 0.000001 to 1000000, such as 0.5 or 2, not " +
+                   quotedText(*arguments.scale) + ".");
     settings.scale = *scale;
   }
   if (arguments.tolerance) {
     settings.toleranceMm = numberFromText(*arguments.tolerance);
     if (!settings.toleranceMm)
-      return wrong("--tolerance takes a length in mm, such as 0.005, not \"" + *arguments.tolerance + "\".");
+      return wrong("--tolerance takes a length in mm, such as 0.005, not " + quotedText(*arguments.tolerance) + ".");
   }
   if (arguments.joined) settings.joined = true;
   if (arguments.apart) settings.joined = false;
@@ -74,20 +75,20 @@ Result<OutputPlan::Output> outputOf(const std::string& path, const TraceArgument
 Result<OutputPlan> planExport(const TraceArguments& arguments) {
   OutputPlan plan;
   if (!arguments.unit.empty() && arguments.unit != "mm" && arguments.unit != "in")
-    return wrong("--unit takes mm or in, not \"" + arguments.unit + "\".");
+    return wrong("--unit takes mm or in, not " + quotedText(arguments.unit) + ".");
   if (arguments.which == "sketched") plan.which = ExportedCurves::Sketched;
   if (arguments.which == "both") plan.which = ExportedCurves::Both;
   if (!arguments.which.empty() && arguments.which != "faired" && plan.which == ExportedCurves::Faired)
-    return wrong("--which takes faired, sketched or both, not \"" + arguments.which + "\".");
+    return wrong("--which takes faired, sketched or both, not " + quotedText(arguments.which) + ".");
   const std::string& flavour = arguments.flavour;
   if (!flavour.empty() && flavour != "exact" && flavour != "bezier" && flavour != "cubic")
-    return wrong("--flavour takes exact, bezier or cubic, not \"" + flavour + "\".");
+    return wrong("--flavour takes exact, bezier or cubic, not " + quotedText(flavour) + ".");
   if (arguments.joined && arguments.apart) return wrong("--joined and --apart exclude each other. Give one of them.");
   if (arguments.curves && arguments.curves->empty())
     return wrong("--curves is empty. Give numbers such as 1,3-5, or omit it to write all.");
   plan.curves = arguments.curves.value_or("");
   if (!arguments.paper.empty() && arguments.paper != "a4" && arguments.paper != "letter")
-    return wrong("--paper takes a4 or letter, not \"" + arguments.paper + "\".");
+    return wrong("--paper takes a4 or letter, not " + quotedText(arguments.paper) + ".");
   for (const std::string& path : arguments.outputs) {
     if (const auto report = reportFormatOf(path)) {
       plan.reports.push_back({path, *report, arguments.paper == "letter" ? ReportPaper::Letter : ReportPaper::A4});
@@ -152,7 +153,7 @@ Result<OutputPlan::Dump> dumpOf(const std::string& dump) {
   std::string known;
   for (const std::string& one : names) known.append(known.empty() ? "" : ", ").append(one);
   if (equals == std::string::npos || std::find(names.begin(), names.end(), stage) == names.end()) {
-    return wrong("--dump takes STAGE=FILE.png, not \"" + dump + "\". Stages: " + known + ".");
+    return wrong("--dump takes STAGE=FILE.png, not " + quotedText(dump) + ". Stages: " + known + ".");
   }
   const std::string path = dump.substr(equals + 1);
   if (endingOf(path) != ".png") return wrong("The dump " + path + " must end in .png.");

@@ -7,6 +7,7 @@
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/base/regular_file.h"
+#include "core/base/shown_text.h"
 #include "core/image/file/pdf_scan.h"
 #include "core/pipeline/recipe/paper_presets.h"
 #include "core/pipeline/recipe/parameter_table.h"
@@ -28,7 +29,7 @@ Result<void> applyPage(const TraceArguments& arguments, Recipe& recipe) {
     const auto dpi = numberFromText(*arguments.dpi);
     if (!dpi || (isDrawn && (*dpi < kCoarsestPdfDpi || *dpi > kFinestPdfDpi)))
       return wrong(std::string("--dpi takes a number from ") + (isDrawn ? "20 to 4800 for a PDF" : "1 to 100000") +
-                   ", not \"" + *arguments.dpi + "\".");
+                   ", not " + quotedText(*arguments.dpi) + ".");
     if (isDrawn) {
       recipe.scanPage.pdfDpi = *dpi;
     } else {
@@ -39,7 +40,7 @@ Result<void> applyPage(const TraceArguments& arguments, Recipe& recipe) {
   const auto page = integerFromText(*arguments.page);
   if (!page || *page < 1 || *page > kMostPages)
     return wrong("--page takes the number of a page, 1 to 100000" +
-                 std::string(arguments.takesAllPages ? ", or all" : "") + ", not \"" + *arguments.page + "\".");
+                 std::string(arguments.takesAllPages ? ", or all" : "") + ", not " + quotedText(*arguments.page) + ".");
   if (arguments.scan.empty()) return wrong("--page needs a scan: name the file.");
   recipe.scanPage.number = *page;
   return {};
@@ -54,7 +55,7 @@ Result<Recipe> readRecipe(const std::string& path) {
 
 Result<void> applySetting(const std::string& setting, Recipe& recipe) {
   const auto equals = setting.find('=');
-  if (equals == std::string::npos) return wrong("--set takes stage.parameter=value, not \"" + setting + "\".");
+  if (equals == std::string::npos) return wrong("--set takes stage.parameter=value, not " + quotedText(setting) + ".");
   return setParameter(recipe, trimmed(std::string_view(setting).substr(0, equals)),
                       std::string_view(setting).substr(equals + 1));
 }
@@ -100,8 +101,8 @@ Result<void> applyCorner(const std::string& corner, Recipe& recipe) {
   if (!mark) {
     return wrong(
         "--corner takes X,Y in px from the upper left corner, or X,Y,MM to round it from this distance on, or "
-        "X,Y,rMM to round it by this radius, each with ,g1 ,g2 or ,g3 behind it, not \"" +
-        corner + "\".");
+        "X,Y,rMM to round it by this radius, each with ,g1 ,g2 or ,g3 behind it, not " +
+        quotedText(corner) + ".");
   }
   recipe.cornerMarks.push_back(*mark);
   return {};
@@ -111,7 +112,7 @@ Result<void> applyCorner(const std::string& corner, Recipe& recipe) {
 Result<Vec2> placeOf(const char* option, const std::string& text) {
   const auto values = numbersOf(text);
   if (!values || values->size() != 2) {
-    return wrong(std::string(option) + " takes X,Y in px from the upper left corner, not \"" + text + "\".");
+    return wrong(std::string(option) + " takes X,Y in px from the upper left corner, not " + quotedText(text) + ".");
   }
   return Vec2((*values)[0], (*values)[1]);
 }
@@ -148,8 +149,8 @@ Result<void> applyKnownLength(const std::string& line, Recipe& recipe) {
   if (!isWhole || !resolutionOf(scale)) {
     return wrong(
         "--known-length takes X,Y,X,Y,LENGTH: two places in px from the upper left corner and their distance "
-        "with its unit, as 100mm, 10cm or 4in, not \"" +
-        line + "\".");
+        "with its unit, as 100mm, 10cm or 4in, not " +
+        quotedText(line) + ".");
   }
   setScaleLine(recipe, scale);
   return {};
@@ -160,8 +161,8 @@ Result<void> applyDirection(const std::string& direction, Recipe& recipe) {
   if (!values || values->size() != 4) {
     return wrong(
         "--direction takes X,Y,X,Y in px from the upper left corner, a point on a curve and one "
-        "that the curve should run towards, not \"" +
-        direction + "\".");
+        "that the curve should run towards, not " +
+        quotedText(direction) + ".");
   }
   recipe.directions.push_back({Vec2((*values)[0], (*values)[1]), Vec2((*values)[2], (*values)[3])});
   return {};
@@ -187,8 +188,8 @@ Result<void> applyPairing(const std::string& pairing, Recipe& recipe) {
   if (!values || values->size() % 4 != 2) {
     return wrong(
         "--pair takes X,Y of a junction and behind it, for every two branches that are one stroke, X,Y,X,Y: a point on "
-        "each, all in px from the upper left corner; without them every stroke ends there. Not \"" +
-        pairing + "\".");
+        "each, all in px from the upper left corner; without them every stroke ends there. Not " +
+        quotedText(pairing) + ".");
   }
   const auto place = [&](std::size_t i) { return Vec2((*values)[i], (*values)[i + 1]); };
   JunctionChoice choice{place(0), {}};
@@ -200,7 +201,7 @@ Result<void> applyPairing(const std::string& pairing, Recipe& recipe) {
 Result<void> applyRegion(const std::string& region, Recipe& recipe) {
   const auto numbers = numbersOf(region);
   if (!numbers || numbers->size() != 4 || !((*numbers)[2] > 0.0) || !((*numbers)[3] > 0.0)) {
-    return wrong("--roi takes X,Y,WIDTH,HEIGHT in px from the upper left corner, not \"" + region + "\".");
+    return wrong("--roi takes X,Y,WIDTH,HEIGHT in px from the upper left corner, not " + quotedText(region) + ".");
   }
   const Vec2 corner((*numbers)[0], (*numbers)[1]);
   recipe.regions.push_back(rectangleRegion(corner, corner + Vec2((*numbers)[2], (*numbers)[3])));
@@ -215,7 +216,7 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   if (!arguments.asIn.empty()) {
     const PaperPreset* paper = findPaperPreset(arguments.asIn);
     if (paper == nullptr)
-      return wrong("There is no paper \"" + arguments.asIn + "\". --as-in takes " + paperPresetNames() + ".");
+      return wrong("There is no paper " + quotedText(arguments.asIn) + ". --as-in takes " + paperPresetNames() + ".");
     if (auto set = applyPaperPreset(*paper, *recipe); !set) return fail(set.error());
   }
   for (const std::string& setting : arguments.settings) {

@@ -62,14 +62,14 @@ Result<int> threadsOf(const TraceArguments& arguments) {
   if (!arguments.threads) return 0;
   const auto threads = integerFromText(*arguments.threads);
   if (threads && *threads >= 0 && *threads <= kMostThreads) return *threads;
-  return wrong("--threads takes a whole number from 0 to 1024, not \"" + *arguments.threads + "\".");
+  return wrong("--threads takes a whole number from 0 to 1024, not " + quotedText(*arguments.threads) + ".");
 }
 
 Result<TracePlan> withImports(const TraceArguments& arguments, const PageFrame* frame, TracePlan plan) {
   std::optional<double> unit;
   if (!arguments.importUnit.empty()) {
     unit = millimetresOfUnit(arguments.importUnit);
-    if (!unit) return wrong("--import-unit takes mm, cm, m or in, not \"" + arguments.importUnit + "\".");
+    if (!unit) return wrong("--import-unit takes mm, cm, m or in, not " + quotedText(arguments.importUnit) + ".");
     if (arguments.imports.empty()) return wrong("--import-unit needs a file: add --import FILE.");
   }
   for (const std::string& name : arguments.imports) {

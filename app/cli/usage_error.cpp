@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/edit_distance.h"
+#include "core/base/shown_text.h"
 
 namespace batten::cli {
 namespace {
@@ -32,7 +33,7 @@ Error wordTooMany(const std::string& command, const std::vector<std::string>& wo
       std::find_if(words.begin(), words.end(), [](const std::string& w) { return w.size() > 1 && w.front() == '-'; });
   std::string line;
   if (option == words.end()) {
-    line = "\"" + words.front() + "\" is an unexpected argument of " + command + ".";
+    line = quotedText(words.front()) + " is an unexpected argument of " + command + ".";
   } else {
     line = command + " has no option " + *option + ".";
     if (command == "suggest" && (*option == "-o" || *option == "--output")) {

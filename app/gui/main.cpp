@@ -2,13 +2,16 @@
 #include <QApplication>
 #include <QDir>
 #include <QFileInfo>
+#include <QThreadPool>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
 #include "core/base/platform.h"
 #include "core/base/platform_memory.h"
 #include "ui/main_window.h"
+#include "ui/session/painting_threads.h"
 #include "ui/session/path_text.h"
 
 namespace {
@@ -30,6 +33,19 @@ bool answeredInWords(int argc, char** argv) {
              "an empty page") >= 0;
 }
 
+int runWindow(int argc, char** argv) {
+  batten::MainWindow window;
+  window.show();
+  // Qt has taken its own arguments out; the rest are bytes, as the system has them.
+  if (argc > 1) {
+    window.offerLeftWork();
+    window.openPath(batten::absolutePath(batten::pathText(std::filesystem::path(argv[1]))));
+  } else {
+    window.openAtStart(samplePath());  // The sample opens with its finished recipe, for exploration.
+  }
+  return QApplication::exec();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -44,14 +60,13 @@ int main(int argc, char** argv) {
   QGuiApplication::setDesktopFileName(QStringLiteral("org.batten.Batten"));
   QGuiApplication::setApplicationDisplayName(QStringLiteral("Batten"));
 
-  batten::MainWindow window;
-  window.show();
-  // Qt has taken its own arguments out; the rest are bytes, as the system has them.
-  if (argc > 1) {
-    window.offerLeftWork();
-    window.openPath(batten::absolutePath(batten::pathText(std::filesystem::path(argv[1]))));
-  } else {
-    window.openAtStart(samplePath());  // The sample opens with its finished recipe, for exploration.
-  }
-  return QApplication::exec();
+  const auto painters = batten::keepPaintingThreads(*QThreadPool::globalInstance());
+  int code = 1;
+  if (painters == batten::PaintingThreads::None)
+    std::fputs("batten: the system starts no more threads. Close other programs and start Batten again.\n", stderr);
+  else
+    code = runWindow(argc, argv);
+  // Qt would wait for those that were never started.
+  if (painters != batten::PaintingThreads::All) std::_Exit(code);
+  return code;
 }

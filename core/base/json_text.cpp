@@ -35,15 +35,20 @@ class Builder {
 
   bool key(std::string& name) {
     Level& level = levels_.back();
+    if (name.size() > limits_.nameBytes)
+      return refuse("it holds " + quotedText(name) + ", a name of more than " + std::to_string(limits_.nameBytes) +
+                    " bytes");
     if (level.keys.size() >= limits_.keys)
       return refuse("one of its objects holds more than " + std::to_string(limits_.keys) + " names");
-    if (!level.keys.insert(name).second) return refuse("it holds \"" + name.substr(0, kShownKey) + "\" twice");
+    if (!level.keys.insert(name).second) return refuse("it holds " + quotedText(name) + " twice");
     level.key = std::move(name);
     return true;
   }
 
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) {
-    problem_ = {ErrorCode::BadParameter, "it is incomplete or was not written by Batten", error.what()};
+    // What the library says quotes all of the word at which it stopped.
+    problem_ = {ErrorCode::BadParameter, "it is incomplete or was not written by Batten",
+                std::string(error.what()).substr(0, kDetailBytes)};
     return false;
   }
 
@@ -53,7 +58,7 @@ class Builder {
   }
 
  private:
-  static constexpr std::size_t kShownKey = 60;  // bytes of a key in a message
+  static constexpr std::size_t kDetailBytes = 300;
 
   struct Level {
     Json* value;

@@ -17,6 +17,7 @@ struct JsonLimits {
   std::size_t bytes = std::size_t{64} << 20;  ///< of the whole text
   std::size_t depth = 64;                     ///< arrays and objects within one another
   std::size_t keys = 1000;                    ///< of one object
+  std::size_t nameBytes = 1000;               ///< of the name of one value
   std::size_t values = 4'000'000;             ///< of the whole text; each takes some fifty bytes once it is read
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/shown_text.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -70,6 +71,19 @@ std::string shownText(std::string_view bytes) {
     bytes.remove_prefix(length);
   }
   return shown;
+}
+
+std::string quotedText(std::string_view bytes) {
+  std::size_t end = 0;
+  while (end < bytes.size()) {
+    const std::size_t next = end + std::max<std::size_t>(firstOf(bytes.substr(end)).bytes, 1);
+    if (next > kQuotedBytes) break;
+    end = next;
+  }
+  std::string quoted = shownText(bytes.substr(0, end));
+  quoted.insert(quoted.begin(), '"');
+  quoted.append(end < bytes.size() ? "…\"" : "\"");
+  return quoted;
 }
 
 std::size_t characterBytes(std::string_view text) { return firstOf(text).bytes; }

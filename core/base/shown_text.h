@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -12,6 +13,11 @@ namespace batten {
 /// width, noncharacters - becomes a question mark, one per byte or character.
 std::string shownText(std::string_view bytes);
 inline std::string shownName(const std::filesystem::path& path) { return shownText(path.string()); }
+
+/// A name or value as a message may quote it: in quotation marks, as shownText has it, and where it is longer than
+/// kQuotedBytes cut there, with "…" for the rest.
+std::string quotedText(std::string_view bytes);
+inline constexpr std::size_t kQuotedBytes = 80;  // a line of a terminal
 
 /// How many bytes the character takes with which a text that is not empty begins; 0 if it is no well-formed UTF-8.
 std::size_t characterBytes(std::string_view text);

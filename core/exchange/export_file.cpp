@@ -385,7 +385,7 @@ ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& n
 Result<ExportDocument> chosenCurves(const ExportDocument& document, const std::string& list) {
   const auto numbers = numbersOf(list);
   if (!numbers) {
-    return fail(ErrorCode::BadParameter, "Give curve numbers such as 1,3-5, not \"" + list + "\".");
+    return fail(ErrorCode::BadParameter, "Give curve numbers such as 1,3-5, not " + quotedText(list) + ".");
   }
   std::set<int> missing = *numbers;
   for (const auto& line : pieceNumbers(document))

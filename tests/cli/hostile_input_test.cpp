@@ -34,6 +34,8 @@ TEST_F(HostileInput, NestedJsonIsRefused) {
   const std::string start = "trace " + scene() + " -o " + file("o.svg") + " --recipe ";
   expectRefused(start + file("recipe.json"), 2, "nested more than 64 levels deep");
   expectRefused("compare " + file("curves.json") + " " + file("curves.json"), 3, "nested more than 64 levels deep");
+  write("manifest.jsonl", R"({"scan":"a.png","outputs":)" + deep + "}\n");
+  expectRefused("batch " + file("manifest.jsonl"), 2, "Line 1 of the manifest: it is nested more than 64 levels deep");
   write("open.json", std::string(5'000'000, '['));
   expectRefused(start + file("open.json"), 2, "nested more than 64 levels deep");
 }
@@ -43,6 +45,33 @@ TEST_F(HostileInput, ManyNamesTakeNoTime) {
   for (int i = 0; i < 200'000; ++i) text += ",\"k" + std::to_string(i) + "\":0";
   write("keys.json", text + "}");
   expectRefused("trace " + scene() + " -o " + file("o.svg") + " --recipe " + file("keys.json"), 2, "1000 names");
+}
+
+TEST_F(HostileInput, LongNamesAndValuesAreQuotedInShort) {
+  const std::string start = "trace " + scene() + " -o " + file("o.svg") + " --recipe ";
+  const std::string longest(2'000'000, 'n'), most(1000, 'n');
+  const auto expectShort = [&](const std::string& words, int code, const std::string& says) {
+    expectRefused(words, code, says);
+    EXPECT_LT(run(words).err.size(), 500u) << words.substr(0, 200);
+  };
+  const std::string head = R"({"format":"batten-recipe","version":1,)";
+  write("r.json", head + "\"" + longest + "\":0}");
+  expectShort(start + file("r.json"), 2, "a name of more than 1000 bytes");
+  write("r.json", head + "\"" + most + "\":0}");
+  expectShort(start + file("r.json"), 2, "n…\", which this version of Batten does not know");
+  write("r.json", head + "\"a\\u0007\\u001b[31m\":0}");
+  expectShort(start + file("r.json"), 2, "\"a??[31m\"");
+  for (const std::string parameter : {"construct.method", "inks.drop", "fairing.profile"}) {
+    write("r.json", head + R"("parameters":{")" + parameter + "\":\"" + longest + "\"}}");
+    expectShort(start + file("r.json"), 2, "");
+  }
+  write("r.json", head + R"("parameters":{")" + most + "\":1}}");
+  expectShort(start + file("r.json"), 2, "There is no parameter \"nnn");
+  write("c.json", R"({"format":"batten-curves","version":")" + longest + "\"}");
+  expectShort("compare " + file("c.json") + " " + file("c.json"), 3, "it is of version");
+  expectShort(start + file("r.json") + " --set " + std::string(100'000, 'n') + "=1", 2, "n…\"");
+  write("m.jsonl", "{\"" + most + "\":0}\n");
+  expectShort("batch " + file("m.jsonl"), 2, "there is no \"nnn");
 }
 
 TEST_F(HostileInput, MoreThanADrawingHasIsRefusedAtOnce) {

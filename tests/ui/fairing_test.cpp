@@ -16,10 +16,12 @@
 #include "core/fairing/target_advice.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/stages/fairing_figures.h"
 #include "ui/panels/targets/shape_view.h"
 #include "ui/panels/targets/shape_window.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/plots/plot_editing.h"
+#include "ui/session/edits/fairing_edits.h"
 
 namespace batten {
 namespace {
@@ -341,6 +343,42 @@ TEST(TargetAdvice, NothingIsRecommendedThatAddsBumpsDoesNotMoveOrIsUnlike) {
   EXPECT_FALSE(isAdvised(4, 2, 0.11));
   EXPECT_FALSE(isAdvised(4, 2, 0.05, false));
   EXPECT_FALSE(isAdvisable(TargetOutcomes{}, 3, 0.1));
+}
+
+TEST(FairingNote, ATargetThatIsTooFarGetsOneAdvice) {
+  TracedCurve curve;
+  curve.sketched = curve.faired = NurbsCurve::make(1, {0.0, 0.0, 1.0, 1.0}, {Vec2(0, 0), Vec2(10, 0)}).value();
+  curve.fairingUsed.mode = FairingMode::Target;
+  curve.fairingUsed.target = FairingTarget::Drawn;
+  curve.fairing.note = "Unchanged: fairing would add curvature extrema. Raise the tolerance.";
+  curve.fairing.withinTolerance = false;
+  curve.fairing.neededMm = 5.02;
+  const FairingNote far = fairingNote(curve);
+  EXPECT_FALSE(far.text.contains(QStringLiteral("aise"))) << far.text.toStdString();
+  EXPECT_TRUE(far.text.contains(QStringLiteral("5.02 mm"))) << far.text.toStdString();
+  EXPECT_EQ(far.text.count(QStringLiteral("choose")), 1) << far.text.toStdString();
+  EXPECT_FALSE(far.neededMm);
+  // Near enough, the tolerance is what helps.
+  curve.fairing.neededMm = mostSensibleToleranceMm(curve.sketched);
+  curve.fairingUsed.toleranceMm = 0.5 * *curve.fairing.neededMm;
+  EXPECT_TRUE(fairingNote(curve).text.contains(QStringLiteral("Raise the tolerance")));
+  EXPECT_TRUE(fairingNote(curve).neededMm);
+}
+
+TEST_F(FairingWindow, ADrawnTargetThatIsTooFarIsNotToBeReachedByTheTolerance) {
+  for (const double curvature : {0.5, -0.2, -0.5}) {
+    drawTarget(session(), {{0.0, curvature}, {0.5, -curvature}, {1.0, curvature}});
+    ASSERT_TRUE(settle());
+    const std::string listed = session().selected()->fairing.note,
+                      panel = fairingNote(*session().selected()).text.toStdString();
+    for (const std::string& text : {listed, panel}) {
+      const bool raises = text.find("Raise") != std::string::npos, chooses = text.find("choose") != std::string::npos;
+      EXPECT_FALSE(raises && chooses) << text;
+    }
+    if (panel.find("choose") != std::string::npos) {
+      EXPECT_EQ(listed.find("Raise"), std::string::npos) << listed;
+    }
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/document/unsaved_work.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
+#include "ui/session/path_text.h"
 #include "ui/session/recipe_journal.h"
 
 namespace batten {
@@ -56,6 +57,7 @@ TEST_F(Journal, AWriteThatFailsIsTriedAgain) {
   obstacle.close();
   RecipeJournal journal(session_, folder());
   journal.setIntervalMs(20);
+  QSignalSpy failing(&journal, &RecipeJournal::failingChanged);
   ASSERT_NO_FATAL_FAILURE(draw(20));
   auto* clock = journal.findChild<QTimer*>();
   ASSERT_NE(clock, nullptr);
@@ -65,6 +67,25 @@ TEST_F(Journal, AWriteThatFailsIsTriedAgain) {
   // No change follows: the next tick alone writes what is there.
   ASSERT_TRUE(QFile::remove(folder()));
   EXPECT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+  ASSERT_TRUE(waitUntil([&] { return failing.count() == 2; }, 5000)) << "told once, however often it failed";
+  EXPECT_TRUE(failing[0][0].toBool());
+  EXPECT_FALSE(failing[1][0].toBool());
+}
+
+TEST_F(Journal, ALockWithoutAJournalGoesWithItsOwner) {
+  ASSERT_TRUE(QDir().mkpath(folder()));
+  const QString left = folder() + QStringLiteral("/killed.journal.lock"),
+                held = folder() + QStringLiteral("/a.journal");
+  for (const QString& path : {left, folder() + QStringLiteral("/notes.lock")}) {
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  }
+  LockFile other(nativePath(held + QStringLiteral(".lock")));
+  ASSERT_TRUE(other.hold());
+  EXPECT_FALSE(leftToAnother());
+  EXPECT_FALSE(QFile::exists(left));
+  EXPECT_TRUE(QFile::exists(held + QStringLiteral(".lock"))) << "its program runs";
+  EXPECT_TRUE(QFile::exists(folder() + QStringLiteral("/notes.lock"))) << "not ours";
 }
 
 TEST_F(Journal, AFileThatIsLostIsWrittenAnewWithItsLock) {

@@ -12,6 +12,7 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <QStackedWidget>
+#include <QUndoStack>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -114,6 +115,69 @@ TEST_F(Steady, LinksAndListOfFairingStayWhileTargetsAndCurvesChange) {
   session().selectCurve(0);
   ASSERT_TRUE(settleTargets());
   expectSame("another curve");
+}
+
+TEST_F(Steady, MoreCurvesDoNotMoveWhatIsBelowTheirList) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::drawnPage({640, 400}, [](QPainter& painter) {
+    for (int i = 0; i < 14; ++i) painter.drawLine(20 + 25 * i, 60, 24 + 25 * i, 340);
+  })));
+  ASSERT_EQ(session().curves().size(), 14u);
+  window_->resize(1366, 1100);
+  for (const PanelStage stage : {PanelStage::Fairing, PanelStage::Curves}) {
+    window_->setStage(stage);
+    auto* panel = find<QWidget>(("panel." + key(stage).toStdString()).c_str());
+    auto* below = panel->findChild<QWidget*>(stage == PanelStage::Fairing ? QStringLiteral("fairing.compare")
+                                                                          : QStringLiteral("curves.showExplained"));
+    ASSERT_NE(below, nullptr);
+    const auto place = [&] {
+      EXPECT_TRUE(settleLayout());
+      return below->mapTo(panel, QPoint(0, 0)).y();
+    };
+    const int before = place();
+    Recipe recipe = session().recipe();
+    for (int i = 0; i < 6; ++i)
+      recipe.penStrokes.push_back({{Vec2(400 + 25 * i, 60), Vec2(402 + 25 * i, 200), Vec2(404 + 25 * i, 340)}, false});
+    session().change(QStringLiteral("Draw"), recipe);
+    ASSERT_TRUE(settle());
+    ASSERT_EQ(session().curves().size(), 20u);
+    EXPECT_EQ(place(), before) << key(stage).toStdString();
+    session().undoStack()->undo();
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(place(), before) << key(stage).toStdString();
+  }
+}
+
+TEST_F(Steady, NoControlMovesWhenAMessageComesOrGoes) {
+  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
+  window_->setStage(PanelStage::Fairing);
+  auto* strip = find<ErrorStrip>("errorStrip");
+  const auto places = [&] {
+    EXPECT_TRUE(settleLayout());
+    std::map<const QWidget*, QRect> all;
+    for (const auto* widget : window_->findChildren<QWidget*>())
+      if (widget->isVisible() && widget != strip && !strip->isAncestorOf(widget))
+        all[widget] = QRect(widget->mapTo(window_.get(), QPoint(0, 0)), widget->size());
+    return all;
+  };
+  for (const int width : {960, 1366}) {
+    window_->resize(width, 768);
+    // The line at the bottom has a button as long as something is computed.
+    ASSERT_TRUE(waitUntil([&] { return window_->width() == width && !session().isWorking(); }));
+    const auto before = places();
+    strip->show(QStringLiteral("A long message that says what is wrong and what can be done about it. ").repeated(3),
+                QStringLiteral("Do it"));
+    EXPECT_EQ(places(), before);
+    const auto on = [&](const QWidget* widget) {
+      return QRect(widget->mapTo(window_.get(), QPoint(0, 0)), widget->size());
+    };
+    const QRect canvas = on(find<QWidget>("canvas"));
+    EXPECT_EQ(on(strip).topLeft(), canvas.topLeft());
+    EXPECT_EQ(strip->width(), canvas.width());
+    EXPECT_LT(strip->height(), canvas.height() / 2);
+    EXPECT_GE(strip->height(), find<QLabel>("error.text")->heightForWidth(find<QLabel>("error.text")->width()));
+    strip->hide();
+    EXPECT_EQ(places(), before);
+  }
 }
 
 TEST_F(Steady, SavedProfilesGrowWhereNothingIsBelowThem) {

@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <cmath>
 
+#include "tests/ui/scarce_threads.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/error_strip.h"
 #include "ui/panels/stages/curves/method_table.h"
@@ -38,6 +39,23 @@ QImage longPage() {
 }
 
 class Work : public test::WindowFixture {};
+
+TEST_F(Work, WithoutThreadsTheWindowSaysSoAndGoesOnOnceItGetsOne) {
+  const test::ScarceThreads scarce;
+  BackgroundThreads* const usual = BackgroundThreads::replaceShared(&scarce.threads);
+  openWindow();
+  BackgroundThreads::replaceShared(usual);
+  const QString path = folder_.filePath(QStringLiteral("long.png"));
+  ASSERT_TRUE(longPage().save(path));
+  window_->openPath(path);
+  auto* hint = find<QLabel>("status.hint");
+  ASSERT_TRUE(waitUntil([&] { return hint->text().contains(QStringLiteral("Close other programs")); }));
+  EXPECT_FALSE(session().hasScan());
+  *scarce.allowed = 1;
+  ASSERT_TRUE(waitUntil([&] { return session().hasScan() && !session().isBusy() && !session().curves().empty(); }));
+  EXPECT_FALSE(hint->text().contains(QStringLiteral("Close other programs")));
+  openWindow();  // with the usual threads, before these go
+}
 
 TEST_F(Work, EscStopsTheSixTargetsAndTheWindowSaysThatTheyRan) {
   const QString path = folder_.filePath(QStringLiteral("long.png"));

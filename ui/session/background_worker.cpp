@@ -1,54 +1,67 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/background_worker.h"
 
+#include <condition_variable>
 #include <exception>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 namespace batten {
 
-BackgroundWorker::BackgroundWorker() : thread_([this] { loop(); }) {}
+struct BackgroundWorker::State {
+  void work();
+
+  std::mutex mutex;
+  std::condition_variable ended;
+  struct Waiting {
+    Job job;
+    CancelToken token;
+  };
+  std::optional<Waiting> next;
+  std::optional<CancelToken> running;
+  bool hasThread = false;  ///< One works here, or will.
+};
+
+BackgroundWorker::BackgroundWorker(BackgroundThreads& threads) : threads_(threads), state_(std::make_shared<State>()) {}
 
 BackgroundWorker::~BackgroundWorker() {
-  {
-    const std::scoped_lock lock(mutex_);
-    quit_ = true;
-    next_.reset();
-    if (running_) running_->cancel();
-  }
-  wake_.notify_one();
-  thread_.join();
+  std::unique_lock lock(state_->mutex);
+  state_->next.reset();
+  if (state_->running) state_->running->cancel();
+  // Not for a thread that has not come yet: there may be none.
+  state_->ended.wait(lock, [this] { return !state_->running; });
 }
 
 CancelToken BackgroundWorker::start(Job job, Running running) {
   const CancelToken token;
   {
-    const std::scoped_lock lock(mutex_);
-    next_ = Waiting{std::move(job), token};
-    if (running == Running::Cancel && running_) running_->cancel();
+    const std::scoped_lock lock(state_->mutex);
+    state_->next = State::Waiting{std::move(job), token};
+    if (running == Running::Cancel && state_->running) state_->running->cancel();
+    if (std::exchange(state_->hasThread, true)) return token;
   }
-  wake_.notify_one();
+  threads_.run([state = state_] { state->work(); });
   return token;
 }
 
 void BackgroundWorker::cancelAll() {
-  const std::scoped_lock lock(mutex_);
-  next_.reset();
-  if (running_) running_->cancel();
+  const std::scoped_lock lock(state_->mutex);
+  state_->next.reset();
+  if (state_->running) state_->running->cancel();
 }
 
 bool BackgroundWorker::isRunning() const {
-  const std::scoped_lock lock(mutex_);
-  return running_.has_value() || next_.has_value();
+  const std::scoped_lock lock(state_->mutex);
+  return state_->running.has_value() || state_->next.has_value();
 }
 
-void BackgroundWorker::loop() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return quit_ || next_.has_value(); });
-    if (quit_) return;
-    Waiting current = std::move(*next_);
-    next_.reset();
-    running_ = current.token;
+void BackgroundWorker::State::work() {
+  std::unique_lock lock(mutex);
+  while (next) {
+    Waiting current = std::move(*next);
+    next.reset();
+    running = current.token;
     lock.unlock();
     try {
       current.job(current.token);
@@ -57,8 +70,10 @@ void BackgroundWorker::loop() {
     }
     current.job = nullptr;  // What it captured may be large and is freed outside the lock.
     lock.lock();
-    running_.reset();
+    running.reset();
+    ended.notify_all();
   }
+  hasThread = false;
 }
 
 }  // namespace batten

@@ -7,6 +7,7 @@
 #include <QStandardPaths>
 
 #include "core/base/regular_file.h"
+#include "core/base/shown_text.h"
 #include "core/exchange/save_atomically.h"
 #include "core/pipeline/recipe/profile_text.h"
 #include "ui/session/path_text.h"
@@ -41,7 +42,8 @@ QStringList ProfileLibrary::names() const {
 
 Result<std::vector<ProfilePoint>> ProfileLibrary::load(const QString& name) const {
   const auto broken = [&](const std::string& why) {
-    return fail(ErrorCode::BadParameter, "The profile \"" + name.toStdString() + "\" cannot be read: " + why + ".");
+    return fail(ErrorCode::BadParameter,
+                "The profile " + quotedText(name.toStdString()) + " cannot be read: " + why + ".");
   };
   if (!isName(name)) return broken("it has no such name");
   const auto text = readWhole(nativePath(fileOf(name)), kMostProfileBytes);
@@ -66,8 +68,8 @@ Result<void> ProfileLibrary::save(const QString& name, const std::vector<Profile
 Result<void> ProfileLibrary::remove(const QString& name) const {
   const QString file = fileOf(name);
   if (isName(name) && QFile::exists(file) && !QFile::remove(file))
-    return fail(ErrorCode::CannotWrite,
-                "The profile \"" + name.toStdString() + "\" cannot be removed. Check the permissions of its file.");
+    return fail(ErrorCode::CannotWrite, "The profile " + quotedText(name.toStdString()) +
+                                            " cannot be removed. Check the permissions of its file.");
   return {};
 }
 

@@ -55,7 +55,7 @@ QString RecipeJournal::newFile() const {
 void RecipeJournal::write() {
   const bool isHeld = lock_ && lock_->hold();
   // What was undone in part may be what is saved.
-  if (!session_.hasUnsavedChanges()) return written_ ? forget() : void();
+  if (!session_.hasUnsavedChanges()) return written_ || isFailing_ ? forget() : void();
   if (isHeld && written_ && *written_ == session_.recipeToSave() && QFile::exists(file_)) return;
   if (!isHeld) {
     // The file may be somebody else's by now, or is not there yet.
@@ -64,15 +64,20 @@ void RecipeJournal::write() {
     lock_ = lockOf(file_);
     written_.reset();
     ++generation_;
-    if (!lock_->hold()) return;  // A folder that takes no lock takes no journal: the next tick tries again.
+    // A folder that takes no lock takes no journal: the next tick tries again.
+    if (const LockState state = lock_->tryHold(); state != LockState::Held)
+      return setFailing(isFailing_ || state == LockState::Impossible);
   }
   worker_->start(
       [this, generation = generation_, recipe = session_.recipeToSave(), scan = storedPath(session_.scanPath()),
        file = file_](const CancelToken&) {
         const std::string bytes = unsavedWorkToJson({scan.toStdString(), recipe});
-        // Should it fail there is nothing to tell: the drawing is where it was, and the next tick tries again.
         auto saved = saveAndHold(nativePath(file), bytes);
-        if (!saved) return;
+        if (!saved) {  // The drawing is where it was, and the next tick tries again.
+          return inbox_.post([this, generation] {
+            if (generation == generation_) setFailing(true);
+          });
+        }
         inbox_.post([this, generation, recipe, held = std::shared_ptr<SystemFile>(std::move(*saved))] {
           written(generation, recipe, held);
         });
@@ -82,11 +87,17 @@ void RecipeJournal::write() {
 
 void RecipeJournal::written(int generation, const Recipe& recipe, std::shared_ptr<SystemFile> held) {
   if (generation != generation_) return;
+  setFailing(false);
   written_ = recipe;
   held_ = std::move(held);  // now only the one before may go: there is always one that is held
 }
 
+void RecipeJournal::setFailing(bool isFailing) {
+  if (std::exchange(isFailing_, isFailing) != isFailing) emit failingChanged(isFailing);
+}
+
 void RecipeJournal::forget() {
+  setFailing(false);  // Nothing is left that would have to be written.
   written_.reset();
   ++generation_;
   if (!lock_ || !lock_->hold()) return;  // Nothing was written, or it is no longer this session's.
@@ -98,7 +109,19 @@ void RecipeJournal::forget() {
       BackgroundWorker::Running::Finish);
 }
 
+/// A program that is killed before it has written its journal leaves the lock alone.
+void RecipeJournal::removeLeftLocks() {
+  const QString ending = QStringLiteral(".lock");
+  for (const QFileInfo& info : QDir(folder_).entryInfoList({QStringLiteral("*.journal") + ending}, QDir::Files)) {
+    const QString path = info.absoluteFilePath();
+    const QString journal = path.chopped(ending.size());
+    // Held by nobody: then it goes with this one. A program that was about to take it takes another at its next tick.
+    if (!QFile::exists(journal)) lockOf(journal)->hold();
+  }
+}
+
 std::optional<RecipeJournal::Left> RecipeJournal::left() {
+  removeLeftLocks();
   const QFileInfoList files =
       QDir(folder_).entryInfoList({QStringLiteral("*.journal")}, QDir::Files, QDir::Time);  // newest first
   for (const QFileInfo& info : files) {

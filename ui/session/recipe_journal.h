@@ -46,10 +46,16 @@ class RecipeJournal : public QObject {
   void takeOver(const Left&);
   void discard(const Left&);
 
+ signals:
+  /// Unsaved work cannot be written; or can be again.
+  void failingChanged(bool isFailing);
+
  private:
   void write();
   void written(int generation, const Recipe& recipe, std::shared_ptr<SystemFile> held);
   void forget();
+  void setFailing(bool isFailing);
+  void removeLeftLocks();
   QString newFile() const;
 
   EditorSession& session_;
@@ -58,7 +64,8 @@ class RecipeJournal : public QObject {
   std::shared_ptr<SystemFile> held_, leftHeld_;  ///< The journal, taken alone.
   QTimer timer_{this};
   std::optional<Recipe> written_;  ///< What is on disk, as far as known.
-  int generation_ = 0;             ///< Of the file: what an older write reports is of no use any more.
+  bool isFailing_ = false;
+  int generation_ = 0;  ///< Of the file: what an older write reports is of no use any more.
   Inbox inbox_;
   std::unique_ptr<BackgroundWorker> worker_;
 };

@@ -64,14 +64,15 @@ Result<std::vector<std::string>> extensionsOf(const std::string& formats) {
     const std::string one = formats.substr(from, comma - from);
     const auto isLetter = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.'; };
     if (one.empty() || !std::all_of(one.begin(), one.end(), isLetter)) {
-      return wrong("--formats takes extensions separated by commas, such as svg,json, not \"" + formats + "\".");
+      return wrong("--formats takes extensions separated by commas, such as svg,json, not " + quotedText(formats) +
+                   ".");
     }
     if (std::find(extensions.begin(), extensions.end(), one) == extensions.end()) extensions.push_back(one);
     from = comma + 1;
   }
   for (const std::string& one : extensions) {
     if (!formatOf("NAME." + one) && !reportFormatOf("NAME." + one))
-      return wrong("--formats: there is no format \"" + one + "\". Formats: " + formatWords() + ".");
+      return wrong("--formats: there is no format " + quotedText(one) + ". Formats: " + formatWords() + ".");
   }
   return extensions;
 }

@@ -79,7 +79,7 @@ std::optional<std::string> takeEntry(const std::string& key, const Json& value, 
     if (!number || *number < 1) return "\"page\" takes the number of a page of the scan, from 1, or \"all\"";
     page.page = *number;
   } else {
-    return "there is no \"" + key + "\": a line has scan, outputs, recipe, set, dpi and page";
+    return "there is no " + quotedText(key) + ": a line has scan, outputs, recipe, set, dpi and page";
   }
   return std::nullopt;
 }
@@ -87,6 +87,8 @@ std::optional<std::string> takeEntry(const std::string& key, const Json& value, 
 Result<BatchPage> pageOf(std::string_view text, int line, const PageDefaults& defaults) {
   const std::string where = "Line " + std::to_string(line) + " of the manifest: ";
   const auto parsed = parseJson(parsableLine(text));
+  // A limit says what is wrong; that the text is no JSON at all is said with the form it should have.
+  if (!parsed && parsed.error().detail.empty()) return wrongLine(where + parsed.error().message + ".");
   if (!parsed || !parsed->is_object())
     return wrongLine(where + "not a JSON object. Write {\"scan\": \"a.png\", \"outputs\": [\"a.svg\"]}.");
   BatchPage page;

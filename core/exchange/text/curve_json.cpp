@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/json_text.h"
+#include "core/base/shown_text.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/model/export_check.h"
 #include "core/exchange/model/file_text.h"
@@ -115,7 +116,9 @@ Result<WidthProfile> widthFromJson(const Json& json) {
 Result<ExportDocument> documentFromJson(const Json& json) {
   if (!json.is_object() || json.value("format", "") != kFormat) return damaged("it is not a \"batten-curves\" file");
   if (integerOf(json.at("version")) != kVersion) {
-    return damaged("it is of version " + json.at("version").dump() + ", and this Batten reads version 1");
+    const Json& version = json.at("version");
+    return damaged("it is of version " + (version.is_number() ? version.dump() : quotedText(version.dump())) +
+                   ", and this Batten reads version 1");
   }
   ExportDocument document;
   const Json& image = json.at("image");

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "core/base/shown_text.h"
 #include "core/pipeline/recipe/parameter_table.h"
 
 namespace batten {
@@ -120,8 +121,8 @@ Result<PieceChoice> readChoice(const RecipeJson& json) {
     } else if (pairs && name == "profile") {
       for (const Vec2& p : *pairs) choice.profile.push_back({p.x(), p.y()});
     } else {
-      return refuseRecipe("The recipe holds \"" + name +
-                          "\" in a choice, which this version of Batten does not know or cannot read.");
+      return refuseRecipe("The recipe holds " + quotedText(name) +
+                          " in a choice, which this version of Batten does not know or cannot read.");
     }
   }
   if (choice.anchorsPx.empty()) return refuseRecipe("The recipe is damaged: a choice has no anchor.");

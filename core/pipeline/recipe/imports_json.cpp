@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 
 namespace batten {
 namespace {
@@ -116,7 +117,8 @@ Result<void> takeOfLine(const std::string& name, const ImportJson& value, Import
       line.curves.push_back(std::move(*curve));
     }
   } else {
-    return damagedImport("it holds \"" + name + "\" in an imported line, which this version of Batten does not know");
+    return damagedImport("it holds " + quotedText(name) +
+                         " in an imported line, which this version of Batten does not know");
   }
   return {};
 }
@@ -128,7 +130,8 @@ Result<ImportedFile> fileOfImport(const ImportJson& json) {
   for (const auto& [name, value] : json.items()) {
     if (name == "lines") continue;
     if (!value.is_string() || (name != "source" && name != "unit"))
-      return damagedImport("it holds \"" + name + "\" in an import, which this version of Batten does not know");
+      return damagedImport("it holds " + quotedText(name) +
+                           " in an import, which this version of Batten does not know");
     (name == "source" ? file.source : file.unit) = value.get<std::string>();
   }
   for (const ImportJson& one : json["lines"]) {

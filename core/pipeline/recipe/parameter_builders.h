@@ -9,6 +9,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/result.h"
+#include "core/base/shown_text.h"
 #include "core/pipeline/recipe/parameter_table.h"
 
 /// \file
@@ -38,7 +39,7 @@ struct Word {
 };
 
 inline tl::unexpected<Error> refuse(const std::string& name, std::string_view text, const std::string& expected) {
-  return fail(ErrorCode::BadParameter, name + " cannot be \"" + std::string(text) + "\": " + expected + ".");
+  return fail(ErrorCode::BadParameter, name + " cannot be " + quotedText(text) + ": " + expected + ".");
 }
 
 inline Parameter described(StageId stage, Words words, ParameterType type) {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/base/edit_distance.h"
+#include "core/base/shown_text.h"
 #include "core/pipeline/recipe/parameter_builders.h"
 #include "core/pipeline/recipe/parameters_construct.h"
 #include "core/pipeline/recipe/parameters_contours.h"
@@ -49,7 +50,7 @@ Result<void> setParameter(Recipe& recipe, std::string_view name, std::string_vie
   const auto nearest = std::min_element(table.begin(), table.end(), [&](const Parameter& a, const Parameter& b) {
     return nameDistance(name, a.name) < nameDistance(name, b.name);
   });
-  const std::string unknown = "There is no parameter \"" + std::string(name) + "\". ";
+  const std::string unknown = "There is no parameter " + quotedText(name) + ". ";
   const bool isNear = isNearWord(name, nameDistance(name, nearest->name));
   return fail(ErrorCode::BadParameter,
               unknown + (isNear ? "Did you mean " + nearest->name + "?" : "batten-cli parameters lists them all."));

@@ -6,6 +6,7 @@
 
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/pipeline/recipe/choice_json.h"
 #include "core/pipeline/recipe/imports_json.h"
 #include "core/pipeline/recipe/parameter_table.h"
@@ -110,8 +111,8 @@ Result<void> readStrokes(const Json& json, Recipe& recipe) {
     for (const auto& [name, value] : entry.items()) {
       if (name == "points") continue;
       if (name != "closed" || !value.is_boolean()) {
-        return refuseRecipe("The recipe holds \"" + name +
-                            "\" in a pen stroke, which this version of Batten does not know or cannot read.");
+        return refuseRecipe("The recipe holds " + quotedText(name) +
+                            " in a pen stroke, which this version of Batten does not know or cannot read.");
       }
       stroke.closed = value.get<bool>();
     }
@@ -161,8 +162,8 @@ Result<void> readScanPage(const Json& json, Recipe& recipe) {
     } else if (name == "pdf_dpi" && value.is_number()) {
       recipe.scanPage.pdfDpi = value.get<double>();
     } else {
-      return refuseRecipe("The recipe holds \"" + name +
-                          "\" in its scan_page, which this version of Batten does not know or cannot read.");
+      return refuseRecipe("The recipe holds " + quotedText(name) +
+                          " in its scan_page, which this version of Batten does not know or cannot read.");
     }
   }
   return {};
@@ -310,7 +311,7 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "curves") return readNumbers(value, recipe);
   if (const auto mark = readPlacedMark(name, value, recipe); !mark || *mark) return mark.map([](bool) {});
   if (name != "dpi") {
-    return refuseRecipe("The recipe holds \"" + name + "\", which this version of Batten does not know.");
+    return refuseRecipe("The recipe holds " + quotedText(name) + ", which this version of Batten does not know.");
   }
   if (value.is_null()) return {};
   if (!value.is_number()) return refuseRecipe("The recipe is damaged: its resolution is not a number.");

@@ -15,6 +15,7 @@
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_line.h"
+#include "core/fairing/target_advice.h"
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/corner_rounding.h"
 #include "core/pipeline/run/curve_stages.h"
@@ -29,8 +30,11 @@ namespace {
 constexpr double kLeastPart = 1e-3;
 
 // notes of curves that stay as they were
-constexpr const char* kLeavesTolerance = "Unchanged: fairing would leave the tolerance. Raise it.";
-constexpr const char* kHasMoreExtrema = "Unchanged: fairing would add curvature extrema. Raise the tolerance.";
+constexpr const char* kLeavesTolerance = "Unchanged: fairing would leave the tolerance.";
+constexpr const char* kHasMoreExtrema = "Unchanged: fairing would add curvature extrema.";
+// and what to do about it
+constexpr const char* kRaiseTolerance = "Raise the tolerance.";
+constexpr const char* kTakeOtherTarget = "This target is too far from the curve: choose another.";
 
 // and of those that fairing made no lighter
 constexpr const char* kStayedDense = "Stayed dense: no lighter curve was found within the tolerance.";
@@ -159,7 +163,11 @@ class LineFairing {
     return faired;
   }
   FairedCurve refused(FairedCurve faired, const char* note) const {
+    const double needed = faired.report.neededMm.value_or(0.0);
+    const bool isTooFar =
+        curve_.fairingUsed.mode == FairingMode::Target && needed > mostSensibleToleranceMm(curve_.sketched);
     faired.report.note = note;
+    addSentence(faired.report.note, isTooFar ? kTakeOtherTarget : kRaiseTolerance);
     faired.report.withinTolerance = false;
     return asSketched(std::move(faired));
   }

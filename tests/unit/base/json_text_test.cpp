@@ -57,6 +57,17 @@ TEST(JsonText, SizeAndNamesAreLimited) {
   EXPECT_NE(problemOf(withKeys(1001)).find("more than 1000 names"), std::string::npos);
   EXPECT_NE(problemOf(R"({"a":1,"b":2,"a":3})").find("\"a\" twice"), std::string::npos);
   EXPECT_EQ(problemOf(R"([{"a":1},{"a":2},{"a":{"a":3}}])"), "");
+  EXPECT_EQ(problemOf("{\"" + std::string(1000, 'n') + "\":1}"), "");
+  for (const std::size_t bytes : {1001, 10'000'000}) {
+    const std::string problem = problemOf("{\"" + std::string(bytes, 'n') + "\":1}");
+    EXPECT_NE(problem.find("a name of more than 1000 bytes"), std::string::npos);
+    EXPECT_LT(problem.size(), 200u);
+  }
+  const std::string bent = std::string(900, 'n') + "\\u0007";
+  EXPECT_LT(problemOf("{\"" + bent + "\":1,\"" + bent + "\":2}").size(), 200u);
+  const auto broken = parseJson("[\"" + std::string(1'000'000, 'n') + "\\x\"]");
+  ASSERT_FALSE(broken);
+  EXPECT_LT(broken.error().message.size() + broken.error().detail.size(), 1000u);
   const auto tooLong = parseJson("[1,2,3,4,5]", {}, {.bytes = 10});
   ASSERT_FALSE(tooLong);
   EXPECT_EQ(tooLong.error().code, ErrorCode::BadParameter);

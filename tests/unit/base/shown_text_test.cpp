@@ -35,6 +35,14 @@ TEST(ShownText, SpacesWithoutWidthDoNotHide) {
   EXPECT_EQ(shownText("\xe2\x80\x8d"), "\xe2\x80\x8d") << "a joiner of letters";
 }
 
+TEST(ShownText, QuotesAreShort) {
+  EXPECT_EQ(quotedText(""), "\"\"");
+  EXPECT_EQ(quotedText("a\x1b[31m"), "\"a?[31m\"");
+  EXPECT_EQ(quotedText(std::string(80, 'n')), "\"" + std::string(80, 'n') + "\"");
+  EXPECT_EQ(quotedText(std::string(81, 'n')), "\"" + std::string(80, 'n') + "…\"");
+  EXPECT_EQ(quotedText(std::string(79, 'n') + "ä"), "\"" + std::string(79, 'n') + "…\"") << "no half of a character";
+}
+
 TEST(ShownText, JsonKeepsItsValueWithoutControls) {
   EXPECT_EQ(shownJson("{\n\"a\":\"ä\x7f\xc2\x9b\"}"), "{\n\"a\":\"ä\\u007f\\u009b\"}");
   EXPECT_EQ(shownJson("\xc2\xa0"), "\xc2\xa0");

@@ -116,9 +116,13 @@ FairingNote fairingNote(const TracedCurve& curve) {
   const bool isMore = needed > curve.fairingUsed.toleranceMm;
   const bool isSensible = needed <= mostSensibleToleranceMm(curve.sketched);
   if (isMore && isSensible) said.neededMm = roundedUp(needed);
-  if (isMore && !isSensible && curve.fairingUsed.mode == FairingMode::Target)
-    said.text += FairingPanel::tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
-                     .arg(millimetres(needed), insteadOf(curve.fairingUsed.target));
+  if (isMore && !isSensible && curve.fairingUsed.mode == FairingMode::Target) {
+    const QString far =
+        FairingPanel::tr("Reaching the target would move this curve by %1, which changes its shape: %2.")
+            .arg(millimetres(needed), insteadOf(curve.fairingUsed.target));
+    // A curve that was left as drawn says what to do in general words: one advice is enough.
+    said.text = isLeftAsDrawn(curve) ? FairingPanel::tr("Unchanged. %1").arg(far) : said.text + QLatin1Char(' ') + far;
+  }
   return said;
 }
 

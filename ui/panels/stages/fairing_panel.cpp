@@ -92,7 +92,9 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   // place.
   buildFigures();
   column->addWidget(caption(tr("Curves"), this));
-  column->addWidget(new CurveList(session, Judged::Result, this));
+  auto* curves = new CurveList(session, Judged::Result, this);
+  column->addWidget(curves);
+  column->addSpacerItem(curves->roomBelow());
   buildLinks();
   column->addWidget(editor_);
   // Last: the list grows with what is saved.

@@ -6,6 +6,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QScrollArea>
+#include <QSpacerItem>
 #include <QStyledItemDelegate>
 #include <QTimer>
 #include <algorithm>
@@ -24,6 +25,8 @@ namespace {
 
 constexpr int kCurveRow = 26;          // [px] Height.
 constexpr int kLeastRows = 10;         ///< That are seen without scrolling in the list itself, where there are as many.
+constexpr int kFewRows = 4;            ///< A drawing of so many curves gets a list as short as they are.
+constexpr int kMostKept = 20;          ///< For more rows no room is kept: a high panel would scroll because of it.
 constexpr double kShareOfPanel = 0.4;  ///< That the list may take of a high one.
 constexpr int kEyeWidth = 26;          // [px] At the left.
 constexpr int kIconSize = 14;          // px
@@ -120,7 +123,11 @@ class CurveDelegate : public QStyledItemDelegate {
 }  // namespace
 
 CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
-    : QListWidget(parent), session_(session), judged_(judged), worker_(std::make_unique<BackgroundWorker>()) {
+    : QListWidget(parent),
+      session_(session),
+      judged_(judged),
+      below_(new QSpacerItem(0, 0)),
+      worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("curves.list"));
   setAccessibleName(tr("Curves"));
   setItemDelegate(new CurveDelegate(*this));
@@ -131,6 +138,7 @@ CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
   setToolTip(
       tr("Click a curve to select it; click its eye, or press Space, to exclude it from fairing "
          "and export. M: how near the curve is to one whose curvature only rises or only falls."));
+  connect(&session_, &EditorSession::scanOpened, this, [this] { isLong_ = false; });
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::runFinished, &EditorSession::selectionChanged})
     connect(&session_, signal, this, &CurveList::refresh);
   connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
@@ -215,8 +223,15 @@ void CurveList::refresh() {
 
 // As many rows as a share of the panel holds: what stands below does not move when other parts of the panel grow.
 void CurveList::fitHeight() {
-  const int rows = scroll_ ? static_cast<int>(kShareOfPanel * scroll_->viewport()->height()) / kCurveRow : 0;
-  setFixedHeight(heightOfRows(std::min(count(), std::max(kLeastRows, rows))));
+  const int share = scroll_ ? static_cast<int>(kShareOfPanel * scroll_->viewport()->height()) / kCurveRow : 0;
+  const int rows = std::max(kLeastRows, share), shown = std::min(count(), rows);
+  setFixedHeight(heightOfRows(shown));
+  // Nor when a setting brings or takes curves: the room for them stays once there were more than a few.
+  isLong_ = isLong_ || count() > kFewRows;
+  const int left = isLong_ ? std::max(0, heightOfRows(std::min(rows, kMostKept)) - heightOfRows(shown)) : 0;
+  if (left == below_->sizeHint().height()) return;
+  below_->changeSize(0, left, QSizePolicy::Minimum, QSizePolicy::Fixed);
+  if (parentWidget()->layout()) parentWidget()->layout()->invalidate();
 }
 
 bool CurveList::eventFilter(QObject* watched, QEvent* event) {

@@ -15,6 +15,7 @@
 #include "ui/session/judged_curve.h"
 
 class QScrollArea;
+class QSpacerItem;
 
 namespace batten {
 
@@ -39,6 +40,8 @@ class CurveList : public QListWidget {
     int figures() const { return same + extrema + points > words ? same + extrema + points : words; }
   };
   const Columns& columns() const { return columns_; }
+  /// For below the list in its layout, which owns it: what the list leaves of its room while it is short.
+  QSpacerItem* roomBelow() { return below_; }
   /// The name in a row, as far as there is room for it.
   QString shownName(int row) const;
   QSize sizeHint() const override;
@@ -81,6 +84,8 @@ class CurveList : public QListWidget {
   EditorSession& session_;
   Judged judged_;
   bool filling_ = false, wasSeen_ = false;
+  bool isLong_ = false;  ///< The drawing has, or had, so many curves that the list has a room of its own.
+  QSpacerItem* below_;
   QScrollArea* scroll_ = nullptr;  ///< In which the panel is scrolled.
   Columns columns_;
   std::shared_ptr<const Judgements> known_, asked_;  ///< Of the curves in their order.

@@ -74,7 +74,9 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(paper);
   layout->addWidget(pin);
   layout->addWidget(caption(tr("Curves"), this));
-  layout->addWidget(new CurveList(session, Judged::Sketched, this));
+  auto* curves = new CurveList(session, Judged::Sketched, this);
+  layout->addWidget(curves);
+  layout->addSpacerItem(curves->roomBelow());
   // What comes and goes with a click above stands below all of that.
   layout->addWidget(pin->figures());
   layout->addWidget(paper->cost());

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+class QThreadPool;
+
+namespace batten {
+
+/// Qt paints wide areas on the threads of a pool, which end when idle; where the system then starts none anew, painting
+/// waits for it without end. Starts those of `pool` now and keeps them, a few at most. To be called before anything is
+/// painted. Unless all were started the pool must never be destroyed: it would wait for the others without end.
+enum class PaintingThreads {
+  None,  ///< Nothing can be painted.
+  Some,
+  All
+};
+PaintingThreads keepPaintingThreads(QThreadPool& pool);
+
+}  // namespace batten
