@@ -65,5 +65,21 @@ TEST(Hatching, SharpObliqueLinesAreAPens) {
   for (const Contour& c : set.contours) EXPECT_FALSE(c.pencilPx);
 }
 
+// Lines both ways, 5.7 px apart: each mesh is too short to be kept, together they are a quarter of the page.
+TEST(Hatching, ANetWhoseMeshesAreShortIsTracedByItsBorders) {
+  constexpr std::array<std::array<int, 8>, 3> kRows{
+      {{20, 20, 189, 235, 235, 235, 189, 20}, {20, 20, 20, 210, 235, 210, 20, 20}, {189, 20, 20, 20, 189, 20, 20, 20}}};
+  constexpr std::array<int, 8> kRowOf{0, 1, 2, 1, 0, 1, 2, 1};
+  GreyImage page(600, 400);
+  for (int y = 0; y < page.height; ++y) {
+    const int shift = y % 8 > 2 && y % 8 < 6 ? 4 : 0;
+    for (int x = 0; x < page.width; ++x)
+      page.row(y)[x] = static_cast<std::uint16_t>(257 * kRows[kRowOf[y % 8]][(x + shift) % 8]);
+  }
+  const ContourSet set = tracedHatching(std::move(page));
+  EXPECT_GT(std::ssize(set.contours), 1000);
+  EXPECT_NE(set.report.note.find("borders of their ink were traced"), std::string::npos) << set.report.note;
+}
+
 }  // namespace
 }  // namespace batten
