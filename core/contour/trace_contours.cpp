@@ -132,6 +132,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.found += from.report.found;
   to.report.droppedShort += from.report.droppedShort;
   to.report.droppedHoles += from.report.droppedHoles;
+  to.report.droppedHolesPx += from.report.droppedHolesPx;
   to.report.droppedMargins += from.report.droppedMargins;
   to.report.droppedFaint += from.report.droppedFaint;
   to.report.droppedGrain += from.report.droppedGrain;
@@ -261,14 +262,34 @@ double explainedInk(const ContourSet& set, const BitImage& ink) {
   return area / std::max(1.0, static_cast<double>(ink.count()));
 }
 
-// Whether lines may have gone lost in a net: none came, or they stand for too little of the ink. Of merged and intended
-// lines one stands for several strokes, and what the user wants of the ink holds.
-bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
-  constexpr double kLeastExplained = 0.5;  // of the ink
-  if (set.contours.empty()) return true;
+constexpr double kLeastExplained = 0.5;  // of the ink
+
+// Whether lines can be held against the ink: of merged and intended lines one stands for several strokes, and what the
+// user wants of the ink holds.
+bool isOfAllInk(const EdgeParams& edges, const ContourParams& params) {
   const bool isChosen = !edges.choices.empty() || !edges.painted.empty();
-  if (edges.mergeWidths > 0.0 || edges.intent || isChosen || hasOwnLengths(params)) return false;
-  return explainedInk(set, ink) < kLeastExplained;
+  return edges.mode == EdgeMode::Automatic && edges.mergeWidths <= 0.0 && !edges.intent && !isChosen &&
+         !hasOwnLengths(params);
+}
+
+// Whether lines may have gone lost in a net: none came, they stand for too little of the ink, or the meshes of an
+// outline were dropped as short.
+bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
+  constexpr double kMeshes = 0.25;  // of the ink: as much paper in holes is that between lines (binarize.cpp)
+  if (set.contours.empty()) return true;
+  if (!isOfAllInk(edges, params)) return false;
+  return explainedInk(set, ink) < kLeastExplained ||
+         set.report.droppedHolesPx > kMeshes * static_cast<double>(ink.count());
+}
+
+// Says so where most of the ink is not traced. Margins have a note of their own.
+void noteUntraced(ContourSet& set, const BitImage& ink) {
+  const double share = explainedInk(set, ink);
+  if (set.contours.empty() || set.report.droppedMargins > 0 || share >= kLeastExplained) return;
+  addNote(set,
+          "Only " + std::to_string(std::lround(100.0 * std::max(0.0, share))) +
+              " % of the ink is traced: contours.min_widths=0 keeps short lines, and edges.mode=outline traces the "
+              "borders of all ink.");
 }
 
 // Whether the borders of a net show what the lines do not: a net has many more meshes than lines, torn strokes and
@@ -304,6 +325,7 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
   const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
   if (edges.mode == EdgeMode::Automatic && isOfOne && !hasOwnLengths(params))
     dropGrain(found->set, grey, found->painted, context);
+  if (isOfAllInk(edges, params)) noteUntraced(found->set, ink);
   return std::move(found->set);
 }
 

@@ -96,7 +96,7 @@ void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& con
     const std::vector<RulingFamily> found = findRulings(greyOf(scan, page), context);
     if (context.isCancelled() || found.empty()) break;
     GreyImage without = withoutRulings(greyOf(scan, page), found, context);
-    if (context.isCancelled()) break;
+    if (context.isCancelled() || without.pixels == greyOf(scan, page).pixels) break;  // lines that cannot be taken out
     if (page.rulings.empty()) before = std::move(page.grey);
     page.grey = std::move(without);
     page.rulings.insert(page.rulings.end(), found.begin(), found.end());

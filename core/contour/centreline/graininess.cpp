@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/centreline/graininess.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -107,6 +110,54 @@ bool isPlain(const StrokeCourse& course, int i) {
   return course.points[i - kWindow].tangent.dot(course.points[i + kWindow].tangent) >= kMostTurn;
 }
 
+// What differs from the medians at some places of a stroke.
+struct Deviation {
+  Vec2 at = Vec2::Zero();
+  Lanes off{};
+  double depth = 0.0;
+  std::ptrdiff_t left = 0, right = 0;  // lanes of paper
+};
+
+// Between pixels grey is a mean of those around, which is not that of a sharp line a pixel or two wide: it changes with
+// the place within a pixel, and so does that of lines side by side. What repeats from pixel to pixel is no grain: a
+// mean and the first waves along the rows, the columns and both diagonals.
+constexpr int kPixelTerms = 9;
+constexpr std::ptrdiff_t kFewestOfPixels = 3 * kPixelTerms;  // samples: fewer are explained by any terms
+using PixelTerms = Eigen::Matrix<double, kPixelTerms, 1>;
+PixelTerms pixelTermsAt(const Vec2& at) {
+  const double x = 2.0 * std::numbers::pi * at.x(), y = 2.0 * std::numbers::pi * at.y();
+  return (PixelTerms() << 1.0, std::cos(x), std::sin(x), std::cos(y), std::sin(y), std::cos(x + y), std::sin(x + y),
+          std::cos(x - y), std::sin(x - y))
+      .finished();
+}
+
+void removeOfPixels(std::vector<Deviation>& deviations) {
+  constexpr double kMostLeft = 0.25;  // of the squares: of grain the terms explain about what they are of the samples
+  constexpr double kPrior = 1e-3;     // per sample: terms that are one along a diagonal, share what they explain
+  const std::ptrdiff_t count = std::ssize(deviations);
+  if (count < kFewestOfPixels) return;
+  Eigen::Matrix<double, kPixelTerms, kPixelTerms> normal = Eigen::Matrix<double, kPixelTerms, kPixelTerms>::Zero();
+  Eigen::Matrix<double, kPixelTerms, kLanes> right = Eigen::Matrix<double, kPixelTerms, kLanes>::Zero();
+  for (const Deviation& d : deviations) {
+    const PixelTerms terms = pixelTermsAt(d.at);
+    normal += terms * terms.transpose();
+    right += terms * Eigen::Map<const Eigen::Matrix<float, 1, kLanes>>(d.off.data()).cast<double>();
+  }
+  normal.diagonal().array() += kPrior * static_cast<double>(count);
+  const Eigen::Matrix<double, kPixelTerms, kLanes> waves = normal.ldlt().solve(right);
+  std::vector<Lanes> rest;
+  double all = 0.0, left = 0.0;
+  for (const Deviation& d : deviations) {
+    const Eigen::Matrix<double, 1, kLanes> repeats = pixelTermsAt(d.at).transpose() * waves;
+    Lanes& of = rest.emplace_back();
+    for (int k = 0; k < kLanes; ++k) of[k] = d.off[k] - static_cast<float>(repeats[k]);
+    all += static_cast<double>(d.off[0] * d.off[0]);
+    left += static_cast<double>(of[0] * of[0]);
+  }
+  if (left > kMostLeft * all) return;
+  for (std::ptrdiff_t i = 0; i < count; ++i) deviations[i].off = rest[i];
+}
+
 std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, int most, GrainPlaces places) {
   std::vector<GrainSample> samples;
   if (path.points.size() < kFewestPathPoints) return samples;
@@ -124,18 +175,25 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
       lanes[i][4 + k] = softGrey(grey, p.base - off * normal);
     }
   }
+  std::vector<Deviation> deviations;
   for (int i = kWindow + kEndPoints; i + kWindow + kEndPoints < n; i += stride) {
     if (places == GrainPlaces::Plain ? !isPlain(course, i) : course.points[i].part != StrokePart::Ink) continue;
     Lanes median;
     medianOfLanes(lanes.data() + (i - kWindow), median.data());
     // Beside the stroke the brightest lane is paper; others may lie on the next line.
-    const auto left = std::max_element(median.begin() + 1, median.begin() + 4) - median.begin();
-    const auto right = std::max_element(median.begin() + 4, median.begin() + 7) - median.begin();
-    const double depth = std::max(median[left], median[right]) - median[0];
-    if (!(depth > kLeastDepth)) continue;
-    const auto off = [&](std::ptrdiff_t k) { return static_cast<double>(std::abs(lanes[i][k] - median[k])); };
-    samples.push_back({course.points[i].base, off(0) / depth, kSmallerOfTwo * std::min(off(left), off(right)) / depth,
-                       depth, static_cast<double>(stride)});
+    Deviation d{course.points[i].base, {}, 0.0, 0, 0};
+    d.left = std::max_element(median.begin() + 1, median.begin() + 4) - median.begin();
+    d.right = std::max_element(median.begin() + 4, median.begin() + 7) - median.begin();
+    d.depth = static_cast<double>(std::max(median[d.left], median[d.right]) - median[0]);
+    if (!(d.depth > kLeastDepth)) continue;
+    for (int k = 0; k < kLanes; ++k) d.off[k] = lanes[i][k] - median[k];
+    deviations.push_back(d);
+  }
+  if (places == GrainPlaces::Plain) removeOfPixels(deviations);
+  for (const Deviation& d : deviations) {
+    const auto off = [&](std::ptrdiff_t k) { return static_cast<double>(std::abs(d.off[k])); };
+    samples.push_back({d.at, off(0) / d.depth, kSmallerOfTwo * std::min(off(d.left), off(d.right)) / d.depth, d.depth,
+                       static_cast<double>(stride)});
   }
   return samples;
 }

@@ -49,7 +49,9 @@ Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParam
     return pencil != nullptr && anyInDisc(*pencil, c.points.front().unrefined, 1.0);
   };
   const auto dropped = std::erase_if(set->contours, [&](const Contour& c) {
-    return c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : kLeastDot);
+    const bool isShort = c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : kLeastDot);
+    if (isShort && c.hole) set->report.droppedHolesPx += c.areaPx;
+    return isShort;
   });
   set->report.droppedShort += static_cast<int>(dropped);
   return set;

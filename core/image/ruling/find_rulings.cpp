@@ -30,6 +30,9 @@ constexpr double kLeastLineSeen = 0.8,
 constexpr double kLeastCoverage = 0.7;                  // of the stretches of the lines that are seen
 constexpr double kAlone = 0.4, kLeastSelective = 0.25;  // of the thin lines over the ruling that belong to it
 constexpr double kLeastInk = 0.8;                       // of the length of the lines: they go on
+constexpr double kLeastAlong = 0.35;                    // of the contrast beside a line: so much lasts along it
+constexpr double kMostBetween = 0.5;                    // of the depth of dark lines, of what lies between two of them
+constexpr double kBetweenPx = 3.0;                      // [grid] between two lines, and as much to either side
 constexpr int kLeastRun = 3;                            // strips of a page that lies beside others
 constexpr double kMostlyInked = 0.5;                    // of the lines, in a column they run through
 constexpr double kEdgeShare = 0.1;                      // of a lattice: there lines have the direction they end with
@@ -101,6 +104,11 @@ std::optional<FoundLattice> judged(const Plane& grey, RulingLattice lattice, con
       l.selective < kLeastSelective)
     return std::nullopt;
   if (inkAlongLines(grey, l, context) < kLeastInk) return std::nullopt;  // letters, dots or crossings in rows
+  const LatticeContrast contrast = contrastOf(grey, l);
+  if (contrast.along < kLeastAlong) return std::nullopt;
+  // As dark lines between them: every other line of a hatching that is too fine for a ruling.
+  const bool isApart = l.spacing > 2.0 * found.look.width + kBetweenPx;
+  if (found.look.depth > kDarkRuling && isApart && contrast.between > kMostBetween) return std::nullopt;
   return found;
 }
 
@@ -248,20 +256,25 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   family.spacingPx = lattice.spacing * shrink;
   family.widthPx = found.look.width * shrink;
   family.depth = found.look.depth;
-  // Lines go on to the borders of the page, where they may be hidden.
-  constexpr int kPlacesAcross = 8;
+  // Lines go on to the borders of the page, where they may be hidden. Of a turned page many cross no more than a
+  // corner, too little to be seen as lines.
+  constexpr int kPlacesAcross = 8, kHidden = 3;
   const double least = -1.0, most = grey.height + 1.0;
-  const auto isOnPage = [&](int k) {
+  const auto placesOnPage = [&](int k) {
+    int count = 0;
     for (int i = 0; i <= kPlacesAcross; ++i) {
       const double y = lattice.at(k, lattice.fromX + i * (lattice.toX() - lattice.fromX) / kPlacesAcross);
-      if (y > least && y < most) return true;
+      if (y > least && y < most) ++count;
     }
-    return false;
+    return count;
   };
   int first = lattice.first, last = lattice.last;
-  const int more = first < last ? 3 : 0;  // a margin has no neighbours
-  while (lattice.first - first < more && isOnPage(first - 1)) --first;
-  while (last - lattice.last < more && isOnPage(last + 1)) ++last;
+  const auto goesOn = [&](int k, int beyond) {
+    const int places = first < last ? placesOnPage(k) : 0;  // a margin has no neighbours
+    return places > 0 && (beyond <= kHidden || 2 * places <= kPlacesAcross);
+  };
+  while (goesOn(first - 1, lattice.first - first + 1)) --first;
+  while (goesOn(last + 1, last + 1 - lattice.last)) ++last;
   const double from = static_cast<double>(found.fromX) * shrink,
                length = static_cast<double>(found.toX) * shrink - from;
   const int stations = static_cast<int>(std::ceil(length / kStationPx)) + 1;

@@ -200,11 +200,12 @@ class RulingEraser {
   /// The light of the pixels about some blocks.
   struct LineLight {
     std::vector<std::vector<float>> values;  ///< Per half pixel across.
-    int columns = 0;
+    int columns = 0;                         ///< In which the line is on the page.
   };
   LineLight lightOf(int fromBlock, int toBlock) const {
     const int from = begin(fromBlock), to = end(toBlock - 1);
-    LineLight light{std::vector<std::vector<float>>(bins()), to - from};
+    LineLight light{std::vector<std::vector<float>>(bins()), 0};
+    for (int x = from; x < to; ++x) light.columns += course_[x] >= 0.0 && course_[x] < image_.height ? 1 : 0;
     forStrip(from, to, -reach_, reach_, [&](int x, int y, double offset) {
       const auto bin = std::lround((offset + reach_) * kBinsPerPx);
       light.values[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));

@@ -2,6 +2,7 @@
 #include "core/image/ruling/ruling_ink.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -104,7 +105,57 @@ class StretchInk {
   std::vector<int> rows_;  ///< Of the line, column by column: each is asked for many times.
 };
 
+/// The level along a course: of those of its rows that are darkest, or brightest.
+class CourseLevels {
+ public:
+  /// @param sign 1 for the darkest, -1 for the brightest.
+  CourseLevels(const Plane& grey, const RulingLattice& lattice, double line, float sign) {
+    const int begin = std::max(0, static_cast<int>(std::lround(lattice.fromX))),
+              end = std::min(grey.width, static_cast<int>(std::lround(lattice.toX())));
+    std::array<double, 2 * kOff + 1> sums{};
+    for (int x = begin; x < end; ++x) {
+      const int row = static_cast<int>(std::floor(lattice.at(line, x + 0.5)));
+      if (row < kOff || row + kOff >= grey.height) continue;
+      float least = sign * grey.row(row)[x];
+      for (int d = -kOff; d <= kOff; ++d) {
+        const float level = sign * grey.row(row + d)[x];
+        least = std::min(least, level);
+        sums[d + kOff] += static_cast<double>(level);
+      }
+      columnByColumn_ += static_cast<double>(sign * least);
+      ++columns_;
+    }
+    along_ = static_cast<double>(sign) * *std::min_element(sums.begin(), sums.end());
+  }
+  int columns() const { return columns_; }  ///< On the page.
+  /// Mean over the columns, of the one row that is darkest, or brightest, on the whole.
+  double along() const { return along_ / columns_; }
+  /// The same, of the darkest, or brightest, row of each column.
+  double columnByColumn() const { return columnByColumn_ / columns_; }
+
+ private:
+  static constexpr int kOff = 1;  // rows to both sides of the course
+  double along_ = 0.0, columnByColumn_ = 0.0;
+  int columns_ = 0;
+};
+
 }  // namespace
+
+LatticeContrast contrastOf(const Plane& grey, const RulingLattice& lattice) {
+  double along = 0.0, columnByColumn = 0.0, between = 0.0;
+  for (int i = 0; i < std::ssize(lattice.isSeen); ++i) {
+    if (!lattice.isSeen[i]) continue;
+    const double number = lattice.first + i;
+    const CourseLevels line(grey, lattice, number, 1.0f), paper(grey, lattice, number + 0.5, -1.0f),
+        darkest(grey, lattice, number + 0.5, 1.0f);
+    if (line.columns() == 0 || paper.columns() == 0) continue;
+    along += paper.along() - line.along();
+    columnByColumn += paper.columnByColumn() - line.columnByColumn();
+    between += paper.along() - darkest.along();
+  }
+  if (along <= 0.0 || columnByColumn <= 0.0) return {};
+  return {along / columnByColumn, between / along};
+}
 
 double inkAlongLines(const Plane& grey, const RulingLattice& lattice, const RunContext& context) {
   const int length = std::max(kShortestStretch, static_cast<int>(std::ceil(kStretchSpacings * lattice.spacing)));

@@ -2,6 +2,7 @@
 #include "core/image/threshold/grey_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -47,6 +48,32 @@ GreyParts greyPartsOf(const GreyImage& image, const RegionThresholds& thresholds
   const double border = area - static_cast<double>(shrunken(bright, 1, context).count());
   parts.hasMeshes = meshes > 0 && border * border <= kLongestMesh * 16.0 * area * static_cast<double>(meshes);
   return parts;
+}
+
+bool variesMoreThanLines(const Plane& grey, const RegionValues& halfLevels) {
+  constexpr double kMore = 1.5;  // times half the contrast, with which the smoothing before the thresholds has to do
+  constexpr int kStep = 5;       // one pixel of a row in so many, so that no period of lines is met in step
+  struct Sums {
+    double count = 0.0, sum = 0.0, squares = 0.0;
+  };
+  std::array<Sums, kRegions> sums{};
+  for (int y = 0; y < grey.height; ++y) {
+    for (int x = 2 * y % kStep; x < grey.width; x += kStep) {
+      Sums& of = sums[regionOf(x, y, grey.width, grey.height)];
+      const auto level = static_cast<double>(grey.row(y)[x]);
+      of.count += 1.0;
+      of.sum += level;
+      of.squares += level * level;
+    }
+  }
+  int more = 0;
+  for (int r = 0; r < kRegions; ++r) {
+    const Sums& of = sums[r];
+    if (of.count <= 0.0) continue;
+    const double mean = of.sum / of.count, limit = kMore * halfLevels[r];
+    more += of.squares / of.count - mean * mean > limit * limit ? 1 : 0;
+  }
+  return 2 * more >= kRegions;
 }
 
 }  // namespace batten

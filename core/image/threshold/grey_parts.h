@@ -5,6 +5,8 @@
 
 #include "core/base/run_context.h"
 #include "core/image/grey_image.h"
+#include "core/image/plane.h"
+#include "core/image/threshold/region_surface.h"
 #include "core/image/threshold/region_thresholds.h"
 
 namespace batten {
@@ -16,5 +18,10 @@ struct GreyParts {
   bool hasMeshes = false;
 };
 GreyParts greyPartsOf(const GreyImage&, const RegionThresholds&, const RunContext&);
+
+/// Whether the grey of most regions varies by more than lines of the contrast that was found there: paper and ink
+/// differ from their mean by half of it at most. Then what was taken for paper is a mean over lines and the gaps
+/// between them, as of hatching that meets the cells in step. @param halfLevels [grey] of lines, below the paper.
+bool variesMoreThanLines(const Plane& grey, const RegionValues& halfLevels);
 
 }  // namespace batten

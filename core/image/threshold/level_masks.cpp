@@ -235,7 +235,7 @@ LevelMasks compareWithLevels(const GreyImage& image, const RegionThresholds& t, 
       RegionSurface(t.contrast, image.width, image.height, params.interpolate),
       RegionSurface(t.certain, image.width, image.height, params.interpolate),
       {static_cast<float>(params.reach > 0.0 ? params.reach : kAutomaticReach), static_cast<float>(t.faintLimit)},
-      gaussianKernel(variance > 0.0 ? std::max(variance, 0.51) : 0.0),
+      gaussianKernel(variance),
       darkest,
       masks};
   parallelFor(context, image.height, kRowsPerBlock, [&](int begin, int end) {

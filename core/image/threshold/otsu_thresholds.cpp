@@ -20,11 +20,21 @@ constexpr double kMinFineSeparation = 0.73;
 /// Of the pixels of a region: lines that are brighter than their paper leave it more of them. Of hatching whose lines
 /// are as wide as their gaps, pixels that are part of both can make up to two thirds dark.
 constexpr float kMostlyDark = 0.7f;
+/// Hatching is known by its direction, not by its greys: a wave of which a pixel shows a quarter leaves .667 between
+/// the classes, noise of one grey .64, and its dark pixels may be three quarters of all.
+constexpr double kMinHatchingSeparation = 0.65;
+constexpr float kMostlyDarkHatching = 0.8f;
 
 /// [px] So much leaves the gaps between hairlines that are 2 to 3 px from middle to middle.
 constexpr double kHairSmoothingPx = 0.5;
 
 using GreyCounts = std::array<int, 256>;
+
+/// What parts a region into two greys.
+struct SplitLimits {
+  double minSeparation = kMinSeparation;
+  float mostlyDark = kMostlyDark;
+};
 
 struct Split {
   double level = 0.0, bright = 0.0, gap = 0.0, separation = 0.0, darkShare = 0.0;
@@ -65,13 +75,13 @@ void addCounts(const Plane& plane, const RegionBounds& b, GreyCounts& counts) {
 
 /// @param countsOf the greys of a region
 template <class CountsOf>
-OtsuThresholds splitRegions(const CountsOf& countsOf, double minSeparation, double strength,
+OtsuThresholds splitRegions(const CountsOf& countsOf, const SplitLimits& limits, double strength,
                             const RunContext& context) {
   std::vector<float> value(kRegions, 0.0f), weight(kRegions, 0.0f), darkShare(kRegions, 0.0f);
   std::vector<double> separation(kRegions, 0.0);
   parallelFor(context, kRegions, 1, [&](int region, int) {
     const Split split = otsu(countsOf(region));
-    if (split.gap <= kMinClassGap || split.separation <= minSeparation) return;
+    if (split.gap <= kMinClassGap || split.separation <= limits.minSeparation) return;
     value[region] = static_cast<float>(split.bright - strength * (split.bright - split.level));
     weight[region] = 1.0f;
     darkShare[region] = static_cast<float>(split.darkShare);
@@ -84,7 +94,7 @@ OtsuThresholds splitRegions(const CountsOf& countsOf, double minSeparation, doub
     out.measured[r] = weight[r] > 0.0f;
     if (out.measured[r]) ++regions.split;
     regions.separation += separation[r];
-    if (darkShare[r] > kMostlyDark) ++regions.mostlyDark;
+    if (darkShare[r] > limits.mostlyDark) ++regions.mostlyDark;
     out.automatic[r] = std::clamp(static_cast<double>(filled[r]), 0.0, 255.0);
   }
   if (regions.split > 0) regions.separation /= regions.split;
@@ -100,7 +110,7 @@ OtsuThresholds otsuThresholds(const Plane& smoothed, double smoothingPx, double 
     addCounts(smoothed, regionBounds(smoothed.width, smoothed.height, region), counts);
     return counts;
   };
-  OtsuThresholds found = splitRegions(countsOf, kMinSeparation, strength, context);
+  OtsuThresholds found = splitRegions(countsOf, {}, strength, context);
   found.thresholds.smoothingPx = smoothingPx;
   return found;
 }
@@ -163,8 +173,8 @@ bool isHatching(const Plane& part) {
 
 /// @param mayCount whether the grey of a region counts.
 template <class MayCount>
-OtsuThresholds fineThresholds(const GreyImage& image, double smoothingPx, double strength, const MayCount& mayCount,
-                              const RunContext& context) {
+OtsuThresholds fineThresholds(const GreyImage& image, double smoothingPx, const SplitLimits& limits, double strength,
+                              const MayCount& mayCount, const RunContext& context) {
   const std::vector<float> kernel = gaussianKernel(smoothingPx * smoothingPx);
   const auto countsOf = [&](int region) {
     const RegionBounds b = regionBounds(image.width, image.height, region);
@@ -177,7 +187,7 @@ OtsuThresholds fineThresholds(const GreyImage& image, double smoothingPx, double
     addCounts(smooth(part, kernel, alone), {0, 0, part.width, part.height}, counts);
     return counts;
   };
-  OtsuThresholds found = splitRegions(countsOf, kMinFineSeparation, strength, context);
+  OtsuThresholds found = splitRegions(countsOf, limits, strength, context);
   found.thresholds.smoothingPx = smoothingPx;
   return found;
 }
@@ -186,11 +196,13 @@ OtsuThresholds fineThresholds(const GreyImage& image, double smoothingPx, double
 
 OtsuThresholds fineOtsuThresholds(const GreyImage& image, double strength, const RunContext& context) {
   return fineThresholds(
-      image, kFineSmoothingPx, strength, [](const Plane&) { return true; }, context);
+      image, kFineSmoothingPx, {.minSeparation = kMinFineSeparation}, strength, [](const Plane&) { return true; },
+      context);
 }
 
 OtsuThresholds hatchingThresholds(const GreyImage& image, double strength, const RunContext& context) {
-  return fineThresholds(image, kHairSmoothingPx, strength, isHatching, context);
+  return fineThresholds(image, kHairSmoothingPx, {kMinHatchingSeparation, kMostlyDarkHatching}, strength, isHatching,
+                        context);
 }
 
 }  // namespace batten

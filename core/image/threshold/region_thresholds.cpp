@@ -171,6 +171,7 @@ bool isPaperSeen(const Plane& grey, const PaperEstimate& estimate) {
 struct AgainstPaper {
   RegionThresholds thresholds;
   bool isPaperSeen = true;  ///< False: hardly any paper lies free of lines, and its brightness is a guess.
+  bool isMean = false;      ///< What was taken for paper is a mean over lines and paper, see variesMoreThanLines.
 };
 
 AgainstPaper flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
@@ -203,6 +204,7 @@ AgainstPaper flattenedThresholds(const Plane& grey, const PageEdges& edges, int 
   const bool enough = edges.crests.size() >= kMinVotes;
   out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, kLinePerNoise * depths.noise);
   if (out.foundLine) {
+    found.isMean = variesMoreThanLines(grey, contrastsOf(grey, edges, depths, 1.0).contrast);
     contrasts = contrastsOf(grey, edges, depths, strength * out.halfLevelShare);
   } else {
     out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "No ink contrast was found.";
@@ -221,12 +223,22 @@ RegionThresholds ofCloseLines(RegionThresholds out) {
   return out;
 }
 
+/// Of lines as fine as noise, in most regions: their direction tells. @return absent: there are none, or brighter ones,
+/// or the run was cancelled.
+std::optional<RegionThresholds> thresholdsOfHatching(const GreyImage& image, double strength,
+                                                     const RunContext& context) {
+  OtsuThresholds hatching = hatchingThresholds(image, strength, context);
+  const bool isSplit = 2 * hatching.split >= kRegions;
+  if (context.isCancelled() || !isSplit || 2 * hatching.mostlyDark >= hatching.split) return std::nullopt;
+  return ofCloseLines(std::move(hatching.thresholds));
+}
+
 /// Where lines stand so close all over the page that hardly any paper shows between them, neither the paper nor its
 /// noise can be measured: then the two greys of every region tell ink from paper, as without flattening, if most
 /// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions. Bright lines on
 /// dark paper are told by the greys, too: most of such a page is dark, and the bright part is no net's meshes. Of two
 /// smoothings the lesser counts if it parts the greys more clearly, so that it is not noise, and shows more pieces.
-/// Where neither parts them, hatching may be finer still: it is known by its direction, which noise has not.
+/// Where neither parts them, hatching may be finer still.
 /// @return absent: the page is none of these, or the run was cancelled.
 std::optional<RegionThresholds> thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, double strength,
                                                        bool areLinesBrighter, const RunContext& context) {
@@ -234,11 +246,7 @@ std::optional<RegionThresholds> thresholdsWithoutPaper(const GreyImage& image, c
   OtsuThresholds fine = fineOtsuThresholds(image, strength, context);
   const auto isSplit = [](const OtsuThresholds& regions) { return 2 * regions.split >= kRegions; };
   if (context.isCancelled()) return std::nullopt;
-  if (!isSplit(coarse) && !isSplit(fine)) {
-    OtsuThresholds hatching = hatchingThresholds(image, strength, context);
-    if (context.isCancelled() || !isSplit(hatching) || 2 * hatching.mostlyDark >= hatching.split) return std::nullopt;
-    return ofCloseLines(std::move(hatching.thresholds));
-  }
+  if (!isSplit(coarse) && !isSplit(fine)) return thresholdsOfHatching(image, strength, context);
   const GreyParts coarseParts = greyPartsOf(image, coarse.thresholds, context),
                   fineParts = greyPartsOf(image, fine.thresholds, context);
   if (context.isCancelled()) return std::nullopt;
@@ -370,6 +378,9 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
       out = std::move(found.thresholds);
       if (!out.foundLine || !found.isPaperSeen) {
         auto hatched = thresholdsWithoutPaper(image, smoothed, params.strength, out.note == kBrighterLines, context);
+        if (hatched) out = std::move(*hatched);
+      } else if (found.isMean) {
+        auto hatched = thresholdsOfHatching(image, params.strength, context);
         if (hatched) out = std::move(*hatched);
       }
     } else {

@@ -12,6 +12,7 @@
 #include "core/image/binarize.h"
 #include "core/image/page_preparation.h"
 #include "tests/support/colour_page.h"
+#include "tests/support/hatching_page.h"
 
 namespace batten {
 namespace {
@@ -294,6 +295,16 @@ TEST(Rulings, DrawingsHaveNone) {
   }
 }
 
+TEST(Rulings, HatchingTooFineForARulingIsNone) {
+  // Oblique: a line of the ruling, three pixels wide, meets ink in nearly every column.
+  for (const double offset : {0.0, 0.7}) {
+    const test::Hatching oblique{.angleDeg = 45.0, .spacingPx = 4.2426, .offsetPx = offset};
+    EXPECT_TRUE(findRulings(test::hatchingPage(oblique), {}).empty()) << offset;
+  }
+  // Every other of its lines is far enough from the next.
+  EXPECT_TRUE(findRulings(test::hatchingPage({.angleDeg = 90.0, .spacingPx = 4.5}), {}).empty());
+}
+
 TEST(Rulings, TeethOfACombAreNone) {
   for (const int spacing : {5, 10, 25}) {
     GreyImage comb(600, 400, 235 * 257);
@@ -334,6 +345,13 @@ TEST(Rulings, NothingButDarkLinesIsTheDrawing) {
     // Something drawn over them: they are the paper's.
     inks.push_back({drawing(), kPen});
     EXPECT_EQ(preparePage(paperWith(inks), {}, {})->rulings.size(), isGrid ? 2u : 1u) << isGrid;
+  }
+  // Turned, so that many lines cross no more than a corner.
+  for (const double angle : {-8.2, 98.2}) {
+    Scan turned;
+    turned.grey = test::hatchingPage({.angleDeg = angle, .spacingPx = 6.3});
+    ASSERT_FALSE(findRulings(turned.grey, {}).empty());
+    EXPECT_TRUE(preparePage(turned, {}, {})->rulings.empty()) << angle;
   }
   // An empty sheet of ruled paper holds no drawing.
   EXPECT_EQ(preparePage(paperWith({{ruling({}), light(0.8)}}), {}, {})->rulings.size(), 1u);

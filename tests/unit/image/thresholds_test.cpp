@@ -8,6 +8,7 @@
 #include "core/image/binarize.h"
 #include "core/image/push_pull.h"
 #include "core/image/threshold/region_values.h"
+#include "tests/support/hatching_page.h"
 
 namespace batten {
 namespace {
@@ -233,6 +234,45 @@ TEST(Thresholds, FindHatchingWhosePixelsAreMoreOftenDarkThanBright) {
   for (int y = 0; y < page.height; ++y)
     for (int x = 0; x < page.width; ++x) page.row(y)[x] = static_cast<std::uint16_t>(kRows[y % 3] * 257);
   expectLines(page, 50, "rows");
+}
+
+/// How many lines side by side a row, or a column, of the ink holds, on an average of three.
+double linesAcross(const BitImage& ink, bool isDown) {
+  const int length = isDown ? ink.height : ink.width, other = isDown ? ink.width : ink.height;
+  int lines = 0;
+  for (const int at : {other / 4, other / 2, 3 * other / 4}) {
+    for (int i = 1; i < length; ++i) {
+      const auto isInk = [&](int k) { return isDown ? ink.at(at, k) : ink.at(k, at); };
+      lines += isInk(i) && !isInk(i - 1) ? 1 : 0;
+    }
+  }
+  return lines / 3.0;
+}
+
+// As few pixels as show a wave of lines make any two, three or four greys of it, and meet the cells of the paper in
+// step.
+TEST(Thresholds, HatchingIsFoundHoweverThePixelsMeetIt) {
+  for (const double spacing : {2.83, 3.5, 4.0, 4.24}) {
+    for (const double offset : {0.0, 0.25, 0.5, 1.0}) {
+      const GreyImage down = test::hatchingPage({.angleDeg = 90.0, .spacingPx = spacing, .offsetPx = offset});
+      const double lines = 600.0 / spacing, obliqueLines = 400.0 / (std::sqrt(2.0) * spacing);
+      EXPECT_NEAR(linesAcross(mask(down, {}, {}), false), lines, 0.05 * lines) << spacing << " from " << offset;
+      const GreyImage oblique = test::hatchingPage({.angleDeg = 45.0, .spacingPx = spacing, .offsetPx = offset});
+      EXPECT_NEAR(linesAcross(mask(oblique, {}, {}), true), obliqueLines, 0.05 * obliqueLines)
+          << spacing << " oblique, from " << offset;
+    }
+  }
+}
+
+TEST(Thresholds, ANetOfHairlinesKeepsThePixelsBetweenItsCrossings) {
+  GreyImage page(600, 400);
+  for (int y = 0; y < page.height; ++y) {
+    for (int x = 0; x < page.width; ++x) {
+      const bool isInk = (x + y) % 6 == 0 || (x - y + 600) % 6 == 1;
+      page.row(y)[x] = static_cast<std::uint16_t>((isInk ? 20 : 235) * 257);
+    }
+  }
+  expectLines(page, 50, "net of single pixels");
 }
 
 constexpr int kLetterPx = 7, kRowPx = 12;
