@@ -174,7 +174,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   if (edges.mode == EdgeMode::Outline && edges.choices.empty() && edges.painted.empty()) {
     Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, std::nullopt, nullptr, context);
     if (!borders) return fail(borders.error());
-    noteUnevenInk(*borders, ink, grey);
+    noteUnevenInk(*borders, ink, grey, context);
     found.set = std::move(*borders);
     return found;
   }
@@ -212,7 +212,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
       bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, grainy ? &*grainy : nullptr, context);
   if (!borders) return fail(borders.error());
   if (split->pencil) notePencil(*borders, split->pencil->ink, split->pencil->pencilPx);
-  noteUnevenInk(*borders, split->shapes, grey);
+  noteUnevenInk(*borders, split->shapes, grey, context);
   borders->report.droppedHoles += texture;
   borders->report.droppedFaint = faint;
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);
@@ -286,10 +286,9 @@ bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParam
 void noteUntraced(ContourSet& set, const BitImage& ink) {
   const double share = explainedInk(set, ink);
   if (set.contours.empty() || set.report.droppedMargins > 0 || share >= kLeastExplained) return;
-  addNote(set,
-          "Only " + std::to_string(std::lround(100.0 * std::max(0.0, share))) +
-              " % of the ink is traced: contours.min_widths=0 keeps short lines, and edges.mode=outline traces the "
-              "borders of all ink.");
+  addNote(set, "Only " + std::to_string(std::lround(100.0 * std::max(0.0, share))) + " % of the ink is traced: " +
+                   (set.report.droppedShort > 0 ? "contours.min_widths=0 keeps short lines, and " : "") +
+                   "edges.mode=outline traces the borders of all ink.");
 }
 
 // Whether the borders of a net show what the lines do not: a net has many more meshes than lines, torn strokes and

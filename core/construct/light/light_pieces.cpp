@@ -175,10 +175,18 @@ bool isFrayed(const NurbsCurve& dense, const ConstructContour& contour, int piec
          isRagged(dense, contour.pieces[piece].closed, kFrayedLength * tolerance, context);
 }
 
-void noteFrayed(ConstructedPiece& piece) {
-  if (!piece.report.light || !piece.report.light->isSimplified) return;
-  // What the dense curve had to say of sharp turns is not of this one.
-  piece.report.note = "The ink is uneven and its border ragged: drawn with a detail of 0.8 (construct.smooth_ragged).";
+/// Lightens a ragged outline of uneven ink, and says so. What the dense curve had to say, of sharp turns, goes with it.
+void lightenFrayed(ConstructedPiece& piece, bool closed, const ConstructParams& params, const ConstructContour& contour,
+                   const RunContext& context) {
+  const std::string ofDense = std::exchange(piece.report.note, {});
+  lighten(piece, closed, kFrayedDetail, params, contour, context);
+  if (!piece.report.light || !piece.report.light->isSimplified) {
+    if (piece.report.note.empty()) piece.report.note = ofDense;
+    return;
+  }
+  const std::string spikes = piece.report.note.empty() ? "" : " " + piece.report.note;
+  piece.report.note =
+      "The ink is uneven and its border ragged: drawn as it was meant (construct.smooth_ragged)." + spikes;
 }
 
 }  // namespace
@@ -228,11 +236,12 @@ Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const Construc
   parallelFor(context, static_cast<int>(made.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       if (context.isCancelled() || made[i].curve.isEmpty()) continue;
-      const double asked = contour.pieces[i].detail.value_or(params.detail);
       const bool closed = contour.pieces[i].closed;
-      const double detail = isFrayed(made[i].curve, contour, i, params, context) ? kFrayedDetail : asked;
-      lighten(made[i], closed, detail, params, contour, context);
-      if (detail != asked) noteFrayed(made[i]);
+      if (isFrayed(made[i].curve, contour, i, params, context)) {
+        lightenFrayed(made[i], closed, params, contour, context);
+      } else {
+        lighten(made[i], closed, contour.pieces[i].detail.value_or(params.detail), params, contour, context);
+      }
     }
   });
   if (context.isCancelled()) return cancelled();

@@ -291,7 +291,8 @@ std::vector<CornerEvidence> evidenceAt(const Contour& contour, const std::vector
 // Who draws several like corners on one line means the next like one too: what is likely, turns the same way, about as
 // far as they do, and has its tip in the ink is taken for granted with them. Of strokes: ink fills their corners, while
 // a border shows its own.
-void judgeAlike(const Contour& stroke, std::vector<CornerSuggestion>& all) {
+void judgeAlike(const Contour& stroke, const std::vector<CornerEvidence>& evidence,
+                std::vector<CornerSuggestion>& all) {
   constexpr int kFewestCertain = 3;
   constexpr double kTipWidths = 0.6;  // from the line: the ink of a corner and what its filling takes
   constexpr double kLikely = 0.5, kLeastTurnShare = 0.6;  // of the certain ones' in the middle
@@ -304,8 +305,9 @@ void judgeAlike(const Contour& stroke, std::vector<CornerSuggestion>& all) {
       if (s.certainty >= kCertainCorner && sign * s.turningAngleRad > 0.0) turns.push_back(sign * s.turningAngleRad);
     if (std::ssize(turns) < kFewestCertain) continue;
     const double least = kLeastTurnShare * upperMedian(turns);
-    for (CornerSuggestion& s : all) {
-      const bool isLike = s.certainty >= kLikely && sign * s.turningAngleRad >= least;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      CornerSuggestion& s = all[i];
+      const bool isLike = evidence[i].isLocated && s.certainty >= kLikely && sign * s.turningAngleRad >= least;
       if (isLike && (s.positionPx - stroke.points[s.pointIndex].at).norm() <= farthest)
         s.certainty = std::max(s.certainty, kCertainCorner);
     }
@@ -331,7 +333,7 @@ std::vector<CornerSuggestion> suggestionsAt(const Contour& contour, const std::v
     }
     suggestions.push_back({0, e.pointIndex, e.positionPx, e.angleRad, judge.certainty(e)});
   }
-  judgeAlike(contour, suggestions);
+  judgeAlike(contour, evidence, suggestions);
   return suggestions;
 }
 

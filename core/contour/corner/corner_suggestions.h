@@ -15,7 +15,8 @@ struct CornerSuggestion {
   int pointIndex = 0;
   Vec2 positionPx = Vec2::Zero();
   double turningAngleRad = 0.0;
-  double certainty = 0.0;  ///< 0..1 (CornerJudge). From kCertainCorner on it is set without a mark.
+  double certainty = 0.0;  ///< 0..1 (CornerJudge; of a like corner on a stroke kCertainCorner). From that on it is
+                           ///< set without a mark.
 };
 
 /// A sharp feature: a stretch of a contour that is known to turn sharply, points first..last. On a closed contour

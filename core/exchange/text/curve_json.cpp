@@ -117,7 +117,8 @@ Result<ExportDocument> documentFromJson(const Json& json) {
   if (!json.is_object() || json.value("format", "") != kFormat) return damaged("it is not a \"batten-curves\" file");
   if (integerOf(json.at("version")) != kVersion) {
     const Json& version = json.at("version");
-    return damaged("it is of version " + (version.is_number() ? version.dump() : quotedText(version.dump())) +
+    const std::string said = version.is_string() ? version.get<std::string>() : version.dump();
+    return damaged("it is of version " + (version.is_number() ? said : quotedText(said)) +
                    ", and this Batten reads version 1");
   }
   ExportDocument document;

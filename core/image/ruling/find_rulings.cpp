@@ -209,13 +209,22 @@ bool isPrinted(const Plane& grey, const FoundLattice& found, bool isGrid) {
   return found.lattice.coverage >= kDarkCoverage && std::ssize(found.lattice.isSeen) >= kDarkLines;
 }
 
-/// Where a line runs, also beyond its lattice: straight on.
+/// Where a line runs. Lines that were not seen follow the outermost seen one at the distance that it has there from its
+/// neighbour: the lattice's own bends say nothing beyond it.
+double lineAt(const RulingLattice& lattice, double k, double x) {
+  const double seen = std::clamp(k, static_cast<double>(lattice.first), static_cast<double>(lattice.last));
+  if (seen == k || lattice.first == lattice.last) return lattice.at(k, x);
+  const double inside = k < seen ? seen + 1.0 : seen - 1.0, at = lattice.at(seen, x);
+  return at + std::abs(k - seen) * (at - lattice.at(inside, x));
+}
+
+/// The same, also beyond the ends of its lattice: straight on.
 double courseAt(const RulingLattice& lattice, double k, double x) {
   const double edge = std::clamp(x, lattice.fromX, lattice.toX());
-  if (edge == x) return lattice.at(k, x);
+  if (edge == x) return lineAt(lattice, k, x);
   const double within = kEdgeShare * (lattice.toX() - lattice.fromX) * (x < edge ? 1.0 : -1.0);
-  const double here = lattice.at(k, edge);
-  return here + (lattice.at(k, edge + within) - here) / within * (x - edge);
+  const double here = lineAt(lattice, k, edge);
+  return here + (lineAt(lattice, k, edge + within) - here) / within * (x - edge);
 }
 
 /// Share of the seen lines that hold ink in a column.
@@ -263,7 +272,7 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   const auto placesOnPage = [&](int k) {
     int count = 0;
     for (int i = 0; i <= kPlacesAcross; ++i) {
-      const double y = lattice.at(k, lattice.fromX + i * (lattice.toX() - lattice.fromX) / kPlacesAcross);
+      const double y = lineAt(lattice, k, lattice.fromX + i * (lattice.toX() - lattice.fromX) / kPlacesAcross);
       if (y > least && y < most) ++count;
     }
     return count;

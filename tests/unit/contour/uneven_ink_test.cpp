@@ -15,11 +15,11 @@ namespace {
 constexpr double kBarHeight = 240.0;  // px
 
 // Bars of 30 x 240 px, one beside the other.
-GreyImage bars(int count, double noise) {
+GreyImage bars(int count, double noise, double blurPx = 0.8) {
   test::RenderSettings s;
   s.width = 60 * count;
   s.height = 280;
-  s.blurPx = 0.8;
+  s.blurPx = blurPx;
   s.noise = noise;
   return test::renderShape(
       [](double x, double y) {
@@ -31,15 +31,17 @@ GreyImage bars(int count, double noise) {
 ContourSet bordersOn(const GreyImage& grey) {
   const BitImage ink = test::thresholdMask(grey, 150.0);
   ContourSet set = *crackContours(ink, false, 40.0, {});
-  noteUnevenInk(set, ink, grey);
+  noteUnevenInk(set, ink, grey, {});
   return set;
 }
 
 TEST(UnevenInk, SolidInkIsEvenWhateverTheScanAddsToIt) {
-  for (const double noise : {0.0, 4.0, 10.0}) {
-    const ContourSet set = bordersOn(bars(1, noise));
-    ASSERT_EQ(set.contours.size(), 1u);
-    EXPECT_FALSE(set.contours[0].isUneven) << "noise " << noise;
+  for (const double blurPx : {0.8, 2.0, 3.0}) {
+    for (const double noise : {0.0, 4.0, 10.0}) {
+      const ContourSet set = bordersOn(bars(1, noise, blurPx));
+      ASSERT_EQ(set.contours.size(), 1u);
+      EXPECT_FALSE(set.contours[0].isUneven) << "noise " << noise << ", blur " << blurPx;
+    }
   }
 }
 
@@ -77,7 +79,7 @@ TEST(UnevenInk, BordersAtTheEdgeOfThePageAndOfTooFewPixelsAreEven) {
   GreyImage grey(40, 40, 0);
   EXPECT_FALSE(bordersOn(grey).contours.at(0).isUneven);
   ContourSet none;
-  noteUnevenInk(none, BitImage(), GreyImage());
+  noteUnevenInk(none, BitImage(), GreyImage(), {});
   EXPECT_TRUE(none.contours.empty());
 }
 
