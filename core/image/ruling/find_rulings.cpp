@@ -18,6 +18,7 @@
 namespace batten {
 namespace {
 
+constexpr int kHidden = 3;                             // lines beyond the seen ones, where ink may hide them
 constexpr std::int64_t kLargestLatticePx = 4'000'000;  // [px] of the shrunk page: bounds the time
 constexpr int kStationPx = 16;                         // [px] between the points of a course
 // Of the columns of a strip. Printed lines go on, unlike grain and most hatching; where few of them do, all count.
@@ -209,13 +210,14 @@ bool isPrinted(const Plane& grey, const FoundLattice& found, bool isGrid) {
   return found.lattice.coverage >= kDarkCoverage && std::ssize(found.lattice.isSeen) >= kDarkLines;
 }
 
-/// Where a line runs. Lines that were not seen follow the outermost seen one at the distance that it has there from its
-/// neighbour: the lattice's own bends say nothing beyond it.
+/// Where a line runs. Those farther than kHidden from the seen ones follow the outermost of them at the distance that
+/// it has there from its neighbour: the lattice's own bends say nothing so far beyond it.
 double lineAt(const RulingLattice& lattice, double k, double x) {
-  const double seen = std::clamp(k, static_cast<double>(lattice.first), static_cast<double>(lattice.last));
-  if (seen == k || lattice.first == lattice.last) return lattice.at(k, x);
-  const double inside = k < seen ? seen + 1.0 : seen - 1.0, at = lattice.at(seen, x);
-  return at + std::abs(k - seen) * (at - lattice.at(inside, x));
+  const double known =
+      std::clamp(k, static_cast<double>(lattice.first - kHidden), static_cast<double>(lattice.last + kHidden));
+  if (known == k || lattice.first == lattice.last) return lattice.at(k, x);
+  const double inside = k < known ? known + 1.0 : known - 1.0, at = lattice.at(known, x);
+  return at + std::abs(k - known) * (at - lattice.at(inside, x));
 }
 
 /// The same, also beyond the ends of its lattice: straight on.
@@ -267,7 +269,7 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   family.depth = found.look.depth;
   // Lines go on to the borders of the page, where they may be hidden. Of a turned page many cross no more than a
   // corner, too little to be seen as lines.
-  constexpr int kPlacesAcross = 8, kHidden = 3;
+  constexpr int kPlacesAcross = 8;
   const double least = -1.0, most = grey.height + 1.0;
   const auto placesOnPage = [&](int k) {
     int count = 0;
