@@ -105,6 +105,8 @@ int CommandPalette::score(const QString& letters, const QString& text) {
     points += wordStart ? 8 : next == from ? 4 : 1;
     from = next + 1;
   }
+  // The word itself, before words that merely hold its letters.
+  if (text.contains(letters, Qt::CaseInsensitive)) points += 8;
   return points;
 }
 

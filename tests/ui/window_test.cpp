@@ -308,6 +308,7 @@ TEST(CommandPalette, RanksLettersInOrder) {
   EXPECT_EQ(CommandPalette::score("du", "Undo"), 0);
   EXPECT_GT(CommandPalette::score("und", "Undo"), 0);
   EXPECT_GT(CommandPalette::score("zf", "Zoom fit"), CommandPalette::score("zf", "azurfix"));
+  EXPECT_GT(CommandPalette::score("redo", "Redo"), CommandPalette::score("redo", "Smooth ragged outlines (Curves)"));
 }
 
 TEST_F(Window, StagesHaveHelpAndNames) {
