@@ -18,7 +18,7 @@ namespace {
 // tone .3 to .8.
 constexpr double kUneven = 0.1;
 constexpr double kUnevenBesideOthers = 0.04;       // where most are uneven
-constexpr int kPointStep = 2;                      // points, of which the neighbours see the same ink
+constexpr int kPointStep = 3;                      // points, of which the neighbours see the same ink
 constexpr int kArmPoints = 3;                      // points to either side: the course of the border
 constexpr double kInsidePx[] = {3, 6, 9};          // from the border
 constexpr double kOutsidePx = 5.0;                 // as is the paper

@@ -52,14 +52,17 @@ GreyParts greyPartsOf(const GreyImage& image, const RegionThresholds& thresholds
 
 bool variesMoreThanLines(const Plane& grey, const RegionValues& halfLevels) {
   constexpr double kMore = 1.5;  // times half the contrast, with which the smoothing before the thresholds has to do
-  constexpr int kStep = 5;       // one pixel of a row in so many, so that no period of lines is met in step
+  constexpr int kStep = 11;  // one pixel of a row in so many, so that no period of rows or of columns is met in step
   struct Sums {
     double count = 0.0, sum = 0.0, squares = 0.0;
   };
   std::array<Sums, kRegions> sums{};
+  std::vector<int> columns;  // of the regions
+  for (int x = 0; x < grey.width; ++x) columns.push_back(regionOf(x, 0, grey.width, grey.height));
   for (int y = 0; y < grey.height; ++y) {
+    Sums* row = sums.data() + regionOf(0, y, grey.width, grey.height);
     for (int x = 2 * y % kStep; x < grey.width; x += kStep) {
-      Sums& of = sums[regionOf(x, y, grey.width, grey.height)];
+      Sums& of = row[columns[x]];
       const auto level = static_cast<double>(grey.row(y)[x]);
       of.count += 1.0;
       of.sum += level;
