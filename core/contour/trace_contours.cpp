@@ -174,7 +174,6 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   if (edges.mode == EdgeMode::Outline && edges.choices.empty() && edges.painted.empty()) {
     Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, std::nullopt, nullptr, context);
     if (!borders) return fail(borders.error());
-    noteUnevenInk(*borders, ink, grey, context);
     found.set = std::move(*borders);
     return found;
   }
