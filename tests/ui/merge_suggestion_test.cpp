@@ -39,8 +39,9 @@ class MergeButton : public test::WindowFixture {
     rest_ = note_->text();
   }
   double strength() { return session().recipe().edges.mergeWidths; }
+  static constexpr int kLimitMs = 180000;  // outlines of overdrawn strokes take half a minute on a busy machine
   bool answered() {
-    return waitUntil([this] { return !session().isWorking(); });
+    return waitUntil([this] { return !session().isWorking(); }, kLimitMs);
   }
   QPushButton* ask_ = nullptr;
   QLabel* note_ = nullptr;
