@@ -25,6 +25,7 @@
 #include "core/contour/outline/subpixel_edges.h"
 #include "core/contour/outline/texture_holes.h"
 #include "core/contour/outline/uneven_ink.h"
+#include "core/image/binarize.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
@@ -274,11 +275,10 @@ bool isOfAllInk(const EdgeParams& edges, const ContourParams& params) {
 // Whether lines may have gone lost in a net: none came, they stand for too little of the ink, or the meshes of an
 // outline were dropped as short.
 bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
-  constexpr double kMeshes = 0.25;  // of the ink: as much paper in holes is that between lines (binarize.cpp)
   if (set.contours.empty()) return true;
   if (!isOfAllInk(edges, params)) return false;
   return explainedInk(set, ink) < kLeastExplained ||
-         set.report.droppedHolesPx > kMeshes * static_cast<double>(ink.count());
+         set.report.droppedHolesPx > kMeshShare * static_cast<double>(ink.count());
 }
 
 // Says so where most of the ink is not traced. Margins have a note of their own.

@@ -14,9 +14,6 @@ namespace {
 
 /// A speck of the default 20 px has a box of 8 px across; other areas in proportion.
 constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;
-/// Of the ink: holes that make up more of it are no noise but the paper between lines that cross a few pixels apart.
-/// The grain of charcoal and pencil leaves less than a hundredth.
-constexpr double kMeshShare = 0.25;
 
 BitImage withoutNoiseHoles(BitImage ink, int area, const RunContext& context) {
   BitImage filled = ink;

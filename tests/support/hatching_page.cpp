@@ -28,14 +28,14 @@ bool isOnHatch(const Vec2& at, const Vec2& direction, const Hatching& h) {
 
 GreyImage hatchingPage(const Hatching& h) {
   constexpr int kParts = 8;  // of a pixel, along a side
-  const Vec2 along = hatchDirection(h.angleDeg), across(-along.y(), along.x());
+  const Vec2 along = hatchDirection(h.angleDeg);
   Plane plane(kHatchedWidth, kHatchedHeight);
   for (int y = 0; y < kHatchedHeight; ++y) {
     for (int x = 0; x < kHatchedWidth; ++x) {
       int inked = 0;
       for (int part = 0; part < kParts * kParts; ++part) {
         const Vec2 at(x + (part % kParts + 0.5) / kParts, y + (part / kParts + 0.5) / kParts);
-        inked += isOnHatch(at, along, h) || (h.isNet && isOnHatch(at, across, h)) ? 1 : 0;
+        inked += isOnHatch(at, along, h) ? 1 : 0;
       }
       plane.row(y)[x] = 235.0f - 215.0f * static_cast<float>(inked) / (kParts * kParts);
     }

@@ -10,7 +10,6 @@ struct Hatching {
   double angleDeg = 45.0, widthPx = 2.0, spacingPx = 4.0;  ///< Spacing: from middle to middle.
   double offsetPx = 0.0;                                   ///< Of a line's middle from the page's corner.
   double blurPx = 0.0;                                     ///< Standard deviation of a Gaussian.
-  bool isNet = false;                                      ///< As many lines square to them.
 };
 
 /// Ink 20 on paper 235, of which a pixel shows as much as it holds.

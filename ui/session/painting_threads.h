@@ -5,14 +5,15 @@ class QThreadPool;
 
 namespace batten {
 
-/// Qt paints wide areas on the threads of a pool, which end when idle; where the system then starts none anew, painting
-/// waits for it without end. Starts those of `pool` now and keeps them, a few at most. To be called before anything is
-/// painted. Unless all were started the pool must never be destroyed: it would wait for the others without end.
+/// How many of the wanted threads were started.
 enum class PaintingThreads {
   None,  ///< Nothing can be painted.
   Some,
   All
 };
+/// Qt paints wide areas on the threads of a pool, which end when idle; where the system then starts none anew, painting
+/// waits for it without end. Starts those of `pool` now and keeps them, a few at most. To be called before anything is
+/// painted. Unless all were started the pool must never be destroyed: it would wait for the others without end.
 PaintingThreads keepPaintingThreads(QThreadPool& pool);
 
 }  // namespace batten

@@ -28,9 +28,9 @@ constexpr double kDetailStep = 0.1;          // of `detail`: the steps of which 
 constexpr int kFewestControlPoints = 2;      // of any curve
 constexpr int kMostCompared = 40;            // control points
 constexpr int kFarMore = 2 * kMostCompared;  // what no smaller detail has so many fewer than
-constexpr double kFrayedDetail = 0.8;        // of ragged outlines of uneven ink
-constexpr double kFrayedLength = 4.0;        // tolerances of length for each extremum: waves, not a form that was drawn
-constexpr double kFrayedExtent = 40.0;       // tolerances of length: what is shorter is a form
+constexpr double kRaggedDetail = 0.8;        // of ragged outlines of uneven ink
+constexpr double kWaveLength = 4.0;          // tolerances of length for each extremum: waves, not a form that was drawn
+constexpr double kLeastRagged = 40.0;        // tolerances of length: what is shorter is a form
 constexpr double kRaggedLength = 12.0;       // tolerances of length for each extremum: ragged where there is less
 
 std::string reasonOf(LightObstacle obstacle) {
@@ -59,14 +59,16 @@ bool hasKnotsOf(const NurbsCurve& curve, int multiplicity) {
   return false;
 }
 
-/// Ragged: more extrema than a line that was meant so could have. @param lengthForEach of the line, at least
-bool isRagged(const NurbsCurve& curve, bool closed, double lengthForEach, const RunContext& context) {
-  return countedExtrema(curve, closed, context) * lengthForEach > ArcLength(curve, context).total();
+/// Ragged: more extrema than a line that was meant so could have. @param length of the curve
+/// @param lengthForEach of the curve, at least
+bool isRagged(const NurbsCurve& curve, bool closed, double length, double lengthForEach, const RunContext& context) {
+  return countedExtrema(curve, closed, context) * lengthForEach > length;
 }
 
 Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOptions& options, bool simplified,
                            const RunContext& context) {
-  const bool ragged = simplified && isRagged(dense, closed, kRaggedLength * options.tolerance, context);
+  const bool ragged = simplified && isRagged(dense, closed, ArcLength(dense, context).total(),
+                                             kRaggedLength * options.tolerance, context);
   if (ragged) {
     if (auto simple = simplifiedCurve(dense, closed, options, context)) return std::move(*simple);
   }
@@ -165,21 +167,22 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   finishExact(piece, closed, light->report.kind);
 }
 
-/// Whether the tool frayed the border of uneven ink, and nothing says how much of that is meant.
-bool isFrayed(const NurbsCurve& dense, const ConstructContour& contour, int piece, const ConstructParams& params,
-              const RunContext& context) {
-  if (!contour.isUneven || !params.smoothRagged || contour.pieces[piece].detail || params.detail >= kFrayedDetail)
+/// Whether the tool made the border of uneven ink ragged, and nothing says how much of that is meant.
+bool isRaggedByTool(const NurbsCurve& dense, const ConstructContour& contour, int piece, const ConstructParams& params,
+                    const RunContext& context) {
+  if (!contour.isUneven || !params.smoothRagged || contour.pieces[piece].detail || params.detail >= kRaggedDetail)
     return false;
-  const double tolerance = lightOptions(params, contour, dense, kFrayedDetail).tolerance;
-  return ArcLength(dense, context).total() > kFrayedExtent * tolerance &&
-         isRagged(dense, contour.pieces[piece].closed, kFrayedLength * tolerance, context);
+  const double tolerance = lightOptions(params, contour, dense, kRaggedDetail).tolerance;
+  const double length = ArcLength(dense, context).total();
+  return length > kLeastRagged * tolerance &&
+         isRagged(dense, contour.pieces[piece].closed, length, kWaveLength * tolerance, context);
 }
 
 /// Lightens a ragged outline of uneven ink, and says so. What the dense curve had to say, of sharp turns, goes with it.
-void lightenFrayed(ConstructedPiece& piece, bool closed, const ConstructParams& params, const ConstructContour& contour,
+void lightenRagged(ConstructedPiece& piece, bool closed, const ConstructParams& params, const ConstructContour& contour,
                    const RunContext& context) {
   const std::string ofDense = std::exchange(piece.report.note, {});
-  lighten(piece, closed, kFrayedDetail, params, contour, context);
+  lighten(piece, closed, kRaggedDetail, params, contour, context);
   if (!piece.report.light || !piece.report.light->isSimplified) {
     if (piece.report.note.empty()) piece.report.note = ofDense;
     return;
@@ -237,8 +240,8 @@ Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const Construc
     for (int i = begin; i < end; ++i) {
       if (context.isCancelled() || made[i].curve.isEmpty()) continue;
       const bool closed = contour.pieces[i].closed;
-      if (isFrayed(made[i].curve, contour, i, params, context)) {
-        lightenFrayed(made[i], closed, params, contour, context);
+      if (isRaggedByTool(made[i].curve, contour, i, params, context)) {
+        lightenRagged(made[i], closed, params, contour, context);
       } else {
         lighten(made[i], closed, contour.pieces[i].detail.value_or(params.detail), params, contour, context);
       }

@@ -26,8 +26,7 @@ constexpr int kFewestInk = 20, kFewestPaper = 10;  // places that tell
 constexpr double kQuartilesInSigmas = 1.349;       // from the lower to the upper one of a normal distribution
 
 bool isInk(const BitImage& ink, Vec2 at) {
-  const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
-  return x >= 0 && y >= 0 && x < ink.width && y < ink.height && ink.at(x, y);
+  return ink.at(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
 }
 
 // Grey level 0..255, the mean of 3 x 3 pixels; absent: not all of them are ink, or paper, as asked for.

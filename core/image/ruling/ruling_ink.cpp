@@ -105,37 +105,38 @@ class StretchInk {
   std::vector<int> rows_;  ///< Of the line, column by column: each is asked for many times.
 };
 
-/// The level along a course: of those of its rows that are darkest, or brightest.
+/// Levels along a course, summed over the columns in which it lies on the page.
 class CourseLevels {
  public:
-  /// @param sign 1 for the darkest, -1 for the brightest.
-  CourseLevels(const Plane& grey, const RulingLattice& lattice, double line, float sign) {
+  CourseLevels(const Plane& grey, const RulingLattice& lattice, double line) {
     const int begin = std::max(0, static_cast<int>(std::lround(lattice.fromX))),
               end = std::min(grey.width, static_cast<int>(std::lround(lattice.toX())));
-    std::array<double, 2 * kOff + 1> sums{};
     for (int x = begin; x < end; ++x) {
       const int row = static_cast<int>(std::floor(lattice.at(line, x + 0.5)));
       if (row < kOff || row + kOff >= grey.height) continue;
-      float least = sign * grey.row(row)[x];
+      std::array<float, 2 * kOff + 1> levels{};
       for (int d = -kOff; d <= kOff; ++d) {
-        const float level = sign * grey.row(row + d)[x];
-        least = std::min(least, level);
-        sums[d + kOff] += static_cast<double>(level);
+        levels[d + kOff] = grey.row(row + d)[x];
+        rows_[d + kOff] += static_cast<double>(levels[d + kOff]);
       }
-      columnByColumn_ += static_cast<double>(sign * least);
+      const auto [least, most] = std::minmax_element(levels.begin(), levels.end());
+      darkest_ += static_cast<double>(*least);
+      brightest_ += static_cast<double>(*most);
       ++columns_;
     }
-    along_ = static_cast<double>(sign) * *std::min_element(sums.begin(), sums.end());
   }
-  int columns() const { return columns_; }  ///< On the page.
-  /// Mean over the columns, of the one row that is darkest, or brightest, on the whole.
-  double along() const { return along_ / columns_; }
-  /// The same, of the darkest, or brightest, row of each column.
-  double columnByColumn() const { return columnByColumn_ / columns_; }
+  int columns() const { return columns_; }
+  /// Mean of the one row that is darkest, or brightest, on the whole.
+  double darkestRow() const { return *std::min_element(rows_.begin(), rows_.end()) / columns_; }
+  double brightestRow() const { return *std::max_element(rows_.begin(), rows_.end()) / columns_; }
+  /// Mean of the darkest, or brightest, row of each column.
+  double darkest() const { return darkest_ / columns_; }
+  double brightest() const { return brightest_ / columns_; }
 
  private:
   static constexpr int kOff = 1;  // rows to both sides of the course
-  double along_ = 0.0, columnByColumn_ = 0.0;
+  std::array<double, 2 * kOff + 1> rows_{};
+  double darkest_ = 0.0, brightest_ = 0.0;
   int columns_ = 0;
 };
 
@@ -146,12 +147,11 @@ LatticeContrast contrastOf(const Plane& grey, const RulingLattice& lattice) {
   for (int i = 0; i < std::ssize(lattice.isSeen); ++i) {
     if (!lattice.isSeen[i]) continue;
     const double number = lattice.first + i;
-    const CourseLevels line(grey, lattice, number, 1.0f), paper(grey, lattice, number + 0.5, -1.0f),
-        darkest(grey, lattice, number + 0.5, 1.0f);
-    if (line.columns() == 0 || paper.columns() == 0) continue;
-    along += paper.along() - line.along();
-    columnByColumn += paper.columnByColumn() - line.columnByColumn();
-    between += paper.along() - darkest.along();
+    const CourseLevels line(grey, lattice, number), middle(grey, lattice, number + 0.5);
+    if (line.columns() == 0 || middle.columns() == 0) continue;
+    along += middle.brightestRow() - line.darkestRow();
+    columnByColumn += middle.brightest() - line.darkest();
+    between += middle.brightestRow() - middle.darkestRow();
   }
   if (along <= 0.0 || columnByColumn <= 0.0) return {};
   return {along / columnByColumn, between / along};

@@ -2,7 +2,6 @@
 #include "core/image/threshold/grey_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -10,6 +9,7 @@
 #include "core/image/bits/run_pieces.h"
 #include "core/image/plane.h"
 #include "core/image/threshold/region_surface.h"
+#include "core/image/threshold/region_values.h"
 
 namespace batten {
 namespace {
@@ -53,28 +53,22 @@ GreyParts greyPartsOf(const GreyImage& image, const RegionThresholds& thresholds
 bool variesMoreThanLines(const Plane& grey, const RegionValues& halfLevels) {
   constexpr double kMore = 1.5;  // times half the contrast, with which the smoothing before the thresholds has to do
   constexpr int kStep = 11;  // one pixel of a row in so many, so that no period of rows or of columns is met in step
-  struct Sums {
-    double count = 0.0, sum = 0.0, squares = 0.0;
-  };
-  std::array<Sums, kRegions> sums{};
-  std::vector<int> columns;  // of the regions
-  for (int x = 0; x < grey.width; ++x) columns.push_back(regionOf(x, 0, grey.width, grey.height));
-  for (int y = 0; y < grey.height; ++y) {
-    Sums* row = sums.data() + regionOf(0, y, grey.width, grey.height);
-    for (int x = 2 * y % kStep; x < grey.width; x += kStep) {
-      Sums& of = row[columns[x]];
-      const auto level = static_cast<double>(grey.row(y)[x]);
-      of.count += 1.0;
-      of.sum += level;
-      of.squares += level * level;
-    }
-  }
   int more = 0;
   for (int r = 0; r < kRegions; ++r) {
-    const Sums& of = sums[r];
-    if (of.count <= 0.0) continue;
-    const double mean = of.sum / of.count, limit = kMore * halfLevels[r];
-    more += of.squares / of.count - mean * mean > limit * limit ? 1 : 0;
+    const RegionBounds b = regionBounds(grey.width, grey.height, r);
+    double count = 0.0, sum = 0.0, squares = 0.0;
+    for (int y = b.y0; y < b.y1; ++y) {
+      const int first = b.x0 + ((2 * y - b.x0) % kStep + kStep) % kStep;
+      for (int x = first; x < b.x1; x += kStep) {
+        const auto level = static_cast<double>(grey.row(y)[x]);
+        count += 1.0;
+        sum += level;
+        squares += level * level;
+      }
+    }
+    if (count <= 0.0) continue;
+    const double mean = sum / count, limit = kMore * halfLevels[r];
+    more += squares / count - mean * mean > limit * limit ? 1 : 0;
   }
   return 2 * more >= kRegions;
 }
