@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,6 +56,8 @@ struct Contour {
   std::optional<double> blurPx;    ///< [px] standard deviation of the optical blur along an outline, where measured.
   std::optional<double> pencilPx;  ///< [px] width of the pencil that filled what an outline encloses; absent: no grain.
   bool isUneven = false;           ///< An outline of uneven ink (uneven_ink.h).
+  /// Whether the start, the end of a centre line lies in the ink of another line or of a shape: it is no free end.
+  std::array<bool, 2> endsInInk = {false, false};
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   std::optional<EdgeChoice> traceMode;       ///< The user's choice for its ink, if there is one.
   std::vector<int> joints;                   ///< Imported: points that are corners whatever the user marks, ascending.

@@ -13,6 +13,7 @@
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/fine_lines.h"
 #include "core/contour/centreline/junction_choices.h"
+#include "core/contour/centreline/meeting_ends.h"
 #include "core/contour/ink/blots.h"
 #include "core/contour/ink/faint_marks.h"
 #include "core/contour/ink/ink_split.h"
@@ -357,6 +358,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     refineSoftOutlines(*set, grey, context);
     if (edges.mode == EdgeMode::Outline) dropSoftBorders(*set, grey, params, context);
     if (context.isCancelled()) return cancelled();
+    leadToLines(set->contours, context);
     std::sort(set->contours.begin(), set->contours.end(), before);
   }
   tellDropped(*set, edges);

@@ -29,6 +29,8 @@ std::vector<Ground> groundUnder(const Contour& line, const BitImage& ink, double
 Contour partOf(const Contour& line, int first, int last) {
   Contour part = line;
   part.closed = false;
+  part.endsInInk[0] = part.endsInInk[0] && first == 0;
+  part.endsInInk[1] = part.endsInInk[1] && last + 1 == std::ssize(line.points);
   part.points.assign(line.points.begin() + first, line.points.begin() + last + 1);
   part.bridges.clear();
   for (const auto& [a, b] : line.bridges) {

@@ -220,6 +220,7 @@ Contour contourOf(const StrokeCourse& c) {
   Contour contour;
   contour.kind = ContourKind::Centreline;
   contour.closed = c.closed;
+  if (!c.closed) contour.endsInInk = {!c.tip[0], !c.tip[1]};
   std::vector<CoursePoint> kept;
   for (const CoursePoint& p : c.points) {
     if (!kept.empty()) {

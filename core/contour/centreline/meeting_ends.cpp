@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/meeting_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/base/statistics.h"
+#include "core/contour/centreline/stroke_course.h"
+#include "core/contour/centreline/stroke_paths.h"
+#include "core/polyline/point_grid.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+// [stroke widths] Of a line before its end, that tell how it bends; of its direction where it is placed up to its end,
+// and where its last points were laid on from those before.
+constexpr double kBendWidths = 4.0, kPlacedWidths = 4.0, kLaidWidths = 1.0;
+constexpr double kLeastLeadPx = 6.0, kBentLead = 0.9;
+constexpr double kBentLengthWidths = 8.0;  // of a line whose bend tells where it goes on: that of a stub is its noise
+constexpr double kMostTurn = 0.8;          // [rad] by which a line bends on to another
+constexpr double kMarchPx = 0.5;           // from one look at the lines around to the next
+constexpr double kMeetWidths = 1.0;        // before and after an end its line may be met at right angles,
+constexpr double kRimWidths = 1.5;         // the border of a shape,
+constexpr double kLeastSin = 0.12;         // and so much farther at smaller ones, down to 7 degrees
+constexpr double kAcrossSin = 0.5;         // 30 degrees: a line is met across
+constexpr double kInkPx = 1.0;             // beyond the widths of two lines: their ink touches still
+constexpr double kTouchHalfWidths = 1.0;   // from a line: an end that comes as close touches it
+constexpr double kMostLedWidths = 12.0;    // on from an end
+constexpr double kOwnWidths = 3.0;         // along a line from its own end: nearer it is the end itself
+
+struct PointOfLine {
+  int line = 0, point = 0;
+};
+
+double widthAt(const ContourPoint& p) { return static_cast<double>(p.widthPx.value_or(0.0f)); }
+
+// The end of a line, and how it goes on from there: at + s out + s^2 / 2 bend.
+struct LineEnd {
+  int line = 0, side = 0;
+  int anchor = 0;  // index, counted from the end, of the first point that stays,
+  int last = 0;    // of the last one
+  Vec2 out = Vec2::Zero(), bentOut = Vec2::Zero(), bend = Vec2::Zero();
+  double widthPx = 1.0;
+};
+
+// From the anchor on, along the line's own points and beyond.
+struct Way {
+  std::vector<Vec2> places;
+  int end = 0;  // index of the line's last point
+};
+
+// Where a line lies as seen from a place near it.
+struct LineBeside {
+  int line = 0;
+  double distance = 0.0;  // [px] signed: to which side of the line's travel
+  Vec2 foot = Vec2::Zero(), along = Vec2::Zero();
+  double widthPx = 0.0;
+  bool isRim = false;
+};
+
+struct LineMeeting {
+  std::vector<Vec2> way;  // from the anchor to the line met
+  double sine = 0.0;      // of the angle there
+  double beyondPx = 0.0;  // the end, along the way
+};
+
+class EndLeader {
+ public:
+  explicit EndLeader(const std::vector<Contour>& lines) : lines_(lines), grid_(cellPx(lines)) {
+    for (int i = 0; i < std::ssize(lines); ++i) {
+      for (int k = 0; k < std::ssize(lines[i].points); ++k) grid_.add(lines[i].points[k].at, {i, k});
+    }
+  }
+
+  std::optional<LineEnd> endOf(int line, int side) const;
+  std::optional<LineMeeting> meetingOf(const LineEnd& end) const;
+
+ private:
+  // Lines three times as wide as usual are still seen from where their ink begins.
+  static double cellPx(const std::vector<Contour>& lines) {
+    std::vector<float> widths;
+    for (const Contour& c : lines)
+      for (const ContourPoint& p : c.points)
+        if (p.widthPx) widths.push_back(*p.widthPx);
+    return 2.0 * std::max(1.0, widths.empty() ? 1.0 : static_cast<double>(upperMedian(widths))) + 2.0 * kInkPx;
+  }
+  const ContourPoint& point(const LineEnd& end, int k) const {
+    const std::vector<ContourPoint>& points = lines_[end.line].points;
+    return end.side == 0 ? points[k] : points[std::ssize(points) - 1 - k];
+  }
+  LocalQuadratic fitBefore(const LineEnd& end, double reach, int order) const;
+  Way wayOf(const LineEnd& end, bool isBent) const;
+  std::optional<LineMeeting> meetingAlong(const LineEnd& end, const Way& way) const;
+  std::vector<LineBeside> around(const LineEnd& end, const Vec2& place) const;
+
+  const std::vector<Contour>& lines_;
+  PointGrid<PointOfLine> grid_;
+};
+
+// By the points before the end, over the arc length to it.
+LocalQuadratic EndLeader::fitBefore(const LineEnd& end, double reach, int order) const {
+  const int n = static_cast<int>(lines_[end.line].points.size());
+  std::vector<double> s;
+  std::vector<Vec2> points;
+  double arc = 0.0;
+  for (int k = end.last; k < n && arc <= reach; ++k) {
+    if (k > end.last) arc += (point(end, k).at - point(end, k - 1).at).norm();
+    s.push_back(-arc);
+    points.push_back(point(end, k).at);
+  }
+  return fitLocalQuadratic(s, points, {}, arc >= kBentLead * reach ? order : 1);
+}
+
+std::optional<LineEnd> EndLeader::endOf(int line, int side) const {
+  LineEnd end{line, side};
+  const int n = static_cast<int>(lines_[line].points.size());
+  if (n < 3) return std::nullopt;
+  end.widthPx = std::max(1.0, widthAt(point(end, 0)));
+  const bool isPlaced = point(end, 0).refined;
+  // Before the border of a shape a skeleton turns to its corners.
+  const auto isNear = [&](int k, double px) { return (point(end, k).at - point(end, 0).at).norm() < px; };
+  while (isPlaced && end.last + 1 < n && isNear(end.last, kHookWidths * end.widthPx)) ++end.last;
+  end.anchor = end.last;
+  while (end.anchor + 1 < n && isNear(end.anchor, kMeetWidths * end.widthPx)) ++end.anchor;
+  if (2 * end.anchor > n) return std::nullopt;
+  const LocalQuadratic fit =
+      fitBefore(end, std::max(kLeastLeadPx, (isPlaced ? kPlacedWidths : kLaidWidths) * end.widthPx), 1);
+  if (fit.order.value_or(0) < 1 || !(fit.r1.norm() > 0.0)) return std::nullopt;
+  end.out = end.bentOut = fit.r1.normalized();
+  // The grain of a pencil bends its line to and fro.
+  if (!point(end, end.anchor).sigmaPx) return end;
+  const LocalQuadratic bent = fitBefore(end, std::max(kLeastLeadPx, kBendWidths * end.widthPx), 2);
+  if (bent.order != 2 || !(bent.r1.norm() > 0.0) || lines_[line].lengthPx < kBentLengthWidths * end.widthPx) return end;
+  end.bentOut = bent.r1.normalized();
+  if (isPlaced) end.out = end.bentOut;
+  const Vec2 left = leftNormal(end.bentOut);
+  end.bend = left * left.dot(bent.r2);
+  return end;
+}
+
+Way EndLeader::wayOf(const LineEnd& end, bool isBent) const {
+  Way way;
+  for (int k = end.anchor; k >= end.last; --k) way.places.push_back(point(end, k).at);
+  way.end = static_cast<int>(way.places.size()) - 1;
+  const Vec2 at = way.places.back(), out = isBent ? end.bentOut : end.out;
+  const Vec2 bend = isBent ? end.bend : Vec2(Vec2::Zero());
+  const double most = kMostLedWidths * end.widthPx, turn = bend.norm();
+  const double to = turn > 0.0 ? std::min(most, kMostTurn / turn) : most;
+  for (double s = kMarchPx; s <= to; s += kMarchPx) way.places.emplace_back(at + s * (out + 0.5 * s * bend));
+  return way;
+}
+
+// The lines near a place, each by its nearest segment.
+std::vector<LineBeside> EndLeader::around(const LineEnd& end, const Vec2& place) const {
+  std::vector<LineBeside> nearest;
+  grid_.around(place, [&](const PointOfLine& near) {
+    const Contour& other = lines_[near.line];
+    const int n = static_cast<int>(other.points.size());
+    if (near.point + 1 == n && !other.closed) return;
+    const int fromEnd = end.side == 0 ? near.point : n - 1 - near.point;
+    if (near.line == end.line && fromEnd < end.anchor + kOwnWidths * end.widthPx) return;
+    const ContourPoint &p = other.points[near.point], &q = other.points[(near.point + 1) % n];
+    const Vec2 step = q.at - p.at;
+    if (!(step.norm() > 0.0)) return;
+    const Vec2 away = awayFromSegment(place, p.at, q.at);
+    const auto found = std::ranges::find(nearest, near.line, &LineBeside::line);
+    if (found != nearest.end() && std::abs(found->distance) <= away.norm()) return;
+    const double sign = cross(step, Vec2(place - p.at)) < 0.0 ? -1.0 : 1.0;
+    const LineBeside beside{near.line,         sign * away.norm(), place - away,
+                            step.normalized(), widthAt(p),         other.kind == ContourKind::Outline};
+    (found != nearest.end() ? *found : nearest.emplace_back()) = beside;
+  });
+  return nearest;
+}
+
+std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way& way) const {
+  std::optional<LineMeeting> crossed, touched;
+  std::vector<LineBeside> before;
+  double arc = 0.0;  // from the end
+  for (int k = 0; k < way.end; ++k) arc -= (way.places[k + 1] - way.places[k]).norm();
+  for (int k = 0; k < std::ssize(way.places); ++k) {
+    const Vec2& place = way.places[k];
+    const Vec2 step = k > 0 ? Vec2(place - way.places[k - 1]) : end.out;
+    if (k > 0) arc += step.norm();
+    std::vector<LineBeside> now = around(end, place);
+    bool isOnInk = k <= way.end;
+    for (const LineBeside& beside : now) {
+      // The mouth of a stroke is laid straight from rim to rim; its ink begins before it.
+      const double inkPx = beside.isRim ? kRimWidths * end.widthPx : 0.5 * (end.widthPx + beside.widthPx);
+      isOnInk = isOnInk || std::abs(beside.distance) <= inkPx + kInkPx;
+      const auto was = std::ranges::find(before, beside.line, &LineBeside::line);
+      if (was == before.end()) continue;
+      const double d = beside.distance, old = was->distance;
+      const double sine = std::abs(cross(beside.along, step.normalized()));
+      const double widths = beside.isRim ? kRimWidths : kMeetWidths;
+      const double reach = widths * std::max(end.widthPx, beside.widthPx) / std::max(kLeastSin, sine) + kInkPx;
+      // What jumps is the line's other bank, or beyond its end.
+      if (std::abs(arc) > reach || std::abs(d - old) > 2.0 * step.norm()) continue;
+      const auto isBetter = [&](const std::optional<LineMeeting>& than) {
+        return !than || std::abs(arc) < std::abs(than->beyondPx);
+      };
+      std::vector<Vec2> taken(way.places.begin(), way.places.begin() + k + 1);
+      if (d * old <= 0.0) {
+        taken.back() = beside.foot;
+        if (isBetter(crossed)) crossed = LineMeeting{std::move(taken), sine, arc};
+      } else if (k > way.end && std::abs(d) > std::abs(old) && sine < kAcrossSin &&
+                 std::abs(d) <= kTouchHalfWidths * 0.5 * std::max(1.0, beside.widthPx) && isBetter(touched)) {
+        taken.resize(way.end + 1);
+        const Vec2 along = beside.along.dot(end.out) < 0.0 ? Vec2(-beside.along) : beside.along;
+        for (const Vec2& at : cubicBetween(taken.back(), end.bentOut, beside.foot, along)) taken.push_back(at);
+        taken.push_back(beside.foot);
+        touched = LineMeeting{std::move(taken), sine, arc};
+      }
+    }
+    if (!isOnInk) break;
+    before = std::move(now);
+  }
+  return crossed ? crossed : touched;
+}
+
+// Straight on where that meets a line well across; else as the line bends.
+std::optional<LineMeeting> EndLeader::meetingOf(const LineEnd& end) const {
+  std::optional<LineMeeting> straight = meetingAlong(end, wayOf(end, false));
+  if ((straight && straight->sine >= kAcrossSin) || !(end.bend.norm() > 0.0)) return straight;
+  std::optional<LineMeeting> bent = meetingAlong(end, wayOf(end, true));
+  return bent ? bent : straight;
+}
+
+// Replaces what lies beyond the anchor by points about 1 px apart along the way.
+void leadOn(Contour& c, const LineEnd& end, const std::vector<Vec2>& way) {
+  if (end.side == 0) std::reverse(c.points.begin(), c.points.end());
+  const std::vector<ContourPoint> own(c.points.end() - end.anchor, c.points.end());
+  c.points.resize(c.points.size() - end.anchor);
+  for (int k = 1; k < std::ssize(way); ++k) {
+    const bool isLast = k + 1 == std::ssize(way);
+    // Points of the line stay what they are.
+    if (k - 1 < end.anchor - end.last && !isLast) {
+      c.points.push_back(own[k - 1]);
+      continue;
+    }
+    if (!isLast && (way[k] - c.points.back().at).norm() < 1.0 - 0.5 * kMarchPx) continue;
+    ContourPoint p = c.points.back();
+    p.at = p.unrefined = way[k];
+    p.refined = false;
+    c.points.push_back(p);
+  }
+  if (end.side == 0) std::reverse(c.points.begin(), c.points.end());
+}
+
+}  // namespace
+
+void leadToLines(std::vector<Contour>& lines, const RunContext& context) {
+  const auto endsInInk = [](const Contour& c) { return !c.closed && (c.endsInInk[0] || c.endsInInk[1]); };
+  if (std::ranges::none_of(lines, endsInInk)) return;
+  std::vector<std::pair<LineEnd, LineMeeting>> leads;
+  const EndLeader leader(lines);
+  for (int i = 0; i < std::ssize(lines); ++i) {
+    if (!endsInInk(lines[i])) continue;
+    if (context.isCancelled()) return;
+    for (const int side : {0, 1}) {
+      const std::optional<LineEnd> end = lines[i].endsInInk[side] ? leader.endOf(i, side) : std::nullopt;
+      if (!end) continue;
+      if (std::optional<LineMeeting> meeting = leader.meetingOf(*end)) leads.emplace_back(*end, std::move(*meeting));
+    }
+  }
+  // All are found on the lines as they were, so that their order does not matter.
+  for (const auto& [end, meeting] : leads) {
+    Contour& c = lines[end.line];
+    const auto before = static_cast<int>(c.points.size());
+    leadOn(c, end, meeting.way);
+    const int more = static_cast<int>(c.points.size()) - before;
+    for (auto& [first, last] : c.bridges) {
+      if (end.side == 0) first += more, last += more;
+    }
+    measureContour(c);
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ends of strokes that lie in the ink of another line, on pages of known lines: they meet that line.
+
+#include "core/contour/centreline/meeting_ends.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/polyline/polyline_tools.h"
+#include "tests/support/dense_page.h"
+#include "tests/unit/contour/traced_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 360;
+constexpr double kLineY = 240.0;  // of the line that the others meet
+
+std::vector<Vec2> straight(const Vec2& from, const Vec2& to) {
+  const int steps = static_cast<int>(std::ceil((to - from).norm()));
+  std::vector<Vec2> line;
+  for (int k = 0; k <= steps; ++k) line.push_back(from + (to - from) * (static_cast<double>(k) / steps));
+  return line;
+}
+
+ContourSet tracedLines(const std::vector<std::vector<Vec2>>& lines, double widthPx) {
+  return tracedPage(test::scanOfLines(test::coverageOf(lines, widthPx, kWidth, kHeight), kWidth, kHeight, 7).grey);
+}
+
+// The end of a line that lies nearest to a place.
+Vec2 nearestEnd(const ContourSet& set, const Vec2& place) {
+  Vec2 nearest = Vec2::Constant(std::numeric_limits<double>::infinity());
+  for (const Contour& c : set.contours) {
+    for (const Vec2& at : {c.points.front().at, c.points.back().at})
+      if (!c.closed && (at - place).norm() < (nearest - place).norm()) nearest = at;
+  }
+  return nearest;
+}
+
+// [px] From an end to the nearest line that is not its own.
+double distanceToOther(const ContourSet& set, const Vec2& end) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Contour& c : set.contours) {
+    if (c.points.front().at == end || c.points.back().at == end) continue;
+    for (std::size_t k = 1; k < c.points.size(); ++k)
+      nearest = std::min(nearest, awayFromSegment(end, c.points[k - 1].at, c.points[k].at).norm());
+  }
+  return nearest;
+}
+
+TEST(MeetingEnds, ABranchEndsOnTheMiddleOfTheLineItMeets) {
+  for (const double widthPx : {4.0, 8.0, 12.0}) {
+    for (const double angleDeg : {90.0, 60.0, 40.0}) {
+      const Vec2 foot(200.0, kLineY);
+      const double angle = angleDeg * std::numbers::pi / 180.0;
+      const ContourSet set = tracedLines({straight({20.0, kLineY}, {460.0, kLineY}),
+                                          straight(foot, foot + 180.0 * Vec2(std::cos(angle), -std::sin(angle)))},
+                                         widthPx);
+      ASSERT_EQ(set.contours.size(), 2u) << angleDeg;
+      const Vec2 end = nearestEnd(set, foot);
+      EXPECT_LT(distanceToOther(set, end), 0.05) << widthPx << " px, " << angleDeg << " degrees";
+      EXPECT_NEAR(end.y(), kLineY, 0.3) << widthPx << " px, " << angleDeg << " degrees";
+      EXPECT_NEAR(end.x(), foot.x(), 1.0 + 0.1 * widthPx) << widthPx << " px, " << angleDeg << " degrees";
+    }
+  }
+}
+
+// An arc that leaves a line by and by. Where they share their ink only one middle is seen; the other line is led on to
+// it.
+TEST(MeetingEnds, WhatLeavesALineByAndByTouchesIt) {
+  constexpr double kRadius = 220.0, kTouchX = 120.0;
+  for (const double widthPx : {4.0, 8.0}) {
+    std::vector<Vec2> arc;
+    for (double a = 0.0; a <= 1.2; a += 1.0 / kRadius)
+      arc.emplace_back(kTouchX + kRadius * std::sin(a), kLineY - kRadius * (1.0 - std::cos(a)));
+    const ContourSet set = tracedLines({straight({20.0, kLineY}, {460.0, kLineY}), arc}, widthPx);
+    ASSERT_EQ(set.contours.size(), 2u) << widthPx;
+    const Vec2 end = nearestEnd(set, {kTouchX, kLineY});
+    EXPECT_LT(distanceToOther(set, end), 0.05) << widthPx;
+    // They are a width apart 41 px (4 px wide) and 59 px (8 px) beyond where they touch.
+    EXPECT_GT(end.x(), kTouchX) << widthPx;
+    EXPECT_LT(end.x(), kTouchX + std::sqrt(2.0 * kRadius * widthPx)) << widthPx;
+  }
+}
+
+TEST(MeetingEnds, AStrokeThatRunsIntoAShapeMeetsItsBorder) {
+  constexpr double kRadius = 45.0;
+  const Vec2 centre(150.0, 180.0);
+  std::vector<float> coverage = test::coverageOf({straight(centre, {440.0, 150.0})}, 7.0, kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double inside = kRadius - (Vec2(x + 0.5, y + 0.5) - centre).norm() + 0.5;
+      float& c = coverage[static_cast<std::size_t>(y) * kWidth + x];
+      c = std::max(c, static_cast<float>(std::clamp(inside, 0.0, 1.0)));
+    }
+  }
+  const ContourSet set = tracedPage(test::scanOfLines(std::move(coverage), kWidth, kHeight, 7).grey);
+  ASSERT_EQ(set.contours.size(), 2u);
+  const Vec2 end = nearestEnd(set, centre);
+  // The mouth is laid straight across: up to .14 px within the circle.
+  EXPECT_NEAR((end - centre).norm(), kRadius, 0.8);
+}
+
+// Where no line goes on within the ink nothing is laid on.
+TEST(MeetingEnds, AnEndThatMeetsNoLineStays) {
+  std::vector<Contour> lines(2);
+  for (Contour& c : lines) c.kind = ContourKind::Centreline;
+  lines[0].points = contourPoints(straight({50.0, 100.0}, {200.0, 100.0}), true);
+  lines[1].points = contourPoints(straight({230.0, 40.0}, {230.0, 160.0}), true);
+  for (Contour& c : lines) {
+    for (ContourPoint& p : c.points) p.widthPx = 6.0f;
+    c.endsInInk = {true, true};
+    measureContour(c);
+  }
+  const std::vector<ContourPoint> before = lines[0].points;
+  leadToLines(lines, {});
+  EXPECT_EQ(lines[0].points, before);
+}
+
+}  // namespace
+}  // namespace batten
