@@ -35,11 +35,6 @@ namespace {
 
 const QString kSaveFolderKey = QStringLiteral("recipe/folder");
 
-bool isPlaceToSave(const QString& folder) {
-  const QFileInfo info(folder);
-  return !folder.isEmpty() && info.isDir() && info.isWritable();
-}
-
 bool isRecipeFile(const QString& path) { return path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive); }
 
 UnsavedAnswer askOnScreen(QWidget* window, const QString& drawing) {
@@ -278,7 +273,7 @@ bool MainWindow::saveRecipeTo(const QString& path) {
     return false;
   }
   parts_->recipePath = absolutePath(path);
-  if (isUnicodePath(path)) QSettings().setValue(kSaveFolderKey, folderOf(path));
+  QSettings().setValue(kSaveFolderKey, storedPath(folderOf(path)));
   session_.markSaved();
   rememberFile(path, session_.isBlankPage() ? QString() : session_.scanPath());
   refreshTitle();
@@ -289,12 +284,12 @@ bool MainWindow::saveRecipeTo(const QString& path) {
 // Where it lies now; else beside the scan, where it is found by itself; else where the last one was saved.
 QString MainWindow::proposedRecipePath() const {
   if (!parts_->recipePath.isEmpty()) return parts_->recipePath;
-  const QString last = QSettings().value(kSaveFolderKey).toString();
+  const QString last = pathFromStored(QSettings().value(kSaveFolderKey).toString());
   const QString folder = isPlaceToSave(last) ? last : QDir::homePath();
   if (session_.isBlankPage()) return folder + QStringLiteral("/drawing.recipe.json");
   const QString beside =
       absolutePath(pathText(recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number)));
-  if (!isOfProgram(session_.scanPath()) && isUnicodePath(beside) && isPlaceToSave(folderOf(beside))) return beside;
+  if (!isOfProgram(session_.scanPath()) && isPlaceToSave(folderOf(beside))) return beside;
   return folder + QLatin1Char('/') + proposedFileName(beside);
 }
 

@@ -33,6 +33,11 @@ bool answeredInWords(int argc, char** argv) {
              "an empty page") >= 0;
 }
 
+int endWithoutThreads() {
+  std::fputs("batten: the system starts no more threads. Close other programs and start Batten again.\n", stderr);
+  return 1;
+}
+
 int runWindow(int argc, char** argv) {
   batten::MainWindow window;
   window.show();
@@ -53,6 +58,8 @@ int main(int argc, char** argv) {
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the work.
   batten::reportLargeFilesAsErrors();
   batten::keepFewHeaps();
+  // Before Qt asks for its own: it waits without end, and shows nothing, where it does not get one.
+  if (!batten::canStartThreads(batten::threadsOfStart())) return endWithoutThreads();
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("Batten"));
   QCoreApplication::setApplicationName(QStringLiteral("batten"));
@@ -61,11 +68,7 @@ int main(int argc, char** argv) {
   QGuiApplication::setApplicationDisplayName(QStringLiteral("Batten"));
 
   const auto painters = batten::keepPaintingThreads(*QThreadPool::globalInstance());
-  int code = 1;
-  if (painters == batten::PaintingThreads::None)
-    std::fputs("batten: the system starts no more threads. Close other programs and start Batten again.\n", stderr);
-  else
-    code = runWindow(argc, argv);
+  const int code = painters == batten::PaintingThreads::None ? endWithoutThreads() : runWindow(argc, argv);
   // Qt would wait for those that were never started.
   if (painters != batten::PaintingThreads::All) std::_Exit(code);
   return code;

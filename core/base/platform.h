@@ -56,6 +56,9 @@ struct FileId {
 /// Of what the path leads to, with links followed; nullopt if there is nothing.
 std::optional<FileId> fileId(const std::filesystem::path&);
 
+/// Whether it is a folder in which files may be made.
+bool isWritableFolder(const std::filesystem::path&);
+
 /// While it lives, nothing reaches stderr: image libraries print complaints of their own there, and an error of this
 /// program is to be one line. Does nothing in sanitizer builds, whose reports must be seen.
 class QuietStderr {

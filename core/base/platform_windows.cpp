@@ -170,6 +170,12 @@ std::optional<FileId> fileId(const fs::path& path) {
   return FileId{info.dwVolumeSerialNumber, (std::uint64_t{info.nFileIndexHigh} << 32) | info.nFileIndexLow};
 }
 
+bool isWritableFolder(const fs::path& path) {
+  constexpr int kToWrite = 2;
+  std::error_code failed;
+  return fs::is_directory(path, failed) && _waccess(path.c_str(), kToWrite) == 0;
+}
+
 QuietStderr::QuietStderr() {
   std::fflush(stderr);
   const int nowhere = _open("NUL", _O_WRONLY), real = _fileno(stderr);

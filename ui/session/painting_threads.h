@@ -5,6 +5,12 @@ class QThreadPool;
 
 namespace batten {
 
+/// How many threads the window needs at once when it starts: those that Qt waits for without end where the system does
+/// not start them, and one for the work.
+int threadsOfStart();
+/// Whether the system starts `count` threads at once. They have ended when this returns.
+bool canStartThreads(int count);
+
 /// How many of the wanted threads were started.
 enum class PaintingThreads {
   None,  ///< Nothing can be painted.

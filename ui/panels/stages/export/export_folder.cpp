@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QSettings>
+#include <system_error>
 
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/session/editor_session.h"
@@ -27,14 +28,19 @@ QString drawingName(const EditorSession& session) {
 
 QString proposedExportPath(const EditorSession& session, const QString& ending) {
   const QString scan = session.scanPath();
-  QString folder = QSettings().value(kExportFolderKey).toString();
+  QString folder = pathFromStored(QSettings().value(kExportFolderKey).toString());
   if (folder.isEmpty() && !session.isBlankPage() && !isOfProgram(scan)) folder = folderOf(scan);
-  if (folder.isEmpty() || !isUnicodePath(folder) || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
+  if (!isPlaceToSave(folder)) folder = QDir::homePath();
   return folder + QLatin1Char('/') + drawingName(session) + ending;
 }
 
-void rememberExportFolder(const QString& path) {
-  QSettings().setValue(kExportFolderKey, QFileInfo(path).absolutePath());
+void rememberExportFolder(const QString& path) { QSettings().setValue(kExportFolderKey, storedPath(folderOf(path))); }
+
+std::optional<FileState> stateOfFile(const QString& path) {
+  const std::filesystem::path file = nativePath(path);
+  std::error_code failed, unknown;  // a folder has no size
+  if (!std::filesystem::exists(file, failed)) return std::nullopt;
+  return FileState{path, std::filesystem::file_size(file, unknown), std::filesystem::last_write_time(file, unknown)};
 }
 
 }  // namespace batten

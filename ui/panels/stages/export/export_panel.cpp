@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/export/export_panel.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -19,7 +18,6 @@
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/controls/stage_panel.h"
 #include "ui/panels/stages/export/export_choice.h"
-#include "ui/panels/stages/export/export_folder.h"
 #include "ui/panels/stages/export/export_options.h"
 #include "ui/panels/stages/export/export_preview.h"
 #include "ui/panels/stages/export/report_section.h"
@@ -162,7 +160,7 @@ void ExportPanel::buildForm() {
 }
 
 void ExportPanel::openedAnother() {
-  lastWritten_ = {};
+  lastWritten_.reset();
   result_->clear();
   report_->clearResult();
   confirmReplace_ = false;
@@ -189,7 +187,7 @@ void ExportPanel::suggestName() {
     path_->setText(proposedExportPath(session_, QLatin1Char('.') + suffix));
     path_->setCursorPosition(static_cast<int>(path_->text().size()));
   }
-  path_->setToolTip(path_->text());
+  path_->setToolTip(shownPath(path_->text()));
   refresh();
 }
 
@@ -198,7 +196,7 @@ void ExportPanel::browse() {
   if (chosen.isEmpty()) return;
   path_->setText(chosen);
   path_->setModified(true);
-  path_->setToolTip(chosen);
+  path_->setToolTip(shownPath(chosen));
   // The dialog has asked about an existing file already.
   confirmReplace_ = true;
   refresh();
@@ -277,9 +275,8 @@ QString ExportPanel::wantedPath() const {
 }
 
 bool ExportPanel::isOfOthers(const QString& path) const {
-  const QFileInfo now(path);
-  if (!now.exists()) return false;
-  return path != lastWritten_.path || now.size() != lastWritten_.bytes || now.lastModified() != lastWritten_.changed;
+  const auto now = stateOfFile(path);
+  return now && now != lastWritten_;
 }
 
 ExportRequest ExportPanel::request(const QString& path) const {
@@ -338,9 +335,9 @@ void ExportPanel::start() {
   }
   if (isOfOthers(path) && !confirmReplace_) {
     confirmReplace_ = true;
-    const QString name = QFileInfo(path).fileName();
+    const QString name = shownFileName(path);
     result_->setText(
-        path == lastWritten_.path
+        lastWritten_ && path == lastWritten_->path
             ? tr("%1 was changed by another program after the export. Press again to replace it.").arg(name)
             : tr("%1 exists. Press again to replace it.").arg(name));
     return refresh();
@@ -376,9 +373,9 @@ void ExportPanel::finish(const Result<ExportReport>& report) {
     emit failed(report.error());
     return;
   }
-  const QFileInfo written(pathText(report->path));
-  lastWritten_ = {pathText(report->path), written.size(), written.lastModified()};
-  result_->setText(tr("Wrote %1: %2.").arg(written.fileName(), QString::fromStdString(sentenceByNumbers(*report))));
+  const QString written = pathText(report->path);
+  lastWritten_ = stateOfFile(written);
+  result_->setText(tr("Wrote %1: %2.").arg(shownFileName(written), QString::fromStdString(sentenceByNumbers(*report))));
   refresh();
   // A change made meanwhile is not in the file.
   emit exported(writing_ == session_.recipe());

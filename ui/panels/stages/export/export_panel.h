@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QDateTime>
 #include <QWidget>
 #include <memory>
 #include <optional>
 #include <set>
 #include <vector>
 
+#include "ui/panels/stages/export/export_folder.h"
 #include "ui/panels/stages/export/export_job.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/inbox.h"
@@ -96,13 +96,7 @@ class ExportPanel : public QWidget {
   std::optional<Previewed> previewed_;
   bool confirmReplace_ = false;
   bool running_ = false;
-  /// A file as it was right after this window wrote it.
-  struct Written {
-    QString path;
-    std::optional<qint64> bytes;
-    QDateTime changed;
-  };
-  Written lastWritten_;
+  std::optional<FileState> lastWritten_;     ///< Right after this window wrote it.
   std::shared_ptr<const FairedSet> sizeOf_;  ///< What size_ was measured of: only when it changes, and is seen.
   ExportedCurves sizeWhich_ = ExportedCurves::Faired;
   std::optional<std::set<int>> sizeNumbers_;

@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QDate>
-#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
@@ -137,7 +136,7 @@ void ReportSection::finish(const Result<void>& outcome, const QString& path) {
   session_.setSideWork(this, false);
   setReady(isReady_);
   if (!outcome && outcome.error().code != ErrorCode::Cancelled) return emit failed(outcome.error());
-  result_->setText(outcome ? tr("Wrote %1.").arg(QFileInfo(path).fileName()) : tr("Stopped. No report was written."));
+  result_->setText(outcome ? tr("Wrote %1.").arg(shownFileName(path)) : tr("Stopped. No report was written."));
   emit written(result_->text());
 }
 
