@@ -315,7 +315,11 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   } else {
     pencil.assign(paths.size(), false);
   }
-  bridgeGaps(paths, pencil, found.bodies ? *found.bodies : strokes, grey, params, context);
+  const BitImage& ink = found.bodies ? *found.bodies : strokes;
+  // Merging sees bundles as a whole.
+  const bool isMerged = params.mergeWidths > 0.0 || params.intent;
+  if (!isMerged) joinThroughInk(paths, pencil, found.strokes.junctions, ink, grey, context);
+  bridgeGaps(paths, pencil, ink, grey, params, context);
   return found;
 }
 

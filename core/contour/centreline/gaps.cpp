@@ -30,8 +30,13 @@ constexpr double kOctaveCost = 2.0;         // of twice the width, as of so many
 constexpr double kGreyCost = 0.02;          // [1/grey] of ends that differ in darkness
 constexpr double kAcrossRadii = 4.0;        // [radii] and [px] to one side of a middle: beyond two widths the ink is
 constexpr double kAcrossPx = 4.0;  // that of others, which a mean over the middle half of the chords leaves out
-constexpr int kBridgeRounds = 4;   // an end whose best partner is taken may find another
-constexpr int kEndsPerLook = 256;  // between polls of the cancel token
+// Ends in shared ink: [widths] apart at most, [degrees] by which each looks past the other, and [px] more.
+constexpr double kSharedWidths = 15.0, kSharedFacingDeg = 8.0, kSharedMissPx = 1.0;
+constexpr double kSharedTurnDeg = 12.0;  // between the directions of the two
+constexpr double kSharedLength = 4.0;    // [widths] of a stroke beyond the ink it shares: less has no direction
+constexpr double kChosenWidths = 2.0;    // beyond a junction that the user paired: its ends stay as they are
+constexpr int kBridgeRounds = 4;         // an end whose best partner is taken may find another
+constexpr int kEndsPerLook = 256;        // between polls of the cancel token
 
 struct OpenEnd {
   int path = 0, side = 0;  ///< side 0: the start.
@@ -105,8 +110,11 @@ double levelAt(const StrokePath& s, int side, double width, const GreyImage& gre
   return sum / count;
 }
 
+// Free ends of the ink, or those that end in the ink of another stroke.
+enum class EndKind { Free, InInk };
+
 std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
-                              const BitImage& ink, const GreyImage& grey) {
+                              const BitImage& ink, const GreyImage& grey, EndKind kind) {
   std::vector<OpenEnd> ends;
   for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
     const StrokePath& s = paths[i];
@@ -114,9 +122,10 @@ std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const std::v
     const double width = s.widthPx();
     const bool isPencil = pencil[i];
     if (!isPencil && s.length() < kLeastStrokeWidths * width) continue;
-    const double inkWidth = s.tip[0] || s.tip[1] ? inkWidthOf(s, ink) : width;
+    const auto isAsked = [&](int side) { return s.tip[side] == (kind == EndKind::Free); };
+    const double inkWidth = isAsked(0) || isAsked(1) ? inkWidthOf(s, ink) : width;
     for (int side = 0; side < 2; ++side) {
-      if (!s.tip[side]) continue;
+      if (!isAsked(side)) continue;
       const Vec2 at = side == 0 ? s.points.front().at : s.points.back().at;
       ends.push_back(
           {i, side, at, endDirection(s, side, width), width, inkWidth, levelAt(s, side, width, grey), isPencil});
@@ -166,12 +175,29 @@ std::optional<double> joinCost(const OpenEnd& a, const OpenEnd& b, const BitImag
   return gap + width * (turn + kOctaveCost * octaves + kGreyCost * std::abs(a.level - b.level));
 }
 
-void join(std::vector<StrokePath>& paths, const OpenEnd& a, const OpenEnd& b) {
+// Cost of one stroke that runs on through the ink of others, as under a bundle of lines that it crosses at a shallow
+// angle: its ends look straight at each other, with nothing but ink between.
+std::optional<double> sharedCost(const OpenEnd& a, const OpenEnd& b, const BitImage& ink) {
+  const double width = 0.5 * (a.inkWidth + b.inkWidth), thinner = std::min(a.inkWidth, b.inkWidth);
+  const double octaves = std::abs(std::log2(a.inkWidth / b.inkWidth));
+  if (octaves > std::log2(kBridgedWidthRatio) + 1.0 / thinner) return std::nullopt;
+  const Vec2 d = b.at - a.at;
+  const double gap = d.norm();
+  if (!(gap > 0.0) || gap > kSharedWidths * width) return std::nullopt;
+  const double turn = std::acos(std::clamp(-a.out.dot(b.out), -1.0, 1.0));
+  const double miss = gap * std::sin(kSharedFacingDeg * kRadPerDeg) + kSharedMissPx;
+  const bool isFacing = d.dot(a.out) > 0.0 && d.dot(b.out) < 0.0 && std::abs(cross(a.out, d)) <= miss &&
+                        std::abs(cross(b.out, d)) <= miss && turn <= kSharedTurnDeg * kRadPerDeg;
+  if (!isFacing || paperBetween(a, b, ink) > 0.0) return std::nullopt;
+  return gap + width * (turn + kOctaveCost * octaves + kGreyCost * std::abs(a.level - b.level));
+}
+
+void join(std::vector<StrokePath>& paths, const OpenEnd& a, const OpenEnd& b, StrokePart part) {
   StrokePath& first = paths[a.path];
   StrokePath& second = paths[b.path];
   const auto radius = static_cast<float>(0.25 * (a.width + b.width));
   std::vector<StrokePathPoint> bridge;
-  for (const Vec2& at : cubicBetween(a.at, a.out, b.at, -b.out)) bridge.push_back({at, radius, StrokePart::Bridge});
+  for (const Vec2& at : cubicBetween(a.at, a.out, b.at, -b.out)) bridge.push_back({at, radius, part});
   if (a.path == b.path) {
     if (a.side == 0) std::reverse(bridge.begin(), bridge.end());
     first.points.insert(first.points.end(), bridge.begin(), bridge.end());
@@ -192,29 +218,29 @@ void join(std::vector<StrokePath>& paths, const OpenEnd& a, const OpenEnd& b) {
   second = StrokePath{};
 }
 
-}  // namespace
-
-void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil, const BitImage& ink,
-                const GreyImage& grey, const EdgeParams& params, const RunContext& context) {
-  if (!(params.gapFactor > 0.0)) return;
+// Joins mutually cheapest ends, round by round.
+// @param farthestPx of an end of the largest width [px]; costOf(a, b) is absent for ends that do not belong together.
+template <class FarthestPx, class EndsOf, class CostOf>
+void joinCheapest(std::vector<StrokePath>& paths, StrokePart part, const EndsOf& endsOf, const FarthestPx& farthestPx,
+                  const CostOf& costOf, const RunContext& context) {
+  const auto offer = [](OpenEnd& e, int other, double cost) {
+    if (!e.best || cost < e.bestCost) {
+      e.best = other;
+      e.bestCost = cost;
+    }
+  };
   for (int round = 0; round < kBridgeRounds; ++round) {
-    std::vector<OpenEnd> ends = openEnds(paths, pencil, ink, grey);
+    std::vector<OpenEnd> ends = endsOf();
     double widest = 1.0;
     for (const OpenEnd& e : ends) widest = std::max(widest, std::max(e.width, e.inkWidth));
-    const double farthest = (params.gapFactor + kSkeletonShort) * widest + kSkeletonShortPx;
-    const auto offer = [](OpenEnd& e, int other, double cost) {
-      if (!e.best || cost < e.bestCost) {
-        e.best = other;
-        e.bestCost = cost;
-      }
-    };
+    const double farthest = farthestPx(widest);
     for (int i = 0; i < std::ssize(ends); ++i) {
       if (i % kEndsPerLook == 0 && context.isCancelled()) return;
       for (int j = i + 1; j < std::ssize(ends) && ends[j].at.x() - ends[i].at.x() <= farthest; ++j) {
         OpenEnd &a = ends[i], &b = ends[j];
         const bool tooShort =
             a.path == b.path && paths[a.path].length() < kLeastRingWidths * a.width + (a.at - b.at).norm();
-        const auto cost = tooShort ? std::nullopt : joinCost(a, b, ink, params.gapFactor);
+        const auto cost = tooShort ? std::nullopt : costOf(a, b);
         if (!cost) continue;
         offer(a, j, *cost);
         offer(b, i, *cost);
@@ -232,9 +258,40 @@ void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
         continue;
       }
       moved[a.path] = moved[b.path] = joined = true;
-      join(paths, a, b);
+      join(paths, a, b, part);
     }
     if (!joined) break;
+  }
+}
+
+}  // namespace
+
+void joinThroughInk(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
+                    std::span<const StrokeJunction> junctions, const BitImage& ink, const GreyImage& grey,
+                    const RunContext& context) {
+  const auto isChosen = [&](const OpenEnd& e) {
+    return std::ranges::any_of(junctions, [&](const StrokeJunction& j) {
+      return j.choice && (j.positionPx - e.at).norm() <= j.radiusPx + kChosenWidths * e.inkWidth;
+    });
+  };
+  const auto endsOf = [&] {
+    std::vector<OpenEnd> ends = openEnds(paths, pencil, ink, grey, EndKind::InInk);
+    std::erase_if(ends,
+                  [&](const OpenEnd& e) { return paths[e.path].length() < kSharedLength * e.inkWidth || isChosen(e); });
+    return ends;
+  };
+  joinCheapest(
+      paths, StrokePart::Junction, endsOf, [](double widest) { return kSharedWidths * widest; },
+      [&](const OpenEnd& a, const OpenEnd& b) { return sharedCost(a, b, ink); }, context);
+}
+
+void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil, const BitImage& ink,
+                const GreyImage& grey, const EdgeParams& params, const RunContext& context) {
+  if (params.gapFactor > 0.0) {
+    joinCheapest(
+        paths, StrokePart::Bridge, [&] { return openEnds(paths, pencil, ink, grey, EndKind::Free); },
+        [&](double widest) { return (params.gapFactor + kSkeletonShort) * widest + kSkeletonShortPx; },
+        [&](const OpenEnd& a, const OpenEnd& b) { return joinCost(a, b, ink, params.gapFactor); }, context);
   }
   std::erase_if(paths, [](const StrokePath& s) { return s.points.empty(); });
 }

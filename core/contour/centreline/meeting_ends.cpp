@@ -15,10 +15,10 @@
 namespace batten {
 namespace {
 
-// [stroke widths] Of a line before its end, that tell how it bends; of its direction where it is placed up to its end,
-// and where its last points were laid on from those before.
-constexpr double kBendWidths = 4.0, kPlacedWidths = 4.0, kLaidWidths = 1.0;
-constexpr double kLeastLeadPx = 6.0, kBentLead = 0.9;
+// [stroke widths] and [px] Of a line before its end, that tell how it goes on: its direction and its bend.
+constexpr double kLeadWidths = 3.0, kLeastLeadPx = 6.0;
+constexpr double kBendWidths = 4.0, kLeastBendPx = 16.0;
+constexpr double kBentLead = 0.9;          // of that, seen
 constexpr double kBentLengthWidths = 8.0;  // of a line whose bend tells where it goes on: that of a stub is its noise
 constexpr double kMostTurn = 0.8;          // [rad] by which a line bends on to another
 constexpr double kMarchPx = 0.5;           // from one look at the lines around to the next
@@ -42,7 +42,7 @@ struct LineEnd {
   int line = 0, side = 0;
   int anchor = 0;  // index, counted from the end, of the first point that stays,
   int last = 0;    // of the last one
-  Vec2 out = Vec2::Zero(), bentOut = Vec2::Zero(), bend = Vec2::Zero();
+  Vec2 out = Vec2::Zero(), bend = Vec2::Zero();
   double widthPx = 1.0;
 };
 
@@ -126,17 +126,15 @@ std::optional<LineEnd> EndLeader::endOf(int line, int side) const {
   end.anchor = end.last;
   while (end.anchor + 1 < n && isNear(end.anchor, kMeetWidths * end.widthPx)) ++end.anchor;
   if (2 * end.anchor > n) return std::nullopt;
-  const LocalQuadratic fit =
-      fitBefore(end, std::max(kLeastLeadPx, (isPlaced ? kPlacedWidths : kLaidWidths) * end.widthPx), 1);
+  const LocalQuadratic fit = fitBefore(end, std::max(kLeastLeadPx, kLeadWidths * end.widthPx), 1);
   if (fit.order.value_or(0) < 1 || !(fit.r1.norm() > 0.0)) return std::nullopt;
-  end.out = end.bentOut = fit.r1.normalized();
+  end.out = fit.r1.normalized();
   // The grain of a pencil bends its line to and fro.
   if (!point(end, end.anchor).sigmaPx) return end;
-  const LocalQuadratic bent = fitBefore(end, std::max(kLeastLeadPx, kBendWidths * end.widthPx), 2);
+  const LocalQuadratic bent = fitBefore(end, std::max(kLeastBendPx, kBendWidths * end.widthPx), 2);
   if (bent.order != 2 || !(bent.r1.norm() > 0.0) || lines_[line].lengthPx < kBentLengthWidths * end.widthPx) return end;
-  end.bentOut = bent.r1.normalized();
-  if (isPlaced) end.out = end.bentOut;
-  const Vec2 left = leftNormal(end.bentOut);
+  end.out = bent.r1.normalized();
+  const Vec2 left = leftNormal(end.out);
   end.bend = left * left.dot(bent.r2);
   return end;
 }
@@ -145,7 +143,7 @@ Way EndLeader::wayOf(const LineEnd& end, bool isBent) const {
   Way way;
   for (int k = end.anchor; k >= end.last; --k) way.places.push_back(point(end, k).at);
   way.end = static_cast<int>(way.places.size()) - 1;
-  const Vec2 at = way.places.back(), out = isBent ? end.bentOut : end.out;
+  const Vec2 at = way.places.back(), out = end.out;
   const Vec2 bend = isBent ? end.bend : Vec2(Vec2::Zero());
   const double most = kMostLedWidths * end.widthPx, turn = bend.norm();
   const double to = turn > 0.0 ? std::min(most, kMostTurn / turn) : most;
@@ -210,7 +208,7 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
                  std::abs(d) <= kTouchHalfWidths * 0.5 * std::max(1.0, beside.widthPx) && isBetter(touched)) {
         taken.resize(way.end + 1);
         const Vec2 along = beside.along.dot(end.out) < 0.0 ? Vec2(-beside.along) : beside.along;
-        for (const Vec2& at : cubicBetween(taken.back(), end.bentOut, beside.foot, along)) taken.push_back(at);
+        for (const Vec2& at : cubicBetween(taken.back(), end.out, beside.foot, along)) taken.push_back(at);
         taken.push_back(beside.foot);
         touched = LineMeeting{std::move(taken), sine, arc};
       }

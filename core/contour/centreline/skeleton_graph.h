@@ -40,10 +40,11 @@ struct JunctionDisc {
   double radius = 0.0;         ///< [px]
 };
 
-/// The four ends of a junction as the ink that two strokes share there has told them (shared_ink.h).
+/// The ends of a junction as the ink that strokes share there has told them: four of two strokes (shared_ink.h), more
+/// of a bundle (shared_bundle.h).
 struct LedThrough {
   std::vector<std::pair<int, int>> pairs;  ///< Which ends are one stroke, as indices into the ends of the node.
-  std::array<JunctionDisc, 4> discs;       ///< Of each end: where the strokes part.
+  std::vector<JunctionDisc> discs;         ///< Of each end: where the strokes part.
   bool isDoubtful = false;
 };
 
@@ -51,7 +52,7 @@ struct SkeletonNode {
   Vec2 centre = Vec2::Zero();
   double radius = 0.0;  ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
   std::vector<int> ends;
-  std::optional<LedThrough> led = {};  ///< Not valid any more where there are other than four ends.
+  std::optional<LedThrough> led = {};  ///< Not valid any more where other ends have come.
 
   const LedThrough* leading() const { return led && ends.size() == led->discs.size() ? &*led : nullptr; }
   /// The disc in which the i-th end has no middle of its own.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/contour/centreline/shared_bundle.h"
 #include "core/contour/centreline/shared_ink.h"
 #include "core/contour/centreline/skeleton_graph.h"
 
@@ -24,7 +25,8 @@ constexpr double kWithinDisc = 1.1;       // of its radius: what stays within is
 
 class JunctionMerger {
  public:
-  explicit JunctionMerger(SkeletonGraph& graph) : graph_(graph), sets_(graph.nodeCount()), shared_(graph.edgeCount()) {}
+  explicit JunctionMerger(SkeletonGraph& graph)
+      : graph_(graph), sets_(graph.nodeCount()), shared_(graph.edgeCount()), isInBundle_(graph.nodeCount(), false) {}
   void merge(bool ofBundles);
 
  private:
@@ -36,11 +38,13 @@ class JunctionMerger {
   std::vector<int> joinLinked(const std::vector<Link>& links, bool ofBundles);
   void moveToDiscs();
   void leadThrough(const SharedInk& shared, int node);
+  void leadThrough(const SharedBundle& bundle, int node);
   void dropWithinDiscs();
 
   SkeletonGraph& graph_;
   DisjointSets sets_;                             // of nodes that become one
   std::vector<std::optional<SharedInk>> shared_;  // per edge
+  std::vector<bool> isInBundle_;                  // per node
 };
 
 // [px] How long two strokes that cross or touch at the angle seen at both ends of a link can share one skeleton; 0: the
@@ -104,6 +108,7 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks(bool ofBundles) {
     if (!l.alive || l.ring) continue;
     const SkeletonNode &a = graph_.node(*l.node[0]), &b = graph_.node(*l.node[1]);
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
+    if (isInBundle_[*l.node[0]] || isInBundle_[*l.node[1]]) continue;
     shared_[i] = ofBundles ? std::nullopt : findSharedInk(graph_, i);
     if (shared_[i] || l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i)))
       links.emplace_back(l.length, i);
@@ -190,6 +195,7 @@ void JunctionMerger::dropWithinDiscs() {
 void JunctionMerger::leadThrough(const SharedInk& shared, int node) {
   SkeletonNode& n = graph_.node(node);
   LedThrough led;
+  led.discs.resize(4);
   if (n.ends.size() != led.discs.size()) return;
   const auto indexOf = [&](int end) { return static_cast<int>(std::ranges::find(n.ends, end) - n.ends.begin()); };
   for (const auto& [from, to] : shared.strokes) {
@@ -204,8 +210,28 @@ void JunctionMerger::leadThrough(const SharedInk& shared, int node) {
   n.led = std::move(led);
 }
 
+void JunctionMerger::leadThrough(const SharedBundle& bundle, int node) {
+  SkeletonNode& n = graph_.node(node);
+  if (n.ends != bundle.outer) return;
+  LedThrough led;
+  led.discs = bundle.discs;
+  led.isDoubtful = bundle.isDoubtful;
+  const auto indexOf = [&](int end) { return static_cast<int>(std::ranges::find(n.ends, end) - n.ends.begin()); };
+  for (const auto& [from, to] : bundle.strokes) led.pairs.emplace_back(std::minmax(indexOf(from), indexOf(to)));
+  std::sort(led.pairs.begin(), led.pairs.end());
+  n.led = std::move(led);
+}
+
 void JunctionMerger::merge(bool ofBundles) {
-  const std::vector<int> inner = joinLinked(shortLinks(ofBundles), ofBundles);
+  std::vector<SharedBundle> bundles;
+  if (!ofBundles) bundles = findSharedBundles(graph_);
+  for (const SharedBundle& bundle : bundles)
+    for (const int node : bundle.nodes) isInBundle_[node] = true;
+  std::vector<int> inner = joinLinked(shortLinks(ofBundles), ofBundles);
+  for (const SharedBundle& bundle : bundles) {
+    for (const int node : bundle.nodes) sets_.join(bundle.nodes.front(), node);
+    inner.insert(inner.end(), bundle.inner.begin(), bundle.inner.end());
+  }
   std::vector<std::pair<int, int>> sharedAt;  // edge, node
   for (const int edge : inner) {
     if (shared_[edge]) sharedAt.emplace_back(edge, *graph_.edge(edge).node[0]);
@@ -213,6 +239,7 @@ void JunctionMerger::merge(bool ofBundles) {
   }
   moveToDiscs();
   for (const auto& [edge, node] : sharedAt) leadThrough(*shared_[edge], sets_.root(node));
+  for (const SharedBundle& bundle : bundles) leadThrough(bundle, sets_.root(bundle.nodes.front()));
   dropWithinDiscs();
   for (int i = 0; i < graph_.nodeCount(); ++i) graph_.splice(i);
 }

@@ -294,6 +294,7 @@ std::vector<CornerEvidence> evidenceAt(const Contour& contour, const std::vector
 void judgeAlike(const Contour& stroke, const std::vector<CornerEvidence>& evidence,
                 std::vector<CornerSuggestion>& all) {
   constexpr int kFewestCertain = 3;
+  constexpr int kManyCertain = 5;     // among so many a place counts though its sides do not tell where they meet
   constexpr double kTipWidths = 0.6;  // from the line: the ink of a corner and what its filling takes
   constexpr double kLikely = 0.5, kLeastTurnShare = 0.6;  // of the certain ones' in the middle
   const std::vector<float> widths = strokeWidthsOf(stroke.points);
@@ -307,7 +308,8 @@ void judgeAlike(const Contour& stroke, const std::vector<CornerEvidence>& eviden
     const double least = kLeastTurnShare * upperMedian(turns);
     for (std::size_t i = 0; i < all.size(); ++i) {
       CornerSuggestion& s = all[i];
-      const bool isLike = evidence[i].isLocated && s.certainty >= kLikely && sign * s.turningAngleRad >= least;
+      const bool isPlaced = evidence[i].isLocated || std::ssize(turns) >= kManyCertain;
+      const bool isLike = isPlaced && s.certainty >= kLikely && sign * s.turningAngleRad >= least;
       if (isLike && (s.positionPx - stroke.points[s.pointIndex].at).norm() <= farthest)
         s.certainty = std::max(s.certainty, kCertainCorner);
     }

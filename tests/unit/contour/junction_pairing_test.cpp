@@ -120,5 +120,23 @@ TEST(JunctionPairing, CrossHatchingIsWhole) {
   }
 }
 
+// Two lines that share their ink for a while, and a third that crosses both there: all come out on the other side.
+TEST(JunctionPairing, ThreeLinesThatShareTheirInkAreWhole) {
+  constexpr LinePage kPage{4.0, 640, 480, 5};
+  for (const double betweenDeg : {8.0, 10.0}) {
+    for (const double offPx : {20.0, 40.0, 60.0}) {
+      for (const double acrossDeg : {18.0, 25.0}) {
+        const Vec2 crossing(320.0 + offPx, 240.0 - offPx * 0.5 * betweenDeg * std::numbers::pi / 180.0);
+        std::vector<std::vector<Vec2>> lines;
+        for (const auto& [through, deg] : {std::pair(Vec2(320.0, 240.0), -betweenDeg),
+                                           std::pair(Vec2(320.0, 240.0), 0.0), std::pair(crossing, acrossDeg)})
+          lines.push_back(test::hatchLines(through, deg, 1, 1.0, 520.0, 0.0).front());
+        EXPECT_EQ(scoreOf(lines, kPage, 4.0, 14.0).whole, 3)
+            << betweenDeg << " and " << acrossDeg << " degrees, " << offPx << " px aside";
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/contour/centreline/skeleton_graph.h"
+
+namespace batten {
+
+/// Three strokes or more that cross, touch or lie on one another: junctions that hang together by common ink.
+struct SharedBundle {
+  std::vector<int> nodes;                    ///< That become one.
+  std::vector<int> inner;                    ///< Edges between them.
+  std::vector<int> outer;                    ///< The ends that leave them, ascending.
+  std::vector<std::pair<int, int>> strokes;  ///< Pairs of outer ends.
+  std::vector<JunctionDisc> discs;           ///< Of each outer end: where its stroke has a middle of its own.
+  bool isDoubtful = false;                   ///< Another pairing would do too.
+};
+
+/// Bundles whose strokes are told by their ends: over all of a bundle at once, every end but one of an odd number goes
+/// on to another by an arc of a circle that runs within the ink, and the arcs together explain all of it. What is not
+/// so clear is no bundle.
+std::vector<SharedBundle> findSharedBundles(const SkeletonGraph& graph);
+
+}  // namespace batten
