@@ -396,6 +396,12 @@ TEST_F(HostileInput, SaysWhatFairingRefusedOrLeft) {
   EXPECT_NE(done.out.find("Curve 1, fairing: "), std::string::npos) << done.out;
   const Outcome plain = run("trace " + scene() + " -o " + file("o.svg"));
   EXPECT_EQ(plain.out.find("fairing: "), std::string::npos) << plain.out;
+  const json line = {{"points", {{20, 20}, {300, 60}}}};
+  json recipe = {{"format", "batten-recipe"}, {"version", 1}, {"page", {400, 300}}, {"strokes", json::array({line})}};
+  recipe["parameters"]["fairing.mode"] = "tolerance";
+  write("line.json", recipe.dump());
+  const Outcome left = run("trace --recipe " + file("line.json") + " -o " + file("o.svg"));
+  EXPECT_NE(left.out.find("Curve 1, fairing: Unchanged: exact line."), std::string::npos) << left.out << left.err;
 }
 
 TEST_F(HostileInput, TargetsAreInTheReportOnlyWhenAskedFor) {

@@ -15,10 +15,12 @@
 
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
+#include "core/document/export_builder.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/curve_names.h"
 #include "ui/session/extremum_marks.h"
 
 namespace batten {
@@ -96,6 +98,17 @@ TEST_F(Alike, TilesDoNotTurnUpsideDownWithTheSideOfTheBend) {
   }
 }
 
+TEST_F(Alike, TheLineOfATileLeavesNoSpecks) {
+  constexpr double kSeenPx = 1.0;  // shorter steps are drawn as specks beside the line
+  ASSERT_NO_FATAL_FAILURE(openFairing(bendPage(true)));
+  const QPainterPath line = find<TargetTile>("target.1")->sketchedPath();
+  ASSERT_GT(line.elementCount(), 20);
+  for (int i = 1; i + 1 < line.elementCount(); ++i) {
+    const QPointF step = QPointF(line.elementAt(i)) - QPointF(line.elementAt(i - 1));
+    EXPECT_GE(std::hypot(step.x(), step.y()), kSeenPx - 1e-9) << i;
+  }
+}
+
 TEST_F(Alike, EveryMethodShowsTheExtremaThatItsFiguresCount) {
   ASSERT_NO_FATAL_FAILURE(openPage(bendPage(true)));
   window_->setStage(PanelStage::Curves);
@@ -141,6 +154,31 @@ TEST_F(Alike, RowsOfTheListKeepTheirNumbers) {
       EXPECT_FALSE(name.contains(QChar(0x2026))) << "cut within a word: " << name.toStdString();
     }
   }
+}
+
+TEST_F(Alike, CurvesAreCalledInTheWindowAsInTheFile) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::drawnPage({640, 400}, [](QPainter& painter) {
+    painter.drawLines({QLineF(60, 80, 560, 90), QLineF(60, 180, 560, 190), QLineF(60, 280, 560, 330)});
+  })));
+  ASSERT_EQ(session().curves().size(), 3u);
+  // The line that is left keeps its number.
+  Recipe recipe = session().recipe();
+  recipe.regions = {rectangleRegion({0, 130}, {640, 230})};
+  session().change(QStringLiteral("Region"), recipe);
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().curves().size(), 1u);
+  const ExportDocument file = exportDocument(session().output(), session().recipe(), *session().scan());
+  ASSERT_EQ(file.curves.size(), 1u);
+  window_->setStage(PanelStage::Curves);
+  auto* list = find<QWidget>("panel.curves")->findChild<CurveList*>();
+  ASSERT_EQ(list->count(), 1);
+  const int number = curveNumber(session().output(), session().curves()[0]);
+  ASSERT_NE(number, 1) << "its place in the list would say the same";
+  const QString name = QStringLiteral("Curve %1").arg(number);
+  EXPECT_EQ(curveName(session(), 0), name);
+  EXPECT_TRUE(list->shownName(0).startsWith(name)) << list->shownName(0).toStdString();
+  EXPECT_EQ(file.curves[0].pieces.front().name, name.toStdString());
+  EXPECT_EQ(file.curves[0].id, "curve-" + std::to_string(number));
 }
 
 TEST_F(Alike, TabWalksThePanelsFromTopToBottom) {

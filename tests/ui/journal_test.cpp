@@ -39,6 +39,17 @@ class Journal : public testing::Test {
     const auto work = unsavedWorkFromJson(file.readAll().toStdString());
     return work ? work->recipe.penStrokes.size() : 0;
   }
+  /// A journal of one stroke that a program left which has ended.
+  void leaveWork(QString& file) {
+    file = folder() + QStringLiteral("/left.journal");
+    ASSERT_TRUE(QDir().mkpath(folder()));
+    Recipe recipe = session_.recipe();
+    recipe.penStrokes.push_back({{Vec2(10, 20), Vec2(60, 25)}, false});
+    const std::string bytes = unsavedWorkToJson({"", recipe});
+    QFile out(file);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write(bytes.data(), static_cast<qint64>(bytes.size()));
+  }
   /// What a second window finds to offer.
   std::optional<RecipeJournal::Left> leftToAnother() {
     EditorSession another;
@@ -70,6 +81,22 @@ TEST_F(Journal, AWriteThatFailsIsTriedAgain) {
   ASSERT_TRUE(waitUntil([&] { return failing.count() == 2; }, 5000)) << "told once, however often it failed";
   EXPECT_TRUE(failing[0][0].toBool());
   EXPECT_FALSE(failing[1][0].toBool());
+}
+
+TEST_F(Journal, AWriteThatFailsAlthoughTheLockIsHeldIsTriedAgain) {
+  RecipeJournal journal(session_, folder());
+  journal.setIntervalMs(20);
+  QSignalSpy failing(&journal, &RecipeJournal::failingChanged);
+  ASSERT_TRUE(QDir().mkpath(journal.file()));  // a folder where the file is to be
+  ASSERT_NO_FATAL_FAILURE(draw(20));
+  ASSERT_TRUE(waitUntil([&] { return failing.count() == 1; }, 5000));
+  ASSERT_TRUE(QFile::exists(journal.file() + QStringLiteral(".lock")));
+  QSignalSpy ticks(journal.findChild<QTimer*>(), &QTimer::timeout);
+  ASSERT_TRUE(waitUntil([&] { return ticks.count() >= 3; }, 5000));
+  // No change follows.
+  ASSERT_TRUE(QDir().rmdir(journal.file()));
+  EXPECT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+  EXPECT_TRUE(waitUntil([&] { return failing.count() == 2; }, 5000));
 }
 
 TEST_F(Journal, ALockWithoutAJournalGoesWithItsOwner) {
@@ -124,15 +151,8 @@ TEST_F(Journal, LiveWorkIsNotOfferedBeforeTheLockIsRenewed) {
 }
 
 TEST_F(Journal, WorkThatWasTakenOverIsHeldFromThenOn) {
-  const QString file = folder() + QStringLiteral("/left.journal");
-  ASSERT_TRUE(QDir().mkpath(folder()));
-  Recipe recipe = session_.recipe();
-  recipe.penStrokes.push_back({{Vec2(10, 20), Vec2(60, 25)}, false});
-  const std::string bytes = unsavedWorkToJson({"", recipe});
-  QFile out(file);
-  ASSERT_TRUE(out.open(QIODevice::WriteOnly));
-  out.write(bytes.data(), static_cast<qint64>(bytes.size()));
-  out.close();
+  QString file;
+  ASSERT_NO_FATAL_FAILURE(leaveWork(file));
   EditorSession another;
   RecipeJournal journal(another, folder());
   const auto left = journal.left();
@@ -140,6 +160,24 @@ TEST_F(Journal, WorkThatWasTakenOverIsHeldFromThenOn) {
   journal.takeOver(*left);
   ASSERT_TRUE(QFile::remove(file + QStringLiteral(".lock")));
   EXPECT_FALSE(leftToAnother());
+}
+
+TEST_F(Journal, WorkThatAnotherWindowHasByNowIsNeitherDiscardedNorTakenOver) {
+  for (const bool isDiscarded : {true, false}) {
+    QString file;
+    ASSERT_NO_FATAL_FAILURE(leaveWork(file));
+    EditorSession another;
+    RecipeJournal journal(another, folder());
+    const auto left = journal.left();
+    ASSERT_TRUE(left);
+    // While the offer stands, the lock is cleaned away and another window is faster.
+    ASSERT_TRUE(QFile::remove(file + QStringLiteral(".lock")));
+    LockFile other(nativePath(file + QStringLiteral(".lock")));
+    ASSERT_TRUE(other.hold());
+    isDiscarded ? journal.discard(*left) : journal.takeOver(*left);
+    EXPECT_EQ(strokesIn(file), 1u);
+    EXPECT_NE(journal.file(), file);
+  }
 }
 
 TEST_F(Journal, ASessionWhoseFileAnotherHoldsGoesOnInAFileOfItsOwn) {

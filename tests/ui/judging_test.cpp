@@ -17,6 +17,10 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
 #include "tests/ui/window_fixture.h"
+#include "ui/canvas/layers/chip_layer.h"
+#include "ui/canvas/scene/compare_overlay.h"
+#include "ui/panels/stages/curves/pin_panel.h"
+#include "ui/panels/stages/fairing_figures.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
@@ -110,6 +114,55 @@ TEST_F(Judging, InCurvesTheCombIsThatOfTheConstructedCurve) {
                            [](const PlotSeries& one) { return one.role == PlotRole::Faired; }));
 }
 
+TEST_F(Judging, MethodsAreComparedByTheCurvesThatTheyConstruct) {
+  ASSERT_NO_FATAL_FAILURE(openPage(ripplePage()));
+  window_->setStage(PanelStage::Curves);
+  click("pin.set");
+  ASSERT_NO_FATAL_FAILURE(fairWithin("2"));
+  window_->setStage(PanelStage::Curves);
+  ASSERT_NE(session().pinnedOf(session().selectedCurve()), nullptr);
+  const TracedCurve &before = *session().pinnedOf(session().selectedCurve()), &now = *session().selected();
+  ASSERT_NE(now.fairedFigures.extrema, now.sketchedFigures.extrema);
+  const Comparison c = compare(before, now);
+  EXPECT_EQ(overlaySource(session(), window_->view(), 1.0).judged, Judged::Sketched) << "drawn over them, too";
+  EXPECT_LT(c.apartMm, 1e-9) << "the fairing alone has changed";
+  EXPECT_EQ(c.now.extrema, before.sketchedFigures.extrema);
+  EXPECT_EQ(c.now.energy, c.pinned.energy);
+  auto* list = find<QWidget>("panel.curves")->findChild<QListWidget*>(QStringLiteral("curves.list"));
+  ASSERT_NE(list, nullptr);
+  const QString spoken = list->item(*session().selectedCurve())->data(Qt::AccessibleTextRole).toString();
+  EXPECT_TRUE(spoken.contains(QStringLiteral("%1 extr.").arg(now.sketchedFigures.extrema))) << spoken.toStdString();
+}
+
+TEST_F(Judging, ASelectedCurveShowsWhichWayItRuns) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::drawnPage(
+      {640, 400}, [](QPainter& painter) { painter.drawArc(QRectF(60, 80, 520, 600), 30 * 16, 120 * 16); })));
+  window_->setStage(PanelStage::Curves);
+  window_->view().setVisible(Layer::Comb, true);
+  const QImage shown = canvasImage();
+  const NurbsCurve& curve = session().selected()->sketched;
+  const ArcLength arc(curve);
+  const auto* canvas = find<CurveCanvas>("canvas");
+  const PageFrame& frame = session().output().frame;
+  const QPointF apart = canvas->toWidget({100, 0}) - canvas->toWidget({0, 0});
+  const double mmPerWidgetPx = frame.lengthToModel(100.0 / apart.x());
+  // The border of the arrow is white, the paper of the page a little darker.
+  const auto whiteAround = [&](double s) {
+    constexpr int kReach = 7;
+    const QPoint at = canvas->toWidget(frame.pointToImage(curve.point(arc.parameter(s)))).toPoint();
+    int found = 0;
+    for (int y = -kReach; y <= kReach; ++y)
+      for (int x = -kReach; x <= kReach; ++x) {
+        const QColor color = shown.pixelColor(at + QPoint(x, y));
+        found += std::min({color.red(), color.green(), color.blue()}) > 250 ? 1 : 0;
+      }
+    return found;
+  };
+  constexpr double kBehindStartPx = 17.0;  // in the middle of the arrow
+  EXPECT_GT(whiteAround(kBehindStartPx * mmPerWidgetPx), 8);
+  EXPECT_EQ(whiteAround(arc.total() - kBehindStartPx * mmPerWidgetPx), 0);
+}
+
 TEST_F(Judging, TheMarksOnAFairedCurveAreItsOwn) {
   ASSERT_NO_FATAL_FAILURE(openPage(ripplePage()));
   const auto sketched = extremumMarks(session(), session().selectedCurve());
@@ -143,6 +196,8 @@ TEST_F(Judging, ACurveThatFairingLeavesIsShownAsAResultAndExplained) {
   ASSERT_NO_FATAL_FAILURE(fairWithin("2"));
   const int line = session().curves()[0].construct.isLine ? 0 : 1;
   ASSERT_TRUE(session().curves()[line].construct.isLine);
+  session().selectCurve(line);
+  EXPECT_TRUE(curveText(CanvasScene(session(), window_->view())).contains(QStringLiteral("unchanged by fairing")));
   session().selectCurve(1 - line);
   const QListWidget* list = nullptr;
   for (auto* one : window_->findChildren<QListWidget*>(QStringLiteral("curves.list")))
@@ -154,6 +209,7 @@ TEST_F(Judging, ACurveThatFairingLeavesIsShownAsAResultAndExplained) {
   EXPECT_TRUE(spoken.contains(QStringLiteral("%1 extr. · %2 pts").arg(still.extrema).arg(still.controlPoints)))
       << "its figures are told all the same: " << spoken.toStdString();
   EXPECT_TRUE(list->item(line)->toolTip().contains(QStringLiteral("exact line")));
+  EXPECT_TRUE(fairingNote(session().curves()[line]).text.contains(QStringLiteral("exact line")));
   EXPECT_FALSE(list->item(1 - line)->toolTip().contains(QStringLiteral("unchanged by")));
   for (const PanelStage stage : {PanelStage::Fairing, PanelStage::Export}) {
     window_->setStage(stage);
@@ -169,9 +225,12 @@ TEST_F(Judging, FoundLinesAreSeenOnBlackInk) {
     painter.drawArc(QRectF(80, 160, 480, 240), 20 * 16, 140 * 16);
   })));
   ASSERT_EQ(session().curves().size(), 2u);
-  for (const PanelStage stage :
-       {PanelStage::Edges, PanelStage::Corners, PanelStage::Curves, PanelStage::Fairing, PanelStage::Export}) {
+  for (const auto& [stage, areSketchedShown] :
+       {std::pair(PanelStage::Edges, true), std::pair(PanelStage::Corners, true), std::pair(PanelStage::Curves, true),
+        std::pair(PanelStage::Fairing, true), std::pair(PanelStage::Fairing, false),
+        std::pair(PanelStage::Export, true)}) {
     window_->setStage(stage);
+    window_->view().setVisible(Layer::Curve, areSketchedShown);
     for (int selected = 0; selected < 2; ++selected) {
       session().selectCurve(selected);
       const QImage shown = canvasImage();
@@ -264,6 +323,20 @@ TEST_F(Judging, ThePlotOfTheSlopeIsTheDerivativeOfTheCurvature) {
   const PlotData speed = plotData(session(), PlotTab::Speed, Judged::Sketched);
   EXPECT_GE(speed.high - speed.low, 0.1 * std::abs(0.5 * (speed.high + speed.low)) * (1 - 1e-9))
       << "even looks even, not like its last digits";
+}
+
+TEST_F(Judging, ASpeedThatIsEvenLooksEven) {
+  ASSERT_NO_FATAL_FAILURE(openPage(
+      test::drawnPage({640, 400}, [](QPainter& painter) { painter.drawLine(QPointF(60, 200), QPointF(580, 214)); })));
+  const PlotData speed = plotData(session(), PlotTab::Speed, Judged::Sketched);
+  ASSERT_EQ(speed.series.front().role, PlotRole::Sketched);
+  double least = speed.series.front().points.front().value, most = least;
+  for (const PlotPoint& point : speed.series.front().points) {
+    least = std::min(least, point.value);
+    most = std::max(most, point.value);
+  }
+  ASSERT_LT(most - least, 0.01 * most);
+  EXPECT_GE(speed.high - speed.low, 0.09 * most) << "not like its last digits";
 }
 
 // Where the coefficient falls to 0 some lines of the sample are traced the other way round.

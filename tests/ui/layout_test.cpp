@@ -202,8 +202,32 @@ TEST_F(Layout, TheLinesOfTheSixTargetsCarryTheirNumbers) {
     valid += isValid ? 1 : 0;
     const auto* text = window_->findChild<QObject*>(QStringLiteral("plot.target.%1").arg(degree));
     EXPECT_EQ(text != nullptr, isValid) << degree;
+    if (text) {
+      EXPECT_EQ(text->property("text").toString(), QString::number(degree));
+    }
   }
   EXPECT_GT(valid, 3);
+}
+
+TEST_F(Layout, TheNameOfTheQuantityLiesOverNothing) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Fairing);
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
+  auto* quantity = find<QLabel>("plot.quantity");
+  auto* plot = find<QWidget>("plot");
+  for (const PlotTab tab :
+       {PlotTab::Radius, PlotTab::Curvature, PlotTab::CurvatureSlope, PlotTab::Speed, PlotTab::Deviation}) {
+    window_->findChild<CurvePlots*>()->setTab(tab);
+    ASSERT_TRUE(settleLayout());
+    const QRect box = quantity->geometry();
+    ASSERT_FALSE(box.isEmpty());
+    quantity->hide();
+    const QImage under = plot->grab(box).toImage().convertToFormat(QImage::Format_RGB32);
+    quantity->show();
+    QImage plain(under.size(), under.format());
+    plain.fill(under.pixelColor(0, 0));
+    EXPECT_EQ(under, plain) << quantity->text().toStdString();
+  }
 }
 
 TEST_F(Layout, TheTabsOfThePlotNeverLieOverOneAnother) {

@@ -5,7 +5,9 @@
 
 #include <QAbstractButton>
 #include <QDir>
+#include <QProcess>
 #include <QSettings>
+#include <csignal>
 
 #include "core/base/platform.h"
 #include "tests/ui/window_fixture.h"
@@ -37,8 +39,12 @@ class Start : public test::WindowFixture {
 TEST_F(Start, AFileOnWhichTheLastStartEndedIsNotOpenedByItself) {
   ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
   ASSERT_NO_FATAL_FAILURE(openWindow());
+  bool isMarked = false;
+  const QObject here;
+  QObject::connect(&session(), &EditorSession::scanOpened, &here, [&] { isMarked = OpeningGuard::hasFailed(path_); });
   window_->openAtStart({});
   ASSERT_TRUE(waitUntil([this] { return isOpen(); })) << "the last file opens at the start";
+  EXPECT_TRUE(isMarked) << "in case the program ends meanwhile";
   ASSERT_FALSE(OpeningGuard::hasFailed(path_)) << "and is marked no longer once it is there";
   // What a start leaves behind that ends while it opens the file.
   QSettings settings;
@@ -78,6 +84,26 @@ TEST_F(Start, AFileThatAnotherWindowIsOpeningHasNotFailed) {
   EXPECT_TRUE(hasFailed(words[0]));
   EXPECT_TRUE(hasFailed(words[0] + QStringLiteral(" 1 ") + words[2]));
   EXPECT_TRUE(hasFailed(words[0] + QLatin1Char(' ') + words[1] + QStringLiteral(" other-start")));
+}
+
+// A file that grows beyond what is allowed is a failed write, with a message: its signal must not end the program.
+TEST_F(Start, TheProgramIgnoresTheSignalOfTooLargeFiles) {
+  QProcess program;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert(QStringLiteral("QT_QPA_PLATFORM"), QStringLiteral("offscreen"));
+  for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME"})
+    environment.insert(QString::fromLatin1(name), folder_.path());
+  program.setProcessEnvironment(environment);
+  program.start(QStringLiteral(BATTEN_WINDOW), {});
+  ASSERT_TRUE(program.waitForStarted());
+  const auto isIgnored = [&] {
+    const QString status = QString::fromLatin1(read(QStringLiteral("/proc/%1/status").arg(program.processId())));
+    const QString ignored = status.section(QStringLiteral("SigIgn:"), 1).section(u'\n', 0, 0).trimmed();
+    return (ignored.toULongLong(nullptr, 16) >> (SIGXFSZ - 1) & 1U) != 0;
+  };
+  EXPECT_TRUE(waitUntil(isIgnored, 20000));
+  program.kill();
+  program.waitForFinished();
 }
 
 }  // namespace

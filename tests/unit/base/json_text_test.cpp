@@ -86,6 +86,16 @@ TEST(JsonText, TakesTimeInProportionToTheText) {
   secondsFor(10);
   const double few = std::min(secondsFor(20), secondsFor(20)), many = std::min(secondsFor(200), secondsFor(200));
   EXPECT_LT(many, 4.0 * few);
+  // Nor does a name take longer the more there are before it.
+  const auto secondsForNames = [](int names) {
+    const std::string text = withKeys(names);
+    const std::clock_t begin = std::clock();
+    EXPECT_TRUE(parseJson(text, {}, {.keys = 1'000'000}));
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / names;
+  };
+  const double ofFew = std::min(secondsForNames(10'000), secondsForNames(10'000)),
+               ofMany = std::min(secondsForNames(100'000), secondsForNames(100'000));
+  EXPECT_LT(ofMany, 4.0 * ofFew);
 }
 
 TEST(JsonText, HearsACancel) {

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/regular_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <fstream>
+#include <thread>
 
 namespace batten {
 namespace {
@@ -59,6 +64,57 @@ TEST_F(RegularFiles, NothingElseIsAndNothingWaits) {
   EXPECT_EQ(readWhole(folder_ / "round", 100).error(), FileProblem::LinksInCircle);
   close(socket);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
+// Opening alone may do something to a device.
+TEST_F(RegularFiles, NothingElseIsEvenOpened) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int watch = inotify_init1(IN_NONBLOCK);
+  ASSERT_GE(inotify_add_watch(watch, pipe.c_str(), IN_OPEN), 0);
+  const auto isOpened = [&] {
+    std::array<char, 4096> events{};
+    return ::read(watch, events.data(), events.size()) > 0;
+  };
+  EXPECT_EQ(readWhole(pipe, 100).error(), FileProblem::NotOrdinary);
+  EXPECT_FALSE(isOpened());
+  close(open(pipe.c_str(), O_RDONLY | O_NONBLOCK));
+  EXPECT_TRUE(isOpened()) << "the watch would have told of it";
+  close(watch);
+}
+
+TEST_F(RegularFiles, ANameThatBecomesAPipeAfterTheLookAtItIsRefusedOnceItIsOpen) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kHangs = std::chrono::seconds(10), kLong = std::chrono::seconds(1);
+  const fs::path file = with("file", "here"), pipe = folder_ / "pipe", name = folder_ / "name", next = folder_ / "next";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_hard_link(file, name);
+  std::atomic<bool> isOver{false}, hasWaited{false};
+  std::atomic<int> reads{0};
+  std::thread swapping([&] {
+    auto since = Clock::now();
+    int seen = 0;
+    for (bool isPipe = true; !isOver; isPipe = !isPipe) {
+      fs::create_hard_link(isPipe ? pipe : file, next);
+      fs::rename(next, name);
+      if (seen != reads) {
+        seen = reads;
+        since = Clock::now();
+      } else if (Clock::now() - since > kHangs) {
+        hasWaited = true;
+        close(open(pipe.c_str(), O_RDWR));  // lets a reader go that waits for a writer
+      }
+    }
+  });
+  int wrong = 0;
+  for (const auto begin = Clock::now(); Clock::now() - begin < kLong && !hasWaited; ++reads) {
+    const auto text = readWhole(name, 100);
+    wrong += (text ? *text == "here" : text.error() == FileProblem::NotOrdinary) ? 0 : 1;
+  }
+  isOver = true;
+  swapping.join();
+  EXPECT_FALSE(hasWaited);
+  EXPECT_EQ(wrong, 0) << "of " << reads << " looks";
 }
 
 TEST_F(RegularFiles, AreOfSensibleSize) {

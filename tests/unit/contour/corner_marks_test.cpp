@@ -3,15 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 
 #include "core/contour/corner/corner_suggestions.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/angles.h"
 #include "tests/support/contour_shapes.h"
+#include "tests/support/pen_lines.h"
 #include "tests/unit/contour/corner_lines.h"
 
 namespace batten {
@@ -201,6 +205,37 @@ TEST(CornerMarks, MarksAnyDistanceAwayFindNoLine) {
     EXPECT_FALSE(nearestContourPoint(set, {far, 5.0}, 16.0).has_value()) << far;
     EXPECT_FALSE(nearestContourPoint(set, {5.0, far}, 16.0).has_value()) << far;
   }
+}
+
+// What a mark costs does not depend on how much is drawn elsewhere.
+TEST(CornerMarks, ManyTakeNoTimeWithTheSizeOfTheDrawing) {
+  constexpr int kTeeth = 700;
+  constexpr double kToothPx = 16.0;
+  std::vector<Vec2> tips;
+  std::vector<CornerMark> marks;
+  for (int i = 0; i <= kTeeth; ++i) tips.emplace_back(kToothPx * i, (i % 2) * kToothPx);
+  for (int i = 1; i < kTeeth; ++i) marks.push_back({tips[i]});
+  const Contour zigzag = fromPoints(test::alongPolygon(tips, false), false).contours.front();
+  CornerParams params;
+  params.exact = false;
+  const auto secondsWith = [&](int lines) {
+    ContourSet set;
+    set.contours.push_back(zigzag);
+    for (int i = 0; i < lines; ++i)
+      set.contours.push_back(
+          fromPoints(test::alongPolygon({{0.0, 200.0 + 4.0 * i}, {5000.0, 200.0 + 4.0 * i}}, false), false)
+              .contours.front());
+    const auto secondsFor = [&](std::span<const CornerMark> some) {
+      const std::clock_t begin = std::clock();  // of this program alone, however busy the machine is
+      const auto pieces = splitAtCorners(set, some, params, {});
+      const std::clock_t end = std::clock();
+      EXPECT_TRUE(pieces && pieces->corners.size() == some.size() && pieces->lostMarks.empty());
+      return static_cast<double>(end - begin) / CLOCKS_PER_SEC;
+    };
+    return std::min(secondsFor(marks), secondsFor(marks)) - std::min(secondsFor({}), secondsFor({}));
+  };
+  const double alone = secondsWith(0), among = secondsWith(200);
+  EXPECT_LT(among, 3.0 * alone) << "among a million other points";
 }
 
 TEST(CornerMarks, ClosedContours) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <random>
 
@@ -118,6 +119,28 @@ TEST(FairAsNeeded, KeepsATightToleranceAndClosedCurves) {
     EXPECT_LT((c.point(c.start()) - c.point(c.end())).norm(), 1e-9 * extent(c));
     EXPECT_LE(faired->report.extremaAfter, std::max(4, faired->report.extremaBefore));
   }
+}
+
+// Hundreds of segments follow the noise: each step of the search for a simpler curve has to do with all of them.
+TEST(FairAsNeeded, AStepTakesNoTimeWithTheSquareOfTheSegments) {
+  const auto secondsAStep = [](int points) {
+    std::vector<Vec2> control;
+    for (int i = 0; i < points; ++i) {
+      const double t = 3.0 * i / (points - 1);
+      control.emplace_back(300.0 * std::cos(t), 180.0 * std::sin(t));
+    }
+    const NurbsCurve truth = NurbsCurve::make(5, test::clampedKnots(5, points), control).value();
+    const NurbsCurve sketch = test::noisy(truth, 0.02, 1);
+    const FairingLine line = measured(truth, 0.3, 1);
+    const std::clock_t begin = std::clock();  // of this program alone, however busy the machine is
+    const auto faired = fair(sketch, false, tolerance(1.0), {}, line);
+    const std::clock_t end = std::clock();
+    EXPECT_TRUE(faired && faired->report.iterations > 0);
+    return static_cast<double>(end - begin) / CLOCKS_PER_SEC / (faired ? faired->report.iterations : 1);
+  };
+  const double few = std::min(secondsAStep(75), secondsAStep(75)),
+               many = std::min(secondsAStep(300), secondsAStep(300));
+  EXPECT_LT(many, 3.0 * 4.0 * few) << "4 times the segments; 16 times and more if each looked at all of them";
 }
 
 }  // namespace
