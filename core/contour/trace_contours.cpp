@@ -14,6 +14,7 @@
 #include "core/contour/centreline/fine_lines.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/meeting_ends.h"
+#include "core/contour/centreline/near_ends.h"
 #include "core/contour/ink/blots.h"
 #include "core/contour/ink/faint_marks.h"
 #include "core/contour/ink/ink_split.h"
@@ -359,6 +360,8 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     if (edges.mode == EdgeMode::Outline) dropSoftBorders(*set, grey, params, context);
     if (context.isCancelled()) return cancelled();
     leadToLines(set->contours, context);
+    const bool isOfOneStroke = edges.mergeWidths <= 0.0 && !edges.intent;
+    if (isOfOneStroke) leadOverPaper(set->contours, edges.gapFactor, context);
     std::sort(set->contours.begin(), set->contours.end(), before);
   }
   tellDropped(*set, edges);
