@@ -22,8 +22,8 @@ struct EdgeParams {
   InnerBorders internal = InnerBorders::Automatic;
   bool subpixel = true;        ///< Place the points on the raw grey values; off: crack midpoints or skeleton pixels.
   double strokeWidth = 0.025;  ///< [-] 0.005..0.1. Without effect; kept for old recipes.
-  double gapFactor =
-      4.0;  ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each other; 0 = none.
+  double gapFactor = 4.0;      ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each
+                           ///< other, and to the line or the corner that a long line points at (near_ends.h); 0 = none.
   double mergeWidths =
       0.0;  ///< [stroke widths] 0..20. Strokes closer together than this are merged into one line; 0 = off.
   /// Lines that were drawn over more than once become the intended curves, found place by place; mergeWidths,

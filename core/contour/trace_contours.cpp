@@ -359,9 +359,9 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     refineSoftOutlines(*set, grey, context);
     if (edges.mode == EdgeMode::Outline) dropSoftBorders(*set, grey, params, context);
     if (context.isCancelled()) return cancelled();
-    leadToLines(set->contours, context);
-    const bool isOfOneStroke = edges.mergeWidths <= 0.0 && !edges.intent;
-    if (isOfOneStroke) leadOverPaper(set->contours, edges.gapFactor, context);
+    leadToLines(set->contours, grey, context);
+    const bool isOfOneStroke = edges.mergeWidths <= 0.0 && !set->report.isGrouped;
+    if (isOfOneStroke) leadOverPaper(set->contours, ink, edges.gapFactor, context);
     std::sort(set->contours.begin(), set->contours.end(), before);
   }
   tellDropped(*set, edges);

@@ -44,6 +44,36 @@ void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
   }
 }
 
+// [points] from a turn to both sides, over which it is seen; and its cosine: 75 degrees.
+constexpr int kTurnReach = 8;
+constexpr double kTurnCos = 0.26;
+
+// Whether two strokes come together here: one would not turn so sharply.
+bool turnsBack(const StrokePath& path, int i) {
+  const int n = static_cast<int>(path.points.size());
+  if (i < 2 || i + 2 >= n) return false;
+  const Vec2 in = path.points[i].at - path.points[std::max(0, i - kTurnReach)].at;
+  const Vec2 out = path.points[std::min(n - 1, i + kTurnReach)].at - path.points[i].at;
+  return in.dot(out) < kTurnCos * in.norm() * out.norm();
+}
+
+// Two strokes that run to one place of a rim have no junction left before it: they are cut apart where they turn back.
+void cutAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    if (paths[k].closed) continue;
+    const int n = static_cast<int>(paths[k].points.size());
+    for (int i = n - 3; i >= 2; --i) {
+      if (!turnsBack(paths[k], i) || !anyInDisc(shapes, paths[k].points[i].at, kAtRimPx)) continue;
+      StrokePath rest = paths[k];
+      rest.points.erase(rest.points.begin(), rest.points.begin() + i);
+      paths[k].points.resize(i + 1);
+      rest.tip[0] = paths[k].tip[1] = false;
+      paths.push_back(std::move(rest));
+      break;
+    }
+  }
+}
+
 // The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
 StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
                             const RunContext& context) {
@@ -55,6 +85,7 @@ StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& option
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
   if (shapes == nullptr) return findPathsAndJunctions(skeleton, all, params, context);
   StrokePathSet found = findPathsAndJunctions(without(std::move(skeleton), *shapes), all, params, context);
+  cutAtRims(found.paths, *shapes);
   endAtRims(found.paths, *shapes);
   return found;
 }
@@ -318,7 +349,7 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   const BitImage& ink = found.bodies ? *found.bodies : strokes;
   // Merging sees bundles as a whole.
   const bool isMerged = params.mergeWidths > 0.0 || params.intent;
-  if (!isMerged) joinThroughInk(paths, pencil, found.strokes.junctions, ink, grey, context);
+  if (!isMerged) joinThroughInk(paths, pencil, found.strokes.junctions, ink, grey, params, context);
   bridgeGaps(paths, pencil, ink, grey, params, context);
   return found;
 }
@@ -373,6 +404,12 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   set.contours = keepOnInk(std::move(set.contours), seen, pixelsPerPx);
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);
+  if (params.intent && !set.report.isGrouped && !context.isCancelled()) {
+    // Without lines drawn over more than once the page is what it is without the wish.
+    EdgeParams plain = params;
+    plain.intent = false;
+    return traceStrokes(strokes, grey, plain, context, options);
+  }
   // Links alone are a net, whose borders tell more.
   if (!set.report.isGrouped && !set.contours.empty())
     std::move(parting.begin(), parting.end(), std::back_inserter(set.contours));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -33,7 +34,7 @@ constexpr double kAcrossPx = 4.0;  // that of others, which a mean over the midd
 // Ends in shared ink: [widths] apart at most, [degrees] by which each looks past the other, and [px] more.
 constexpr double kSharedWidths = 15.0, kSharedFacingDeg = 8.0, kSharedMissPx = 1.0;
 constexpr double kSharedTurnDeg = 12.0;  // between the directions of the two
-constexpr double kSharedLength = 4.0;    // [widths] of a stroke beyond the ink it shares: less has no direction
+constexpr double kSharedLength = 4.0;    // [widths] of a stroke: a shorter one has no direction
 constexpr double kChosenWidths = 2.0;    // beyond a junction that the user paired: its ends stay as they are
 constexpr int kBridgeRounds = 4;         // an end whose best partner is taken may find another
 constexpr int kEndsPerLook = 256;        // between polls of the cancel token
@@ -177,17 +178,17 @@ std::optional<double> joinCost(const OpenEnd& a, const OpenEnd& b, const BitImag
 
 // Cost of one stroke that runs on through the ink of others, as under a bundle of lines that it crosses at a shallow
 // angle: its ends look straight at each other, with nothing but ink between.
-std::optional<double> sharedCost(const OpenEnd& a, const OpenEnd& b, const BitImage& ink) {
+std::optional<double> sharedCost(const OpenEnd& a, const OpenEnd& b, const BitImage& ink, double maxBendDeg) {
   const double width = 0.5 * (a.inkWidth + b.inkWidth), thinner = std::min(a.inkWidth, b.inkWidth);
-  const double octaves = std::abs(std::log2(a.inkWidth / b.inkWidth));
-  if (octaves > std::log2(kBridgedWidthRatio) + 1.0 / thinner) return std::nullopt;
   const Vec2 d = b.at - a.at;
   const double gap = d.norm();
   if (!(gap > 0.0) || gap > kSharedWidths * width) return std::nullopt;
+  const double octaves = std::abs(std::log2(a.inkWidth / b.inkWidth));
+  if (octaves > std::log2(kBridgedWidthRatio) + 1.0 / thinner) return std::nullopt;
   const double turn = std::acos(std::clamp(-a.out.dot(b.out), -1.0, 1.0));
   const double miss = gap * std::sin(kSharedFacingDeg * kRadPerDeg) + kSharedMissPx;
   const bool isFacing = d.dot(a.out) > 0.0 && d.dot(b.out) < 0.0 && std::abs(cross(a.out, d)) <= miss &&
-                        std::abs(cross(b.out, d)) <= miss && turn <= kSharedTurnDeg * kRadPerDeg;
+                        std::abs(cross(b.out, d)) <= miss && turn <= std::min(kSharedTurnDeg, maxBendDeg) * kRadPerDeg;
   if (!isFacing || paperBetween(a, b, ink) > 0.0) return std::nullopt;
   return gap + width * (turn + kOctaveCost * octaves + kGreyCost * std::abs(a.level - b.level));
 }
@@ -268,10 +269,12 @@ void joinCheapest(std::vector<StrokePath>& paths, StrokePart part, const EndsOf&
 
 void joinThroughInk(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
                     std::span<const StrokeJunction> junctions, const BitImage& ink, const GreyImage& grey,
-                    const RunContext& context) {
+                    const EdgeParams& params, const RunContext& context) {
+  std::vector<StrokeJunction> chosen;
+  std::ranges::copy_if(junctions, std::back_inserter(chosen), [](const StrokeJunction& j) { return j.choice.has_value(); });
   const auto isChosen = [&](const OpenEnd& e) {
-    return std::ranges::any_of(junctions, [&](const StrokeJunction& j) {
-      return j.choice && (j.positionPx - e.at).norm() <= j.radiusPx + kChosenWidths * e.inkWidth;
+    return std::ranges::any_of(chosen, [&](const StrokeJunction& j) {
+      return (j.positionPx - e.at).norm() <= j.radiusPx + kChosenWidths * e.inkWidth;
     });
   };
   const auto endsOf = [&] {
@@ -282,7 +285,7 @@ void joinThroughInk(std::vector<StrokePath>& paths, const std::vector<bool>& pen
   };
   joinCheapest(
       paths, StrokePart::Junction, endsOf, [](double widest) { return kSharedWidths * widest; },
-      [&](const OpenEnd& a, const OpenEnd& b) { return sharedCost(a, b, ink); }, context);
+      [&](const OpenEnd& a, const OpenEnd& b) { return sharedCost(a, b, ink, params.maxBendDeg); }, context);
 }
 
 void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil, const BitImage& ink,

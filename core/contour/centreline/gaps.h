@@ -13,7 +13,7 @@ namespace batten {
 /// comes out on the other side. Ends at junctions that the user paired stay as they are. Joined paths are left empty.
 void joinThroughInk(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
                     std::span<const StrokeJunction> junctions, const BitImage& ink, const GreyImage& grey,
-                    const RunContext& context);
+                    const EdgeParams& params, const RunContext& context);
 
 /// Drops empty paths and joins stroke paths over gaps: mutually nearest free ends that look at each other. How long a
 /// gap is (EdgeParams::gapFactor) is measured from ink to ink. Strokes too short to have a direction are not joined,

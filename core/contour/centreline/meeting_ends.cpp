@@ -9,6 +9,7 @@
 #include "core/base/statistics.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/subpixel/point_noise.h"
 #include "core/polyline/point_grid.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -29,7 +30,11 @@ constexpr double kAcrossSin = 0.5;         // 30 degrees: a line is met across
 constexpr double kInkPx = 1.0;             // beyond the widths of two lines: their ink touches still
 constexpr double kTouchHalfWidths = 1.0;   // from a line: an end that comes as close touches it
 constexpr double kMostLedWidths = 12.0;    // on from an end
+constexpr double kMostJump = 1.2;          // of a step, by which a distance changes: more is of another stretch
 constexpr double kOwnWidths = 3.0;         // along a line from its own end: nearer it is the end itself
+// Of two letters that only blur joins the ink between is paler: by so much of their depth at most it is theirs.
+constexpr double kMostPaler = 0.5;
+constexpr double kPaperWidths = 1.5, kPaperPx = 1.5;  // beside the middle of a line is paper
 
 struct PointOfLine {
   int line = 0, point = 0;
@@ -69,7 +74,8 @@ struct LineMeeting {
 
 class EndLeader {
  public:
-  explicit EndLeader(const std::vector<Contour>& lines) : lines_(lines), grid_(cellPx(lines)) {
+  EndLeader(const std::vector<Contour>& lines, const GreyImage& grey)
+      : lines_(lines), grey_(grey), grid_(cellPx(lines)) {
     for (int i = 0; i < std::ssize(lines); ++i) {
       for (int k = 0; k < std::ssize(lines[i].points); ++k) grid_.add(lines[i].points[k].at, {i, k});
     }
@@ -77,6 +83,7 @@ class EndLeader {
 
   std::optional<LineEnd> endOf(int line, int side) const;
   std::optional<LineMeeting> meetingOf(const LineEnd& end) const;
+  bool isInked(const LineEnd& end, const std::vector<Vec2>& way) const;
 
  private:
   // Lines three times as wide as usual are still seen from where their ink begins.
@@ -95,8 +102,13 @@ class EndLeader {
   Way wayOf(const LineEnd& end, bool isBent) const;
   std::optional<LineMeeting> meetingAlong(const LineEnd& end, const Way& way) const;
   std::vector<LineBeside> around(const LineEnd& end, const Vec2& place) const;
+  double levelAt(const Vec2& at) const {
+    return grey_.level(std::clamp(static_cast<int>(at.x()), 0, grey_.width - 1),
+                       std::clamp(static_cast<int>(at.y()), 0, grey_.height - 1));
+  }
 
   const std::vector<Contour>& lines_;
+  const GreyImage& grey_;
   PointGrid<PointOfLine> grid_;
 };
 
@@ -125,7 +137,7 @@ std::optional<LineEnd> EndLeader::endOf(int line, int side) const {
   while (isPlaced && end.last + 1 < n && isNear(end.last, kHookWidths * end.widthPx)) ++end.last;
   end.anchor = end.last;
   while (end.anchor + 1 < n && isNear(end.anchor, kMeetWidths * end.widthPx)) ++end.anchor;
-  if (2 * end.anchor > n) return std::nullopt;
+  if (3 * end.anchor > n) return std::nullopt;  // the other end may be led on too
   const LocalQuadratic fit = fitBefore(end, std::max(kLeastLeadPx, kLeadWidths * end.widthPx), 1);
   if (fit.order.value_or(0) < 1 || !(fit.r1.norm() > 0.0)) return std::nullopt;
   end.out = fit.r1.normalized();
@@ -164,6 +176,10 @@ std::vector<LineBeside> EndLeader::around(const LineEnd& end, const Vec2& place)
     const Vec2 step = q.at - p.at;
     if (!(step.norm() > 0.0)) return;
     const Vec2 away = awayFromSegment(place, p.at, q.at);
+    // Beyond its end a line is not met.
+    const Vec2 foot = place - away;
+    const bool isFirst = near.point == 0, isLast = near.point + 2 == n;
+    if (!other.closed && ((isFirst && foot == p.at) || (isLast && foot == q.at))) return;
     const auto found = std::ranges::find(nearest, near.line, &LineBeside::line);
     if (found != nearest.end() && std::abs(found->distance) <= away.norm()) return;
     const double sign = cross(step, Vec2(place - p.at)) < 0.0 ? -1.0 : 1.0;
@@ -196,7 +212,7 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
       const double widths = beside.isRim ? kRimWidths : kMeetWidths;
       const double reach = widths * std::max(end.widthPx, beside.widthPx) / std::max(kLeastSin, sine) + kInkPx;
       // What jumps is the line's other bank, or beyond its end.
-      if (std::abs(arc) > reach || std::abs(d - old) > 2.0 * step.norm()) continue;
+      if (std::abs(arc) > reach || std::abs(d - old) > kMostJump * step.norm()) continue;
       const auto isBetter = [&](const std::optional<LineMeeting>& than) {
         return !than || std::abs(arc) < std::abs(than->beyondPx);
       };
@@ -213,10 +229,22 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
         touched = LineMeeting{std::move(taken), sine, arc};
       }
     }
-    if (!isOnInk) break;
+    if (!isOnInk || (crossed && arc > std::abs(crossed->beyondPx))) break;
     before = std::move(now);
   }
   return crossed ? crossed : touched;
+}
+
+// Whether the way from the end on to the line met is as dark as the two.
+bool EndLeader::isInked(const LineEnd& end, const std::vector<Vec2>& way) const {
+  const std::size_t own = static_cast<std::size_t>(end.anchor - end.last);
+  if (way.size() <= own + 1) return true;
+  const Vec2 aside = leftNormal(end.out) * (kPaperWidths * end.widthPx + kPaperPx);
+  const double paper = std::max(levelAt(way.front() + aside), levelAt(way.front() - aside));
+  const double ink = std::max(levelAt(way.front()), levelAt(way.back()));
+  const double palest = ink + kMostPaler * std::max(0.0, paper - ink);
+  return std::all_of(way.begin() + static_cast<std::ptrdiff_t>(own), way.end(),
+                     [&](const Vec2& at) { return levelAt(at) <= palest; });
 }
 
 // Straight on where that meets a line well across; else as the line bends.
@@ -243,6 +271,7 @@ void leadOn(Contour& c, const LineEnd& end, const std::vector<Vec2>& way) {
     ContourPoint p = c.points.back();
     p.at = p.unrefined = way[k];
     p.refined = false;
+    if (p.sigmaPx) p.sigmaPx = kGuessedSigmaPx;
     c.points.push_back(p);
   }
   if (end.side == 0) std::reverse(c.points.begin(), c.points.end());
@@ -250,18 +279,19 @@ void leadOn(Contour& c, const LineEnd& end, const std::vector<Vec2>& way) {
 
 }  // namespace
 
-void leadToLines(std::vector<Contour>& lines, const RunContext& context) {
+void leadToLines(std::vector<Contour>& lines, const GreyImage& grey, const RunContext& context) {
   const auto endsInInk = [](const Contour& c) { return !c.closed && (c.endsInInk[0] || c.endsInInk[1]); };
   if (std::ranges::none_of(lines, endsInInk)) return;
   std::vector<std::pair<LineEnd, LineMeeting>> leads;
-  const EndLeader leader(lines);
+  const EndLeader leader(lines, grey);
   for (int i = 0; i < std::ssize(lines); ++i) {
     if (!endsInInk(lines[i])) continue;
     if (context.isCancelled()) return;
     for (const int side : {0, 1}) {
       const std::optional<LineEnd> end = lines[i].endsInInk[side] ? leader.endOf(i, side) : std::nullopt;
       if (!end) continue;
-      if (std::optional<LineMeeting> meeting = leader.meetingOf(*end)) leads.emplace_back(*end, std::move(*meeting));
+      std::optional<LineMeeting> meeting = leader.meetingOf(*end);
+      if (meeting && leader.isInked(*end, meeting->way)) leads.emplace_back(*end, std::move(*meeting));
     }
   }
   // All are found on the lines as they were, so that their order does not matter.
@@ -269,10 +299,14 @@ void leadToLines(std::vector<Contour>& lines, const RunContext& context) {
     Contour& c = lines[end.line];
     const auto before = static_cast<int>(c.points.size());
     leadOn(c, end, meeting.way);
-    const int more = static_cast<int>(c.points.size()) - before;
+    const int after = static_cast<int>(c.points.size()), stay = before - end.anchor;
+    const auto [low, high] = end.side == 0 ? std::pair(after - stay, after - 1) : std::pair(0, stay - 1);
     for (auto& [first, last] : c.bridges) {
-      if (end.side == 0) first += more, last += more;
+      const int shift = end.side == 0 ? after - before : 0;
+      first = std::max(first + shift, low);
+      last = std::min(last + shift, high);
     }
+    std::erase_if(c.bridges, [](const auto& bridge) { return bridge.first > bridge.second; });
     measureContour(c);
   }
 }

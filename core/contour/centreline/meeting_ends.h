@@ -5,6 +5,7 @@
 
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
+#include "core/image/grey_image.h"
 
 namespace batten {
 
@@ -13,6 +14,7 @@ namespace batten {
 /// one joins, so that its junctions lie beside the middle of the stroke that goes through; and a stroke that leaves
 /// another one by and by has a middle of its own only where it has left it. An end is led on as it bends; where it
 /// would only come close, it touches. An end from which no line is met within the ink stays where it is.
-void leadToLines(std::vector<Contour>& lines, const RunContext& context);
+/// @param grey of the page on which the lines lie: where it pales between the two, only blur joins them.
+void leadToLines(std::vector<Contour>& lines, const GreyImage& grey, const RunContext& context);
 
 }  // namespace batten

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/statistics.h"
+#include "core/contour/subpixel/point_noise.h"
 #include "core/polyline/point_grid.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -15,7 +16,8 @@ namespace {
 // [stroke widths] of paper: letters stand no nearer, and a pencil fades before it is lifted.
 constexpr double kPenPaper = 0.75, kPencilPaper = 2.0;
 constexpr double kAimWidths = 3.0, kLeastAimPx = 6.0;  // of a line before its end, that point on
-constexpr double kMostOfLine = 0.1;                    // of its length that a line is led on: letters stay apart
+constexpr double kFewestWidths = 20.0;                 // of a line that is led on: letters stay apart
+constexpr double kMostOfLine = 0.1;                    // of its length that a line is led on
 constexpr double kMeetSin = 0.5;                       // 30 degrees: at less a line runs beside the other
 constexpr double kAimStepPx = 0.5;                     // along the way
 constexpr double kOwnLineWidths = 3.0;                 // along a line from its own end
@@ -43,7 +45,7 @@ std::optional<NearEnd> endOf(const std::vector<Contour>& lines, int line, int si
   const Contour& c = lines[line];
   const int n = static_cast<int>(c.points.size());
   const double width = medianWidthOf(c);
-  if (n < 3) return std::nullopt;
+  if (n < 3 || c.lengthPx < kFewestWidths * width) return std::nullopt;
   const auto at = [&](int k) -> const ContourPoint& { return c.points[side == 0 ? k : n - 1 - k]; };
   std::vector<double> s;
   std::vector<Vec2> points;
@@ -55,7 +57,7 @@ std::optional<NearEnd> endOf(const std::vector<Contour>& lines, int line, int si
   }
   const LocalQuadratic fit = fitLocalQuadratic(s, points, {}, 1);
   if (fit.order.value_or(0) < 1 || !(fit.r1.norm() > 0.0)) return std::nullopt;
-  // Only the points of a pen have a standard deviation.
+  // What was drawn with a pencil has no standard deviation (ContourPoint::sigmaPx).
   const double paper = at(0).sigmaPx ? kPenPaper : kPencilPaper;
   NearEnd end;
   end.line = line;
@@ -66,6 +68,16 @@ std::optional<NearEnd> endOf(const std::vector<Contour>& lines, int line, int si
   end.paperPx = std::min(paper, longestWidths) * width;
   end.mostPx = kMostOfLine * c.lengthPx;
   return end;
+}
+
+// Whether no more of the way is paper than may be. An end may lie half a width within its ink, or at its edge.
+bool isOverLittlePaper(const NearEnd& end, double way, const BitImage& ink) {
+  double paper = 0.0;
+  for (double s = 0.0; s <= way; s += kAimStepPx) {
+    const Vec2 p = end.at + s * end.out;
+    if (!ink.at(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())))) paper += kAimStepPx;
+  }
+  return paper <= end.paperPx + kAimStepPx;
 }
 
 class NearLines {
@@ -112,14 +124,15 @@ class NearLines {
 };
 
 // Offers two ends at an angle each other.
-void offerCorner(std::vector<NearEnd>& ends, int i, int j) {
+void offerCorner(std::vector<NearEnd>& ends, int i, int j, const BitImage& ink) {
   NearEnd &a = ends[i], &b = ends[j];
   const double sine = cross(a.out, b.out);
   if (std::abs(sine) < kMeetSin) return;
   const Vec2 d = b.at - a.at;
   const double ofA = cross(d, b.out) / sine, ofB = cross(d, a.out) / sine;
-  const auto isNear = [](const NearEnd& e, double way) {
-    return way > 0.0 && way <= std::min(0.5 * e.widthPx + e.paperPx, e.mostPx);
+  const auto isNear = [&](const NearEnd& e, double way) {
+    return way > kLeastWayPx && way <= std::min(0.5 * e.widthPx + e.paperPx, e.mostPx) &&
+           isOverLittlePaper(e, way, ink);
   };
   if (!isNear(a, ofA) || !isNear(b, ofB)) return;
   const auto take = [&](NearEnd& e, int other, double way) {
@@ -135,9 +148,9 @@ void offerCorner(std::vector<NearEnd>& ends, int i, int j) {
 // [px] that the end is led on.
 std::optional<double> wayOf(const std::vector<NearEnd>& ends, int i) {
   const NearEnd& e = ends[i];
-  const bool isMutual = e.partner && ends[*e.partner].partner == i;
-  if (isMutual && (!e.toLine || e.toPartner <= *e.toLine)) return e.toPartner;
-  return e.toLine;
+  const auto isShorter = [](const NearEnd& end) { return !end.toLine || end.toPartner <= *end.toLine; };
+  const bool isCorner = e.partner && ends[*e.partner].partner == i && isShorter(e) && isShorter(ends[*e.partner]);
+  return isCorner ? std::optional(e.toPartner) : e.toLine;
 }
 
 void leadOn(Contour& c, const NearEnd& end, double way) {
@@ -148,6 +161,7 @@ void leadOn(Contour& c, const NearEnd& end, double way) {
     ContourPoint p = last;
     p.at = p.unrefined = end.at + end.out * (way * k / steps);
     p.refined = false;
+    if (p.sigmaPx) p.sigmaPx = kGuessedSigmaPx;
     c.points.push_back(p);
   }
   if (end.side == 0) {
@@ -162,7 +176,7 @@ void leadOn(Contour& c, const NearEnd& end, double way) {
 
 }  // namespace
 
-void leadOverPaper(std::vector<Contour>& lines, double longestWidths, const RunContext& context) {
+void leadOverPaper(std::vector<Contour>& lines, const BitImage& ink, double longestWidths, const RunContext& context) {
   if (!(longestWidths > 0.0)) return;
   std::vector<NearEnd> ends;
   double farthest = 1.0;
@@ -184,8 +198,9 @@ void leadOverPaper(std::vector<Contour>& lines, double longestWidths, const RunC
   for (int i = 0; i < std::ssize(ends); ++i) {
     if (context.isCancelled()) return;
     ends[i].toLine = near.wayToLine(ends[i]);
+    if (ends[i].toLine && !isOverLittlePaper(ends[i], *ends[i].toLine, ink)) ends[i].toLine.reset();
     places.around(ends[i].at, [&](int j) {
-      if (j > i && ends[j].line != ends[i].line) offerCorner(ends, i, j);
+      if (j > i && ends[j].line != ends[i].line) offerCorner(ends, i, j, ink);
     });
   }
   std::vector<std::optional<double>> ways;

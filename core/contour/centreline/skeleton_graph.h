@@ -41,7 +41,7 @@ struct JunctionDisc {
 };
 
 /// The ends of a junction as the ink that strokes share there has told them: four of two strokes (shared_ink.h), more
-/// of a bundle (shared_bundle.h).
+/// of a tangle (tangles.h).
 struct LedThrough {
   std::vector<std::pair<int, int>> pairs;  ///< Which ends are one stroke, as indices into the ends of the node.
   std::vector<JunctionDisc> discs;         ///< Of each end: where the strokes part.

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
-#include "core/contour/centreline/shared_bundle.h"
 #include "core/contour/centreline/shared_ink.h"
 #include "core/contour/centreline/skeleton_graph.h"
+#include "core/contour/centreline/tangles.h"
 
 namespace batten {
 namespace {
@@ -26,8 +26,8 @@ constexpr double kWithinDisc = 1.1;       // of its radius: what stays within is
 class JunctionMerger {
  public:
   explicit JunctionMerger(SkeletonGraph& graph)
-      : graph_(graph), sets_(graph.nodeCount()), shared_(graph.edgeCount()), isInBundle_(graph.nodeCount(), false) {}
-  void merge(bool ofBundles);
+      : graph_(graph), sets_(graph.nodeCount()), shared_(graph.edgeCount()), isInTangle_(graph.nodeCount(), false) {}
+  void merge(bool ofBundles, std::span<const JunctionChoice> choices);
 
  private:
   using Link = std::pair<double, int>;  // length [px], edge
@@ -38,13 +38,13 @@ class JunctionMerger {
   std::vector<int> joinLinked(const std::vector<Link>& links, bool ofBundles);
   void moveToDiscs();
   void leadThrough(const SharedInk& shared, int node);
-  void leadThrough(const SharedBundle& bundle, int node);
+  void leadThrough(const Tangle& tangle, int node);
   void dropWithinDiscs();
 
   SkeletonGraph& graph_;
   DisjointSets sets_;                             // of nodes that become one
   std::vector<std::optional<SharedInk>> shared_;  // per edge
-  std::vector<bool> isInBundle_;                  // per node
+  std::vector<bool> isInTangle_;                  // per node
 };
 
 // [px] How long two strokes that cross or touch at the angle seen at both ends of a link can share one skeleton; 0: the
@@ -108,7 +108,7 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks(bool ofBundles) {
     if (!l.alive || l.ring) continue;
     const SkeletonNode &a = graph_.node(*l.node[0]), &b = graph_.node(*l.node[1]);
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
-    if (isInBundle_[*l.node[0]] || isInBundle_[*l.node[1]]) continue;
+    if (isInTangle_[*l.node[0]] || isInTangle_[*l.node[1]]) continue;
     shared_[i] = ofBundles ? std::nullopt : findSharedInk(graph_, i);
     if (shared_[i] || l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i)))
       links.emplace_back(l.length, i);
@@ -210,27 +210,37 @@ void JunctionMerger::leadThrough(const SharedInk& shared, int node) {
   n.led = std::move(led);
 }
 
-void JunctionMerger::leadThrough(const SharedBundle& bundle, int node) {
+void JunctionMerger::leadThrough(const Tangle& tangle, int node) {
   SkeletonNode& n = graph_.node(node);
-  if (n.ends != bundle.outer) return;
+  if (n.ends != tangle.outer) return;
   LedThrough led;
-  led.discs = bundle.discs;
-  led.isDoubtful = bundle.isDoubtful;
+  led.discs = tangle.discs;
+  led.isDoubtful = tangle.isDoubtful;
   const auto indexOf = [&](int end) { return static_cast<int>(std::ranges::find(n.ends, end) - n.ends.begin()); };
-  for (const auto& [from, to] : bundle.strokes) led.pairs.emplace_back(std::minmax(indexOf(from), indexOf(to)));
+  for (const auto& [from, to] : tangle.strokes) led.pairs.emplace_back(std::minmax(indexOf(from), indexOf(to)));
   std::sort(led.pairs.begin(), led.pairs.end());
   n.led = std::move(led);
 }
 
-void JunctionMerger::merge(bool ofBundles) {
-  std::vector<SharedBundle> bundles;
-  if (!ofBundles) bundles = findSharedBundles(graph_);
-  for (const SharedBundle& bundle : bundles)
-    for (const int node : bundle.nodes) isInBundle_[node] = true;
+void JunctionMerger::merge(bool ofBundles, std::span<const JunctionChoice> choices) {
+  std::vector<Tangle> tangles;
+  if (!ofBundles) tangles = findTangles(graph_);
+  const auto isChosen = [&](const Vec2& at) {
+    return std::ranges::any_of(
+        choices, [&](const JunctionChoice& choice) { return (choice.positionPx - at).norm() <= choice.reachPx; });
+  };
+  std::erase_if(tangles, [&](const Tangle& tangle) {
+    return std::ranges::any_of(tangle.nodes, [&](int node) { return isChosen(graph_.node(node).centre); }) ||
+           std::ranges::any_of(tangle.inner, [&](int edge) {
+             return std::ranges::any_of(graph_.edge(edge).points, isChosen, &StrokePathPoint::at);
+           });
+  });
+  for (const Tangle& tangle : tangles)
+    for (const int node : tangle.nodes) isInTangle_[node] = true;
   std::vector<int> inner = joinLinked(shortLinks(ofBundles), ofBundles);
-  for (const SharedBundle& bundle : bundles) {
-    for (const int node : bundle.nodes) sets_.join(bundle.nodes.front(), node);
-    inner.insert(inner.end(), bundle.inner.begin(), bundle.inner.end());
+  for (const Tangle& tangle : tangles) {
+    for (const int node : tangle.nodes) sets_.join(tangle.nodes.front(), node);
+    inner.insert(inner.end(), tangle.inner.begin(), tangle.inner.end());
   }
   std::vector<std::pair<int, int>> sharedAt;  // edge, node
   for (const int edge : inner) {
@@ -239,13 +249,15 @@ void JunctionMerger::merge(bool ofBundles) {
   }
   moveToDiscs();
   for (const auto& [edge, node] : sharedAt) leadThrough(*shared_[edge], sets_.root(node));
-  for (const SharedBundle& bundle : bundles) leadThrough(bundle, sets_.root(bundle.nodes.front()));
+  for (const Tangle& tangle : tangles) leadThrough(tangle, sets_.root(tangle.nodes.front()));
   dropWithinDiscs();
   for (int i = 0; i < graph_.nodeCount(); ++i) graph_.splice(i);
 }
 
 }  // namespace
 
-void mergeJunctions(SkeletonGraph& graph, bool ofBundles) { JunctionMerger(graph).merge(ofBundles); }
+void mergeJunctions(SkeletonGraph& graph, bool ofBundles, std::span<const JunctionChoice> choices) {
+  JunctionMerger(graph).merge(ofBundles, choices);
+}
 
 }  // namespace batten

@@ -274,7 +274,7 @@ StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& in
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
   pruneSpurs(graph, params.spurFactor);
-  mergeJunctions(graph, isOfBundles(params));
+  mergeJunctions(graph, isOfBundles(params), params.junctions);
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params).make();
 }

@@ -138,6 +138,8 @@ Contour cutPart(const Contour& line, int from, int to) {
   const int n = static_cast<int>(line.points.size());
   Contour part = line;
   part.closed = false;
+  part.endsInInk[0] = line.endsInInk[0] && !line.closed && from == 0;
+  part.endsInInk[1] = line.endsInInk[1] && !line.closed && to == n - 1;
   part.points.clear();
   part.bridges.clear();
   for (int i = from; i <= to; ++i) part.points.push_back(line.points[wrapIndex(i, n)]);

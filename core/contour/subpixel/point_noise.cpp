@@ -17,7 +17,6 @@ constexpr int kNoiseStride = 4;                // a median is taken at every fou
 constexpr double kNoiseAlong = 6.0;            // points: the medians are smoothed by this
 constexpr double kFreedomOfWeights = 1.5;      // effective degrees of freedom over the sum of the weights
 constexpr double kModelErrorPx = 0.01;         // of the pixel model itself
-constexpr float kGuessedSigmaPx = 0.35f;       // of a point that is known to the pixel only
 constexpr double kLargestPointSigmaPx = 0.35;  // of one that was placed
 
 using Information = std::vector<std::optional<PointInformation>>;

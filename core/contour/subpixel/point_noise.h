@@ -6,6 +6,9 @@
 
 namespace batten {
 
+/// [px] standard deviation across the line of a point that is known to the pixel only.
+inline constexpr float kGuessedSigmaPx = 0.35f;
+
 /// How well the pixels around a point of a line determine its place.
 struct PointInformation {
   double gain = 0.0;     ///< [px/grey] > 0. Standard deviation of the place over that of a single pixel.

@@ -54,7 +54,8 @@ void appendStrokes(std::vector<Parameter>& table) {
   table.push_back(real(
       kContours,
       {"edges.gap", "Bridge gaps", "stroke widths",
-       "Longest gap between two stroke ends that is bridged. Larger joins more; 0 bridges none."},
+       "Longest gap between two stroke ends that is bridged; long lines are led on over less of it to a line or corner "
+       "they stop short of. Larger joins more; 0 bridges none."},
       {0.0, 20.0, 0.5, 1}, [](auto& r) -> auto& { return r.edges.gapFactor; }));
   table.push_back(real(
       kContours,

@@ -138,5 +138,50 @@ TEST(JunctionPairing, ThreeLinesThatShareTheirInkAreWhole) {
   }
 }
 
+// A bold line across which thin ones lie is no ink of two: its middle is placed all along.
+TEST(JunctionPairing, ABoldLineAcrossThinOnesKeepsItsMiddle) {
+  constexpr int kAcross = 640, kDown = 320;
+  std::vector<float> coverage =
+      test::coverageOf(test::hatchLines({320, 160}, 3.0, 1, 1.0, 560.0, 900.0), 12.0, kAcross, kDown);
+  std::vector<std::vector<Vec2>> thin;
+  for (const double x : {280.0, 320.0, 360.0}) thin.push_back(test::hatchLines({x, 160}, 80.0, 1, 1.0, 220.0, 0.0)[0]);
+  const std::vector<float> others = test::coverageOf(thin, 3.0, kAcross, kDown);
+  for (std::size_t i = 0; i < coverage.size(); ++i) coverage[i] = std::max(coverage[i], others[i]);
+  const Scan scan = test::scanOfLines(coverage, kAcross, kDown, 9);
+  BitImage ink(kAcross, kDown);
+  for (int y = 0; y < kDown; ++y)
+    for (int x = 0; x < kAcross; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
+  const auto set = centrelines(ink, scan.grey, {}, {});
+  ASSERT_TRUE(set);
+  const auto longest = std::ranges::max_element(set->contours, {}, &Contour::lengthPx);
+  ASSERT_GT(longest->lengthPx, 500.0);
+  const auto between = std::ranges::count_if(
+      longest->points, [](const ContourPoint& p) { return p.refined && p.at.x() > 285.0 && p.at.x() < 355.0; });
+  EXPECT_GT(between, 10) << "points placed between the thin lines";
+}
+
+// What the user says of one crossing holds there, though its ink is that of three lines.
+TEST(JunctionPairing, AChoiceForOneCrossingLeavesTheOthers) {
+  constexpr LinePage kPage{4.0, 640, 480, 5};
+  std::vector<std::vector<Vec2>> lines;
+  const Vec2 crossing(360.0, 240.0 - 40.0 * 0.5 * 10.0 * std::numbers::pi / 180.0);
+  for (const auto& [through, deg] :
+       {std::pair(Vec2(320.0, 240.0), -10.0), std::pair(Vec2(320.0, 240.0), 0.0), std::pair(crossing, 25.0)})
+    lines.push_back(test::hatchLines(through, deg, 1, 1.0, 520.0, 0.0).front());
+  const Scan scan =
+      test::scanOfLines(test::coverageOf(lines, 4.0, kPage.width, kPage.height), kPage.width, kPage.height, kPage.seed);
+  BitImage ink(kPage.width, kPage.height);
+  for (int y = 0; y < kPage.height; ++y)
+    for (int x = 0; x < kPage.width; ++x) ink.set(x, y, scan.grey.level(x, y) < 132.0);
+  const auto own = centrelines(ink, scan.grey, {}, {});
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->junctions.size(), 1u) << "all three are told at once";
+  EdgeParams edges;
+  edges.junctions.push_back({{320.0, 240.0}, {}});
+  const auto chosen = centrelines(ink, scan.grey, edges, {});
+  ASSERT_TRUE(chosen);
+  EXPECT_GT(chosen->junctions.size(), 1u) << "every junction is one of its own again";
+}
+
 }  // namespace
 }  // namespace batten

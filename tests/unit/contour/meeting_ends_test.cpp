@@ -106,19 +106,43 @@ TEST(MeetingEnds, AStrokeThatRunsIntoAShapeMeetsItsBorder) {
   EXPECT_NEAR((end - centre).norm(), kRadius, 0.8);
 }
 
-// Where no line goes on within the ink nothing is laid on.
+// An end that stops 4 px before the middle of a line of 6 px. Of two letters that only blur joins each keeps its end.
+TEST(MeetingEnds, WhatOnlyBlurJoinsStaysApart) {
+  std::vector<Contour> lines(2);
+  for (Contour& c : lines) c.kind = ContourKind::Centreline;
+  lines[0].points = contourPoints(straight({50.0, 100.0}, {200.0, 100.0}), true);
+  lines[1].points = contourPoints(straight({204.0, 40.0}, {204.0, 160.0}), true);
+  for (Contour& c : lines) {
+    for (ContourPoint& p : c.points) p.widthPx = 6.0f;
+    measureContour(c);
+  }
+  lines[0].endsInInk = {false, true};
+  GreyImage grey(300, 200, 60000);
+  for (int y = 97; y < 103; ++y)
+    for (int x = 50; x < 207; ++x) grey.row(y)[x] = 10000;
+  std::vector<Contour> joined = lines, apart = lines;
+  leadToLines(joined, grey, {});
+  EXPECT_NEAR((joined[0].points.back().at - Vec2(204.0, 100.0)).norm(), 0.0, 0.05);
+  EXPECT_EQ(joined[1].points, lines[1].points);
+  for (int y = 97; y < 103; ++y)
+    for (int x = 201; x < 203; ++x) grey.row(y)[x] = 50000;
+  leadToLines(apart, grey, {});
+  EXPECT_EQ(apart[0].points, lines[0].points);
+}
+
+// Where no line goes on within the ink nothing is laid on, however dark the page.
 TEST(MeetingEnds, AnEndThatMeetsNoLineStays) {
   std::vector<Contour> lines(2);
   for (Contour& c : lines) c.kind = ContourKind::Centreline;
   lines[0].points = contourPoints(straight({50.0, 100.0}, {200.0, 100.0}), true);
-  lines[1].points = contourPoints(straight({230.0, 40.0}, {230.0, 160.0}), true);
+  lines[1].points = contourPoints(straight({212.0, 40.0}, {212.0, 160.0}), true);
   for (Contour& c : lines) {
     for (ContourPoint& p : c.points) p.widthPx = 6.0f;
     c.endsInInk = {true, true};
     measureContour(c);
   }
   const std::vector<ContourPoint> before = lines[0].points;
-  leadToLines(lines, {});
+  leadToLines(lines, GreyImage(300, 200, 10000), {});
   EXPECT_EQ(lines[0].points, before);
 }
 

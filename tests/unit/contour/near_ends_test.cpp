@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/image/bits/bit_disc.h"
 #include "tests/support/dense_page.h"
 #include "tests/unit/contour/traced_page.h"
 
@@ -37,18 +38,26 @@ Contour stroke(const Vec2& from, const Vec2& to, bool isPencil = false) {
   return c;
 }
 
+// The ink of strokes with round ends.
+BitImage inkOf(const std::vector<Contour>& lines) {
+  BitImage ink(400, 300);
+  for (const Contour& c : lines)
+    for (const ContourPoint& p : c.points) setDisc(ink, p.at, 0.5 * static_cast<double>(kStrokePx));
+  return ink;
+}
+
 TEST(NearEnds, TwoEndsAtAnAngleMeetAtTheCorner) {
   // From the corner to the middle of a round end: half a width and the paper.
-  std::vector<Contour> lines = {stroke({100.0, 100.0}, {196.0, 100.0}), stroke({200.0, 104.0}, {200.0, 180.0})};
-  leadOverPaper(lines, kGapWidths, {});
+  std::vector<Contour> lines = {stroke({60.0, 100.0}, {196.0, 100.0}), stroke({200.0, 104.0}, {200.0, 240.0})};
+  leadOverPaper(lines, inkOf(lines), kGapWidths, {});
   EXPECT_NEAR((lines[0].points.back().at - Vec2(200.0, 100.0)).norm(), 0.0, 1e-6);
   EXPECT_NEAR((lines[1].points.front().at - Vec2(200.0, 100.0)).norm(), 0.0, 1e-6);
-  EXPECT_EQ(lines[0].points.front().at, Vec2(100.0, 100.0));
+  EXPECT_EQ(lines[0].points.front().at, Vec2(60.0, 100.0));
   for (const Contour& c : lines) ASSERT_EQ(c.bridges.size(), 1u);
   EXPECT_EQ(lines[0].bridges[0].second, std::ssize(lines[0].points) - 1);
   EXPECT_EQ(lines[1].bridges[0].first, 0);
   EXPECT_FALSE(lines[0].points.back().refined);
-  EXPECT_NEAR(lines[0].lengthPx, 100.0, 1e-6);
+  EXPECT_NEAR(lines[0].lengthPx, 140.0, 1e-6);
 }
 
 TEST(NearEnds, AnEndMeetsTheLineThatItPointsAt) {
@@ -58,7 +67,7 @@ TEST(NearEnds, AnEndMeetsTheLineThatItPointsAt) {
       const double way = (1.0 + share * paper) * static_cast<double>(kStrokePx);  // half a width at either side
       std::vector<Contour> lines = {stroke({-100.0, 100.0}, {200.0 - way, 100.0}, isPencil),
                                     stroke({190.0, 40.0}, {210.0, 160.0}, isPencil)};
-      leadOverPaper(lines, kGapWidths, {});
+      leadOverPaper(lines, inkOf(lines), kGapWidths, {});
       const double toLine = std::abs(cross((lines[1].points.back().at - lines[1].points[0].at).normalized(),
                                            Vec2(lines[0].points.back().at - lines[1].points[0].at)));
       if (share < 1.0) {
@@ -72,22 +81,22 @@ TEST(NearEnds, AnEndMeetsTheLineThatItPointsAt) {
 }
 
 TEST(NearEnds, AShortStrokeAsOfALetterStays) {
-  std::vector<Contour> lines = {stroke({160.0, 100.0}, {192.0, 100.0}), stroke({200.0, 40.0}, {200.0, 160.0})};
-  leadOverPaper(lines, kGapWidths, {});
+  std::vector<Contour> lines = {stroke({82.0, 100.0}, {192.0, 100.0}), stroke({200.0, 40.0}, {200.0, 160.0})};
+  leadOverPaper(lines, inkOf(lines), kGapWidths, {});
   EXPECT_EQ(lines[0].points.back().at, Vec2(192.0, 100.0));
 }
 
 TEST(NearEnds, NothingIsLaidWhereGapsAreNotBridged) {
-  std::vector<Contour> lines = {stroke({100.0, 100.0}, {196.0, 100.0}), stroke({200.0, 104.0}, {200.0, 180.0})};
-  leadOverPaper(lines, 0.0, {});
+  std::vector<Contour> lines = {stroke({60.0, 100.0}, {196.0, 100.0}), stroke({200.0, 104.0}, {200.0, 240.0})};
+  leadOverPaper(lines, inkOf(lines), 0.0, {});
   EXPECT_EQ(lines[0].points.back().at, Vec2(196.0, 100.0));
 }
 
 TEST(NearEnds, EndsBesideOneAnotherStay) {
-  std::vector<Contour> lines = {stroke({100.0, 100.0}, {190.0, 100.0}), stroke({100.0, 109.0}, {190.0, 112.0})};
-  leadOverPaper(lines, kGapWidths, {});
-  EXPECT_EQ(lines[0].points.back().at, Vec2(190.0, 100.0));
-  EXPECT_EQ(lines[1].points.back().at, Vec2(190.0, 112.0));
+  std::vector<Contour> lines = {stroke({40.0, 100.0}, {195.0, 100.0}), stroke({50.0, 140.4}, {196.0, 101.3})};
+  leadOverPaper(lines, inkOf(lines), kGapWidths, {});
+  EXPECT_EQ(lines[0].points.back().at, Vec2(195.0, 100.0)) << "they would meet at 15 degrees";
+  EXPECT_EQ(lines[1].points.back().at, Vec2(196.0, 101.3));
 }
 
 // A box drawn with four strokes that leave its corners open.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/shared_bundle.h"
+#include "core/contour/centreline/tangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,18 @@
 namespace batten {
 namespace {
 
-constexpr double kSharedInk = 1.1;    // [stroke widths] of the page: what is wider two strokes share
-constexpr double kNearNodes = 1.5;    // [radii of two junctions] a shorter edge lies in their ink
-constexpr double kSlitWidths = 12.0;  // [stroke widths] along paper between two strokes of a bundle
-constexpr double kStubWidths = 1.0;   // [stroke widths] a shorter end is a spur of the skeleton
-constexpr int kBundleNodes = 3;       // two are one crossing or one stretch of shared ink (shared_ink.h)
-constexpr int kMostNodes = 14, kFewestBundleEnds = 4, kMostBundleEnds = 10;
+constexpr double kSharedInk = 1.1;      // [stroke widths] of the page: what is wider two strokes share
+constexpr double kNearNodes = 1.5;      // [radii of two junctions] a shorter edge lies in their ink
+constexpr double kSlitWidths = 18.0;    // [stroke widths] along paper between two strokes of a tangle
+constexpr double kCommonWidths = 25.0;  // [stroke widths] two strokes lie on one another at most: at 5 degrees it is 23
+// A longer inner edge [widths] of common ink has two strokes at its middle and is so many times as wide as the wider.
+constexpr double kLongWidths = 3.0, kTwoStrokes = 1.05;
+constexpr double kBold = 1.5;        // [stroke widths] of a stroke bolder than the others
+constexpr double kStubWidths = 1.0;  // [stroke widths] a shorter end is a spur of the skeleton
+constexpr int kTangleNodes = 3;      // two are one crossing or one stretch of shared ink (shared_ink.h)
+constexpr int kMostNodes = 14, kFewestTangleEnds = 4, kMostTangleEnds = 10;
 constexpr double kOwnInk = 1.15, kOwnInkPx = 0.25;  // [half-widths] and [px] an end beyond the common ink is as wide
-constexpr double kEndShare = 0.5;                   // of the bundle's size: so far beyond it a stroke is an arc still,
+constexpr double kEndShare = 0.5;                   // of the tangle's size: so far beyond it a stroke is an arc still,
 constexpr double kEndWidths = 5.0;                  // and at least so many [stroke widths]
 constexpr double kLeastSeenWidths = 2.0;            // that must be seen
 constexpr int kLeastEndPoints = 6;
@@ -37,14 +41,14 @@ constexpr double kPaperWidths = 0.25, kPaperPx = 0.5;
 constexpr double kTurnWidths = 0.6;
 constexpr double kClearSquares = 4.0;  // the next best pairing leaves so many times more where one is clear
 
-struct BundleEnd {
+struct TangleEnd {
   int end = 0;
   std::vector<Vec2> points;  // [px] beyond the common ink
   Vec2 out = Vec2::Zero();
   double width = 1.0;  // [px]
 };
 
-struct BundleArc {
+struct TangleArc {
   LocalFrame frame;
   LocalArc arc;
   double left = 0.0;  // [px^2] mean square that it leaves of its two ends
@@ -60,49 +64,50 @@ std::vector<Vec2> localPoints(const LocalFrame& frame, const std::vector<Vec2>& 
   return local;
 }
 
-class BundleFinder {
+class TangleFinder {
  public:
-  explicit BundleFinder(const SkeletonGraph& graph) : graph_(graph), usualWidth_(2.0 * graph.medianRadius()) {}
-  std::vector<SharedBundle> find();
+  explicit TangleFinder(const SkeletonGraph& graph) : graph_(graph), usualWidth_(2.0 * graph.medianRadius()) {}
+  std::vector<Tangle> find();
 
  private:
   bool isJunction(int node) const { return graph_.node(node).ends.size() >= 3; }
   bool isCommonInk(int edge) const { return 2.0 * graph_.meanRadius(edge) >= kSharedInk * usualWidth_; }
   bool isShort(int edge) const;
   bool isStub(int end) const;
-  std::vector<SharedBundle> clusters() const;
-  bool tellStrokes(SharedBundle& bundle);
-  std::optional<BundleEnd> measure(int end, double sizePx) const;
-  std::optional<BundleArc> arcOf(const BundleEnd& p, const BundleEnd& q) const;
-  bool isWithinInk(const BundleArc& arc, const BundleEnd& p, const BundleEnd& q) const;
+  std::vector<Tangle> clusters() const;
+  bool tellStrokes(Tangle& tangle);
+  std::optional<TangleEnd> measure(int end, double sizePx) const;
+  std::optional<TangleArc> arcOf(const TangleEnd& p, const TangleEnd& q) const;
+  bool isWithinInk(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const;
   void match(int from, double sum, int open);
   bool explainsAll(const std::vector<std::pair<int, int>>& pairs) const;
+  bool isOfTwo(int edge, const std::vector<std::pair<int, int>>& pairs) const;
 
   const SkeletonGraph& graph_;
   double usualWidth_;
-  // Of the bundle in hand.
-  std::vector<BundleEnd> ends_;
+  // Of the tangle in hand.
+  std::vector<TangleEnd> ends_;
   std::vector<StrokePathPoint> ink_;  // of its inner edges
-  std::map<std::pair<int, int>, BundleArc> arcs_;
+  std::map<std::pair<int, int>, TangleArc> arcs_;
   std::vector<bool> used_;
   std::vector<std::pair<int, int>> now_, best_;
   double bestSum_ = 0.0, nextSum_ = 0.0;
 };
 
-bool BundleFinder::isShort(int edge) const {
+bool TangleFinder::isShort(int edge) const {
   const SkeletonEdge& e = graph_.edge(edge);
   return e.length <= kNearNodes * (graph_.node(*e.node[0]).radius + graph_.node(*e.node[1]).radius) + 1.0;
 }
 
 // A spur of the skeleton, within the common ink.
-bool BundleFinder::isStub(int end) const {
+bool TangleFinder::isStub(int end) const {
   const SkeletonEdge& e = graph_.edge(end / 2);
   const std::optional<int> far = e.node[1 - end % 2];
   return far && graph_.node(*far).ends.size() == 1 && e.length <= kStubWidths * usualWidth_;
 }
 
 // Junctions that hang together, with their inner edges and outer ends.
-std::vector<SharedBundle> BundleFinder::clusters() const {
+std::vector<Tangle> TangleFinder::clusters() const {
   DisjointSets sets(graph_.nodeCount());
   std::vector<bool> isCommon(graph_.nodeCount(), false), isInner(graph_.edgeCount(), false);
   const auto isLink = [&](int i) {
@@ -111,11 +116,12 @@ std::vector<SharedBundle> BundleFinder::clusters() const {
   };
   for (int i = 0; i < graph_.edgeCount(); ++i) {
     if (!isLink(i) || !(isCommonInk(i) || isShort(i))) continue;
+    if (graph_.edge(i).length > kCommonWidths * usualWidth_) continue;
     isInner[i] = true;
     sets.join(*graph_.edge(i).node[0], *graph_.edge(i).node[1]);
     for (const std::optional<int> node : graph_.edge(i).node) isCommon[*node] = isCommon[*node] || isCommonInk(i);
   }
-  // Beside a slit of paper two strokes of the bundle run apart and meet again.
+  // Beside a slit of paper two strokes of the tangle run apart and meet again.
   for (int i = 0; i < graph_.edgeCount(); ++i) {
     if (isInner[i] || !isLink(i) || graph_.edge(i).length > kSlitWidths * usualWidth_) continue;
     const int a = *graph_.edge(i).node[0], b = *graph_.edge(i).node[1];
@@ -128,32 +134,32 @@ std::vector<SharedBundle> BundleFinder::clusters() const {
     const SkeletonEdge& e = graph_.edge(i);
     if (e.alive && !e.ring && e.node[0] == e.node[1] && e.length <= kSlitWidths * usualWidth_) isInner[i] = true;
   }
-  std::map<int, SharedBundle> byRoot;
+  std::map<int, Tangle> byRoot;
   for (int i = 0; i < graph_.nodeCount(); ++i)
     if (isJunction(i)) byRoot[sets.root(i)].nodes.push_back(i);
-  std::vector<SharedBundle> found;
-  for (auto& [root, bundle] : byRoot) {
-    if (std::ssize(bundle.nodes) < kBundleNodes || std::ssize(bundle.nodes) > kMostNodes) continue;
-    for (const int node : bundle.nodes) {
+  std::vector<Tangle> found;
+  for (auto& [root, tangle] : byRoot) {
+    if (std::ssize(tangle.nodes) < kTangleNodes || std::ssize(tangle.nodes) > kMostNodes) continue;
+    for (const int node : tangle.nodes) {
       for (const int end : graph_.node(node).ends) {
         if (isStub(end)) {
-          bundle.inner.push_back(end / 2);
+          tangle.inner.push_back(end / 2);
         } else if (!isInner[end / 2]) {
-          bundle.outer.push_back(end);
+          tangle.outer.push_back(end);
         } else if (end % 2 == 0) {
-          bundle.inner.push_back(end / 2);
+          tangle.inner.push_back(end / 2);
         }
       }
     }
-    std::sort(bundle.outer.begin(), bundle.outer.end());
-    if (std::ssize(bundle.outer) >= kFewestBundleEnds && std::ssize(bundle.outer) <= kMostBundleEnds)
-      found.push_back(std::move(bundle));
+    std::sort(tangle.outer.begin(), tangle.outer.end());
+    if (std::ssize(tangle.outer) >= kFewestTangleEnds && std::ssize(tangle.outer) <= kMostTangleEnds)
+      found.push_back(std::move(tangle));
   }
   return found;
 }
 
 // Nothing where too little of the stroke is seen beyond the common ink.
-std::optional<BundleEnd> BundleFinder::measure(int end, double sizePx) const {
+std::optional<TangleEnd> TangleFinder::measure(int end, double sizePx) const {
   const SkeletonEdge& e = graph_.edge(end / 2);
   const EdgeFromEnd points(e.points, end % 2);
   const SkeletonNode& node = graph_.node(*e.node[end % 2]);
@@ -163,7 +169,7 @@ std::optional<BundleEnd> BundleFinder::measure(int end, double sizePx) const {
   const std::optional<int> far = e.node[1 - end % 2];
   const bool isFarJunction = far && isJunction(*far);
   const double reach = std::max(kEndShare * sizePx, kEndWidths * 2.0 * usual);
-  BundleEnd found;
+  TangleEnd found;
   found.end = end;
   double arc = 0.0, width = 0.0;
   for (int k = 0; k < points.size() && arc <= reach; ++k) {
@@ -186,7 +192,7 @@ std::optional<BundleEnd> BundleFinder::measure(int end, double sizePx) const {
 }
 
 // Whether the ink is there all along, by the discs of its skeleton.
-bool BundleFinder::isWithinInk(const BundleArc& arc, const BundleEnd& p, const BundleEnd& q) const {
+bool TangleFinder::isWithinInk(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const {
   const Vec2 from = p.points.front(), way = q.points.front() - from;
   const int steps = std::max(1, static_cast<int>(way.norm()));
   for (int k = 1; k < steps; ++k) {
@@ -201,11 +207,11 @@ bool BundleFinder::isWithinInk(const BundleArc& arc, const BundleEnd& p, const B
   return true;
 }
 
-std::optional<BundleArc> BundleFinder::arcOf(const BundleEnd& p, const BundleEnd& q) const {
+std::optional<TangleArc> TangleFinder::arcOf(const TangleEnd& p, const TangleEnd& q) const {
   const Vec2 along = q.points.front() - p.points.front();
   if (!(along.norm() > 0.0) || turnDeg(-p.out, q.out) > kMostTurnDeg) return std::nullopt;
   if (along.dot(p.out) > 0.0 || along.dot(q.out) < 0.0) return std::nullopt;  // they lie the wrong way round
-  BundleArc found;
+  TangleArc found;
   found.frame = {0.5 * (p.points.front() + q.points.front()), along.normalized()};
   const std::vector<Vec2> a = localPoints(found.frame, p.points), b = localPoints(found.frame, q.points);
   const std::optional<LocalArc> arc = arcThrough(a, b);
@@ -222,7 +228,7 @@ std::optional<BundleArc> BundleFinder::arcOf(const BundleEnd& p, const BundleEnd
 }
 
 // All ways to pair the ends from `from` on, of which `open` stay alone.
-void BundleFinder::match(int from, double sum, int open) {
+void TangleFinder::match(int from, double sum, int open) {
   const int n = static_cast<int>(ends_.size());
   while (from < n && used_[from]) ++from;
   if (from == n) {
@@ -251,28 +257,46 @@ void BundleFinder::match(int from, double sum, int open) {
   }
 }
 
-bool BundleFinder::explainsAll(const std::vector<std::pair<int, int>>& pairs) const {
+bool TangleFinder::explainsAll(const std::vector<std::pair<int, int>>& pairs) const {
   return std::ranges::all_of(ink_, [&](const StrokePathPoint& s) {
     return std::ranges::any_of(pairs, [&](const std::pair<int, int>& pair) {
-      const BundleArc& arc = arcs_.at(pair);
+      const TangleArc& arc = arcs_.at(pair);
       return arc.distance(s.at) <= kExplainedWidths * arc.widthPx;
     });
   });
 }
 
-bool BundleFinder::tellStrokes(SharedBundle& bundle) {
+// Whether a long edge that looks like common ink is: two strokes lie on one another there, or it is a stretch of one
+// that is no bolder than usual, between two crossings. Of a bold stroke it would be the own middle.
+bool TangleFinder::isOfTwo(int edge, const std::vector<std::pair<int, int>>& pairs) const {
+  const SkeletonEdge& e = graph_.edge(edge);
+  if (!isCommonInk(edge) || e.length <= kLongWidths * 2.0 * graph_.meanRadius(edge)) return true;
+  const Vec2 middle = e.points[e.points.size() / 2].at;
+  double widest = 0.0;
+  int strokes = 0;
+  for (const std::pair<int, int>& pair : pairs) {
+    const TangleArc& arc = arcs_.at(pair);
+    if (arc.distance(middle) > kExplainedWidths * arc.widthPx) continue;
+    widest = std::max(widest, arc.widthPx);
+    ++strokes;
+  }
+  if (strokes >= 2) return 2.0 * graph_.meanRadius(edge) >= kTwoStrokes * widest;
+  return e.length <= kSlitWidths * usualWidth_ && widest <= kBold * usualWidth_;
+}
+
+bool TangleFinder::tellStrokes(Tangle& tangle) {
   ends_.clear();
   ink_.clear();
   arcs_.clear();
-  Vec2 low = graph_.node(bundle.nodes.front()).centre, high = low;
-  for (const int node : bundle.nodes) {
+  Vec2 low = graph_.node(tangle.nodes.front()).centre, high = low;
+  for (const int node : tangle.nodes) {
     low = low.cwiseMin(graph_.node(node).centre);
     high = high.cwiseMax(graph_.node(node).centre);
   }
-  for (const int edge : bundle.inner)
+  for (const int edge : tangle.inner)
     ink_.insert(ink_.end(), graph_.edge(edge).points.begin(), graph_.edge(edge).points.end());
-  for (const int end : bundle.outer) {
-    std::optional<BundleEnd> measured = measure(end, (high - low).norm());
+  for (const int end : tangle.outer) {
+    std::optional<TangleEnd> measured = measure(end, (high - low).norm());
     if (!measured) return false;
     // Up to where the stroke is alone the ink is common too.
     const EdgeFromEnd points(graph_.edge(end / 2).points, end % 2);
@@ -285,30 +309,32 @@ bool BundleFinder::tellStrokes(SharedBundle& bundle) {
   const int n = static_cast<int>(ends_.size());
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b)
-      if (std::optional<BundleArc> arc = arcOf(ends_[a], ends_[b])) arcs_.emplace(std::pair(a, b), std::move(*arc));
+      if (std::optional<TangleArc> arc = arcOf(ends_[a], ends_[b])) arcs_.emplace(std::pair(a, b), std::move(*arc));
   used_.assign(n, false);
   now_.clear();
   best_.clear();
   bestSum_ = nextSum_ = std::numeric_limits<double>::infinity();
   match(0, 0.0, n % 2);
   if (!std::isfinite(bestSum_) || !explainsAll(best_)) return false;
-  bundle.isDoubtful = nextSum_ < kClearSquares * bestSum_;
-  for (const auto& [a, b] : best_) bundle.strokes.emplace_back(ends_[a].end, ends_[b].end);
-  for (const int end : bundle.outer) {
-    const SkeletonNode& node = graph_.node(*graph_.edge(end / 2).node[end % 2]);
-    bundle.discs.push_back({node.centre, node.radius});
+  if (!std::ranges::all_of(tangle.inner, [&](int edge) { return isOfTwo(edge, best_); })) return false;
+  tangle.isDoubtful = nextSum_ < kClearSquares * bestSum_;
+  for (const auto& [a, b] : best_) tangle.strokes.emplace_back(ends_[a].end, ends_[b].end);
+  for (const TangleEnd& end : ends_) {
+    const SkeletonNode& node = graph_.node(*graph_.edge(end.end / 2).node[end.end % 2]);
+    tangle.discs.push_back(
+        {node.centre, std::max(node.radius, (end.points.front() - node.centre).norm() / kTrimRadii)});
   }
   return true;
 }
 
-std::vector<SharedBundle> BundleFinder::find() {
-  std::vector<SharedBundle> bundles = clusters();
-  std::erase_if(bundles, [&](SharedBundle& bundle) { return !tellStrokes(bundle); });
-  return bundles;
+std::vector<Tangle> TangleFinder::find() {
+  std::vector<Tangle> tangles = clusters();
+  std::erase_if(tangles, [&](Tangle& tangle) { return !tellStrokes(tangle); });
+  return tangles;
 }
 
 }  // namespace
 
-std::vector<SharedBundle> findSharedBundles(const SkeletonGraph& graph) { return BundleFinder(graph).find(); }
+std::vector<Tangle> findTangles(const SkeletonGraph& graph) { return TangleFinder(graph).find(); }
 
 }  // namespace batten
