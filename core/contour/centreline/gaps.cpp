@@ -271,7 +271,8 @@ void joinThroughInk(std::vector<StrokePath>& paths, const std::vector<bool>& pen
                     std::span<const StrokeJunction> junctions, const BitImage& ink, const GreyImage& grey,
                     const EdgeParams& params, const RunContext& context) {
   std::vector<StrokeJunction> chosen;
-  std::ranges::copy_if(junctions, std::back_inserter(chosen), [](const StrokeJunction& j) { return j.choice.has_value(); });
+  std::ranges::copy_if(junctions, std::back_inserter(chosen),
+                       [](const StrokeJunction& j) { return j.choice.has_value(); });
   const auto isChosen = [&](const OpenEnd& e) {
     return std::ranges::any_of(chosen, [&](const StrokeJunction& j) {
       return (j.positionPx - e.at).norm() <= j.radiusPx + kChosenWidths * e.inkWidth;

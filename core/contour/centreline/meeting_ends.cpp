@@ -238,7 +238,8 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
 // Whether the way from the end on to the line met is as dark as the two.
 bool EndLeader::isInked(const LineEnd& end, const std::vector<Vec2>& way) const {
   const std::size_t own = static_cast<std::size_t>(end.anchor - end.last);
-  if (way.size() <= own + 1) return true;
+  // A pencil pales towards its end.
+  if (way.size() <= own + 1 || !point(end, end.anchor).sigmaPx) return true;
   const Vec2 aside = leftNormal(end.out) * (kPaperWidths * end.widthPx + kPaperPx);
   const double paper = std::max(levelAt(way.front() + aside), levelAt(way.front() - aside));
   const double ink = std::max(levelAt(way.front()), levelAt(way.back()));

@@ -18,13 +18,14 @@ namespace {
 
 constexpr double kSharedInk = 1.1;      // [stroke widths] of the page: what is wider two strokes share
 constexpr double kNearNodes = 1.5;      // [radii of two junctions] a shorter edge lies in their ink
-constexpr double kSlitWidths = 18.0;    // [stroke widths] along paper between two strokes of a tangle
+constexpr double kSlitWidths = 12.0;    // [stroke widths] along paper between two strokes of a tangle
 constexpr double kCommonWidths = 25.0;  // [stroke widths] two strokes lie on one another at most: at 5 degrees it is 23
 // A longer inner edge [widths] of common ink has two strokes at its middle and is so many times as wide as the wider.
 constexpr double kLongWidths = 3.0, kTwoStrokes = 1.05;
-constexpr double kBold = 1.5;        // [stroke widths] of a stroke bolder than the others
-constexpr double kStubWidths = 1.0;  // [stroke widths] a shorter end is a spur of the skeleton
-constexpr int kTangleNodes = 3;      // two are one crossing or one stretch of shared ink (shared_ink.h)
+constexpr double kAloneWidths = 18.0;  // [stroke widths] of one stroke between two crossings
+constexpr double kBold = 1.5;          // [stroke widths] of a stroke bolder than the others
+constexpr double kStubWidths = 1.0;    // [stroke widths] a shorter end is a spur of the skeleton
+constexpr int kTangleNodes = 3;        // two are one crossing or one stretch of shared ink (shared_ink.h)
 constexpr int kMostNodes = 14, kFewestTangleEnds = 4, kMostTangleEnds = 10;
 constexpr double kOwnInk = 1.15, kOwnInkPx = 0.25;  // [half-widths] and [px] an end beyond the common ink is as wide
 constexpr double kEndShare = 0.5;                   // of the tangle's size: so far beyond it a stroke is an arc still,
@@ -281,7 +282,7 @@ bool TangleFinder::isOfTwo(int edge, const std::vector<std::pair<int, int>>& pai
     ++strokes;
   }
   if (strokes >= 2) return 2.0 * graph_.meanRadius(edge) >= kTwoStrokes * widest;
-  return e.length <= kSlitWidths * usualWidth_ && widest <= kBold * usualWidth_;
+  return e.length <= kAloneWidths * usualWidth_ && widest <= kBold * usualWidth_;
 }
 
 bool TangleFinder::tellStrokes(Tangle& tangle) {
