@@ -12,6 +12,7 @@
 #include "core/contour/centreline/faint_ends.h"
 #include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/grey_across.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
@@ -51,13 +52,13 @@ constexpr double kTurnCos = 0.26;
 // Whether two strokes come together here: one would not turn so sharply.
 bool turnsBack(const StrokePath& path, int i) {
   const int n = static_cast<int>(path.points.size());
-  if (i < 2 || i + 2 >= n) return false;
   const Vec2 in = path.points[i].at - path.points[std::max(0, i - kTurnReach)].at;
   const Vec2 out = path.points[std::min(n - 1, i + kTurnReach)].at - path.points[i].at;
   return in.dot(out) < kTurnCos * in.norm() * out.norm();
 }
 
 // Two strokes that run to one place of a rim have no junction left before it: they are cut apart where they turn back.
+// endAtRims() knows these ends by where they lie.
 void cutAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
   for (std::size_t k = 0; k < paths.size(); ++k) {
     if (paths[k].closed) continue;
@@ -67,7 +68,6 @@ void cutAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
       StrokePath rest = paths[k];
       rest.points.erase(rest.points.begin(), rest.points.begin() + i);
       paths[k].points.resize(i + 1);
-      rest.tip[0] = paths[k].tip[1] = false;
       paths.push_back(std::move(rest));
       break;
     }
@@ -203,10 +203,7 @@ RefinedStrokes placeOnPage(const std::vector<StrokePath>& paths, const Grainines
 // [grey] by which a stroke is darker than the paper on both its sides.
 double depthOf(const StrokePath& s, const GreyImage& grey) {
   constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;  // from the middle: paper beyond the blur of the border
-  const auto level = [&](const Vec2& at) {
-    return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
-                                          std::clamp(static_cast<int>(at.y()), 0, grey.height - 1)));
-  };
+  const auto level = [&](const Vec2& at) { return levelOfPixel(grey, at); };
   double sum = 0.0;
   int count = 0;
   for (int i = 1; i + 1 < std::ssize(s.points); ++i) {

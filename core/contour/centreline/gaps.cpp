@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/base/angle.h"
+#include "core/contour/centreline/grey_across.h"
 #include "core/contour/centreline/stroke_paths.h"
 
 namespace batten {
@@ -104,9 +105,7 @@ double levelAt(const StrokePath& s, int side, double width, const GreyImage& gre
   const int count = std::clamp(static_cast<int>(kDirectionWidths * width), 1, n);
   double sum = 0.0;
   for (int k = 0; k < count; ++k) {
-    const Vec2& at = s.points[side == 0 ? k : n - 1 - k].at;
-    sum += grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
-                      std::clamp(static_cast<int>(at.y()), 0, grey.height - 1));
+    sum += levelOfPixel(grey, s.points[side == 0 ? k : n - 1 - k].at);
   }
   return sum / count;
 }

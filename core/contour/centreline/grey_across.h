@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "core/base/vec2.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
+
+/// [grey] of the pixel at a place, or of the nearest one of the page.
+inline double levelOfPixel(const GreyImage& grey, const Vec2& at) {
+  return grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
+                    std::clamp(static_cast<int>(at.y()), 0, grey.height - 1));
+}
 
 /// The grey across a stroke, by loops that run over whole profiles. All give to the last bit what one value after the
 /// other gives.

@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "core/base/statistics.h"
+#include "core/contour/centreline/grey_across.h"
+#include "core/contour/centreline/line_ends.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_paths.h"
-#include "core/contour/subpixel/point_noise.h"
-#include "core/polyline/point_grid.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -35,10 +34,6 @@ constexpr double kOwnWidths = 3.0;         // along a line from its own end: nea
 // Of two letters that only blur joins the ink between is paler: by so much of their depth at most it is theirs.
 constexpr double kMostPaler = 0.5;
 constexpr double kPaperWidths = 1.5, kPaperPx = 1.5;  // beside the middle of a line is paper
-
-struct PointOfLine {
-  int line = 0, point = 0;
-};
 
 double widthAt(const ContourPoint& p) { return static_cast<double>(p.widthPx.value_or(0.0f)); }
 
@@ -75,11 +70,7 @@ struct LineMeeting {
 class EndLeader {
  public:
   EndLeader(const std::vector<Contour>& lines, const GreyImage& grey)
-      : lines_(lines), grey_(grey), grid_(cellPx(lines)) {
-    for (int i = 0; i < std::ssize(lines); ++i) {
-      for (int k = 0; k < std::ssize(lines[i].points); ++k) grid_.add(lines[i].points[k].at, {i, k});
-    }
-  }
+      : lines_(lines), grey_(grey), grid_(gridOfLines(lines, cellPx(lines))) {}
 
   std::optional<LineEnd> endOf(int line, int side) const;
   std::optional<LineMeeting> meetingOf(const LineEnd& end) const;
@@ -94,37 +85,19 @@ class EndLeader {
         if (p.widthPx) widths.push_back(*p.widthPx);
     return 2.0 * std::max(1.0, widths.empty() ? 1.0 : static_cast<double>(upperMedian(widths))) + 2.0 * kInkPx;
   }
-  const ContourPoint& point(const LineEnd& end, int k) const {
-    const std::vector<ContourPoint>& points = lines_[end.line].points;
-    return end.side == 0 ? points[k] : points[std::ssize(points) - 1 - k];
+  const ContourPoint& point(const LineEnd& end, int k) const { return pointFromEnd(lines_[end.line], end.side, k); }
+  LocalQuadratic fitBefore(const LineEnd& end, double reach, int order) const {
+    return fitBeforeEnd(lines_[end.line], end.side, end.last, reach, order, kBentLead);
   }
-  LocalQuadratic fitBefore(const LineEnd& end, double reach, int order) const;
   Way wayOf(const LineEnd& end, bool isBent) const;
   std::optional<LineMeeting> meetingAlong(const LineEnd& end, const Way& way) const;
   std::vector<LineBeside> around(const LineEnd& end, const Vec2& place) const;
-  double levelAt(const Vec2& at) const {
-    return grey_.level(std::clamp(static_cast<int>(at.x()), 0, grey_.width - 1),
-                       std::clamp(static_cast<int>(at.y()), 0, grey_.height - 1));
-  }
+  double levelAt(const Vec2& at) const { return levelOfPixel(grey_, at); }
 
   const std::vector<Contour>& lines_;
   const GreyImage& grey_;
   PointGrid<PointOfLine> grid_;
 };
-
-// By the points before the end, over the arc length to it.
-LocalQuadratic EndLeader::fitBefore(const LineEnd& end, double reach, int order) const {
-  const int n = static_cast<int>(lines_[end.line].points.size());
-  std::vector<double> s;
-  std::vector<Vec2> points;
-  double arc = 0.0;
-  for (int k = end.last; k < n && arc <= reach; ++k) {
-    if (k > end.last) arc += (point(end, k).at - point(end, k - 1).at).norm();
-    s.push_back(-arc);
-    points.push_back(point(end, k).at);
-  }
-  return fitLocalQuadratic(s, points, {}, arc >= kBentLead * reach ? order : 1);
-}
 
 std::optional<LineEnd> EndLeader::endOf(int line, int side) const {
   LineEnd end{line, side};
@@ -183,7 +156,7 @@ std::vector<LineBeside> EndLeader::around(const LineEnd& end, const Vec2& place)
     const auto found = std::ranges::find(nearest, near.line, &LineBeside::line);
     if (found != nearest.end() && std::abs(found->distance) <= away.norm()) return;
     const double sign = cross(step, Vec2(place - p.at)) < 0.0 ? -1.0 : 1.0;
-    const LineBeside beside{near.line,         sign * away.norm(), place - away,
+    const LineBeside beside{near.line,         sign * away.norm(), foot,
                             step.normalized(), widthAt(p),         other.kind == ContourKind::Outline};
     (found != nearest.end() ? *found : nearest.emplace_back()) = beside;
   });
@@ -216,13 +189,14 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
       const auto isBetter = [&](const std::optional<LineMeeting>& than) {
         return !than || std::abs(arc) < std::abs(than->beyondPx);
       };
-      std::vector<Vec2> taken(way.places.begin(), way.places.begin() + k + 1);
       if (d * old <= 0.0) {
+        if (!isBetter(crossed)) continue;
+        std::vector<Vec2> taken(way.places.begin(), way.places.begin() + k + 1);
         taken.back() = beside.foot;
-        if (isBetter(crossed)) crossed = LineMeeting{std::move(taken), sine, arc};
+        crossed = LineMeeting{std::move(taken), sine, arc};
       } else if (k > way.end && std::abs(d) > std::abs(old) && sine < kAcrossSin &&
                  std::abs(d) <= kTouchHalfWidths * 0.5 * std::max(1.0, beside.widthPx) && isBetter(touched)) {
-        taken.resize(way.end + 1);
+        std::vector<Vec2> taken(way.places.begin(), way.places.begin() + way.end + 1);
         const Vec2 along = beside.along.dot(end.out) < 0.0 ? Vec2(-beside.along) : beside.along;
         for (const Vec2& at : cubicBetween(taken.back(), end.out, beside.foot, along)) taken.push_back(at);
         taken.push_back(beside.foot);
@@ -269,11 +243,7 @@ void leadOn(Contour& c, const LineEnd& end, const std::vector<Vec2>& way) {
       continue;
     }
     if (!isLast && (way[k] - c.points.back().at).norm() < 1.0 - 0.5 * kMarchPx) continue;
-    ContourPoint p = c.points.back();
-    p.at = p.unrefined = way[k];
-    p.refined = false;
-    if (p.sigmaPx) p.sigmaPx = kGuessedSigmaPx;
-    c.points.push_back(p);
+    c.points.push_back(laidPoint(c.points.back(), way[k]));
   }
   if (end.side == 0) std::reverse(c.points.begin(), c.points.end());
 }

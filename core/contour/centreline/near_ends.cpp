@@ -6,9 +6,7 @@
 #include <optional>
 
 #include "core/base/statistics.h"
-#include "core/contour/subpixel/point_noise.h"
-#include "core/polyline/point_grid.h"
-#include "core/polyline/polyline_tools.h"
+#include "core/contour/centreline/line_ends.h"
 
 namespace batten {
 namespace {
@@ -20,12 +18,9 @@ constexpr double kFewestWidths = 20.0;                 // of a line that is led 
 constexpr double kMostOfLine = 0.1;                    // of its length that a line is led on
 constexpr double kMeetSin = 0.5;                       // 30 degrees: at less a line runs beside the other
 constexpr double kAimStepPx = 0.5;                     // along the way
+constexpr double kCellPx = 4.0;                        // of the lines around: more than a step and one between points
 constexpr double kOwnLineWidths = 3.0;                 // along a line from its own end
 constexpr double kLeastWayPx = 0.3;                    // an end as near is there
-
-struct LinePlaceAt {
-  int line = 0, point = 0;
-};
 
 struct NearEnd {
   int line = 0, side = 0;
@@ -41,28 +36,16 @@ double medianWidthOf(const Contour& c) {
   return widths.empty() ? 1.0 : std::max(1.0, static_cast<double>(upperMedian(widths)));
 }
 
-std::optional<NearEnd> endOf(const std::vector<Contour>& lines, int line, int side, double longestWidths) {
-  const Contour& c = lines[line];
-  const int n = static_cast<int>(c.points.size());
-  const double width = medianWidthOf(c);
-  if (n < 3 || c.lengthPx < kFewestWidths * width) return std::nullopt;
-  const auto at = [&](int k) -> const ContourPoint& { return c.points[side == 0 ? k : n - 1 - k]; };
-  std::vector<double> s;
-  std::vector<Vec2> points;
-  double arc = 0.0;
-  for (int k = 0; k < n && arc <= std::max(kLeastAimPx, kAimWidths * width); ++k) {
-    if (k > 0) arc += (at(k).at - at(k - 1).at).norm();
-    s.push_back(-arc);
-    points.push_back(at(k).at);
-  }
-  const LocalQuadratic fit = fitLocalQuadratic(s, points, {}, 1);
+std::optional<NearEnd> endOf(const Contour& c, int side, double width, double longestWidths) {
+  if (c.points.size() < 3 || c.lengthPx < kFewestWidths * width) return std::nullopt;
+  const ContourPoint& last = pointFromEnd(c, side, 0);
+  const LocalQuadratic fit = fitBeforeEnd(c, side, 0, std::max(kLeastAimPx, kAimWidths * width), 1, 0.0);
   if (fit.order.value_or(0) < 1 || !(fit.r1.norm() > 0.0)) return std::nullopt;
   // What was drawn with a pencil has no standard deviation (ContourPoint::sigmaPx).
-  const double paper = at(0).sigmaPx ? kPenPaper : kPencilPaper;
+  const double paper = last.sigmaPx ? kPenPaper : kPencilPaper;
   NearEnd end;
-  end.line = line;
   end.side = side;
-  end.at = at(0).at;
+  end.at = last.at;
   end.out = fit.r1.normalized();
   end.widthPx = width;
   end.paperPx = std::min(paper, longestWidths) * width;
@@ -82,19 +65,16 @@ bool isOverLittlePaper(const NearEnd& end, double way, const BitImage& ink) {
 
 class NearLines {
  public:
-  NearLines(const std::vector<Contour>& lines, double cellPx) : lines_(lines), grid_(cellPx) {
-    for (int i = 0; i < std::ssize(lines); ++i) {
-      widths_.push_back(lines[i].kind == ContourKind::Outline ? 0.0 : medianWidthOf(lines[i]));
-      for (int k = 0; k < std::ssize(lines[i].points); ++k) grid_.add(lines[i].points[k].at, {i, k});
-    }
-  }
+  /// @param widths [px] of the lines; 0 of outlines.
+  NearLines(const std::vector<Contour>& lines, const std::vector<double>& widths)
+      : lines_(lines), widths_(widths), grid_(gridOfLines(lines, kCellPx)) {}
 
   // [px] to the first line that the end meets across.
   std::optional<double> wayToLine(const NearEnd& end) const {
     std::optional<double> least;
     const double most = 1.5 * end.widthPx + end.paperPx;
     for (double s = 0.0; s <= most && !least; s += kAimStepPx) {
-      grid_.around(end.at + s * end.out, [&](const LinePlaceAt& place) {
+      grid_.around(end.at + s * end.out, [&](const PointOfLine& place) {
         if (const std::optional<double> way = crossing(end, place); way && (!least || *way < *least)) least = way;
       });
     }
@@ -103,7 +83,7 @@ class NearLines {
 
  private:
   // [px] to where the end meets the segment from this point on.
-  std::optional<double> crossing(const NearEnd& end, const LinePlaceAt& place) const {
+  std::optional<double> crossing(const NearEnd& end, const PointOfLine& place) const {
     const Contour& other = lines_[place.line];
     const int n = static_cast<int>(other.points.size());
     if (place.point + 1 == n && !other.closed) return std::nullopt;
@@ -119,8 +99,8 @@ class NearLines {
   }
 
   const std::vector<Contour>& lines_;
-  std::vector<double> widths_;  // [px] of each line
-  PointGrid<LinePlaceAt> grid_;
+  const std::vector<double>& widths_;
+  PointGrid<PointOfLine> grid_;
 };
 
 // Offers two ends at an angle each other.
@@ -157,13 +137,7 @@ void leadOn(Contour& c, const NearEnd& end, double way) {
   if (end.side == 0) std::reverse(c.points.begin(), c.points.end());
   const ContourPoint last = c.points.back();
   const int steps = std::max(1, static_cast<int>(std::ceil(way))), before = static_cast<int>(c.points.size());
-  for (int k = 1; k <= steps; ++k) {
-    ContourPoint p = last;
-    p.at = p.unrefined = end.at + end.out * (way * k / steps);
-    p.refined = false;
-    if (p.sigmaPx) p.sigmaPx = kGuessedSigmaPx;
-    c.points.push_back(p);
-  }
+  for (int k = 1; k <= steps; ++k) c.points.push_back(laidPoint(last, end.at + end.out * (way * k / steps)));
   if (end.side == 0) {
     std::reverse(c.points.begin(), c.points.end());
     for (auto& [first, to] : c.bridges) first += steps, to += steps;
@@ -179,20 +153,23 @@ void leadOn(Contour& c, const NearEnd& end, double way) {
 void leadOverPaper(std::vector<Contour>& lines, const BitImage& ink, double longestWidths, const RunContext& context) {
   if (!(longestWidths > 0.0)) return;
   std::vector<NearEnd> ends;
+  std::vector<double> widths;
   double farthest = 1.0;
   for (int i = 0; i < std::ssize(lines); ++i) {
     const Contour& c = lines[i];
+    widths.push_back(c.kind == ContourKind::Outline ? 0.0 : medianWidthOf(c));
     if (c.kind != ContourKind::Centreline || c.closed) continue;
     for (const int side : {0, 1}) {
       if (c.endsInInk[side]) continue;
-      std::optional<NearEnd> end = endOf(lines, i, side, longestWidths);
+      std::optional<NearEnd> end = endOf(c, side, widths.back(), longestWidths);
       if (!end) continue;
+      end->line = i;
       farthest = std::max(farthest, end->widthPx + 2.0 * end->paperPx);
       ends.push_back(*end);
     }
   }
   if (ends.empty()) return;
-  const NearLines near(lines, std::max(4.0, 2.0 * kAimStepPx + 2.0));
+  const NearLines near(lines, widths);
   PointGrid<int> places(farthest);
   for (int i = 0; i < std::ssize(ends); ++i) places.add(ends[i].at, i);
   for (int i = 0; i < std::ssize(ends); ++i) {

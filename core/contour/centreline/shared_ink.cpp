@@ -14,10 +14,7 @@ constexpr double kReachShare = 0.5;   // of the shared length: so far beyond it 
 constexpr double kReachWidths = 4.0;  // and at least so many [stroke widths]
 constexpr double kLeastWidths = 1.5;  // [stroke widths] of each end that must be seen
 constexpr int kLeastPoints = 5;       // of each end: an arc takes three
-// What a skeleton leaves of a true course beyond its forks: its pixels, and a part of the width. On drawings and pages
-// of lines that share ink it is .3 to .8 px, of those that do not 1.4 and more, at 5 px; likewise along the ink, where
-// narrow paper between two strokes is closed.
-constexpr double kMissPx = 0.5, kMissWidths = 0.08;
+// As mostLeftPx(), along the ink, where narrow paper between two strokes is closed.
 constexpr double kAlongPx = 0.6, kAlongWidths = 0.12;
 constexpr double kClearMiss = 2.0;       // the other pairing leaves more by this factor where one is clear
 constexpr double kClearedWidths = 10.0;  // [stroke widths] from which on an end can spare its beginning
@@ -143,7 +140,7 @@ std::optional<SharedEdge::Pairing> SharedEdge::paired(int other) const {
     ++count;
   }
   along /= std::max(1, count);
-  const double most = kMissPx + kMissWidths * width_, mostAlong = kAlongPx + kAlongWidths * width_;
+  const double most = mostLeftPx(width_), mostAlong = kAlongPx + kAlongWidths * width_;
   Pairing found;
   found.fits = left <= most * most && along <= mostAlong * mostAlong;
   found.ink.missPx = std::sqrt(left + along);

@@ -32,9 +32,7 @@ constexpr double kEndShare = 0.5;                   // of the tangle's size: so 
 constexpr double kEndWidths = 5.0;                  // and at least so many [stroke widths]
 constexpr double kLeastSeenWidths = 2.0;            // that must be seen
 constexpr int kLeastEndPoints = 6;
-constexpr double kMostTurnDeg = 40.0;  // from one end to the other
-// Left by a true arc: what a skeleton strays beyond its forks (as in shared_ink.cpp).
-constexpr double kLeftPx = 0.5, kLeftWidths = 0.08;
+constexpr double kMostTurnDeg = 40.0;      // from one end to the other
 constexpr double kExplainedWidths = 0.75;  // from the nearest arc: ink farther aside is of none
 // [stroke widths] and [px] Paper that the skeleton runs round, as a speck where two strokes part.
 constexpr double kPaperWidths = 0.25, kPaperPx = 0.5;
@@ -221,7 +219,7 @@ std::optional<TangleArc> TangleFinder::arcOf(const TangleEnd& p, const TangleEnd
   found.widthPx = 0.5 * (p.width + q.width);
   const double wider = 0.5 * (p.width - q.width);
   found.left = 0.5 * (squaresLeft(*arc, a) + squaresLeft(*arc, b)) + wider * wider;
-  const double most = kLeftPx + kLeftWidths * found.widthPx;
+  const double most = mostLeftPx(found.widthPx);
   if (!(found.left <= most * most) || !isWithinInk(found, p, q)) return std::nullopt;
   const double turn = kTurnWidths * found.widthPx * turnDeg(-p.out, q.out) * kRadPerDeg;
   found.cost = found.left + turn * turn;

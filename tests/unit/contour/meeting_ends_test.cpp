@@ -106,19 +106,24 @@ TEST(MeetingEnds, AStrokeThatRunsIntoAShapeMeetsItsBorder) {
   EXPECT_NEAR((end - centre).norm(), kRadius, 0.8);
 }
 
-// An end that stops 4 px before the middle of a line of 6 px. Of two letters that only blur joins each keeps its end.
-TEST(MeetingEnds, WhatOnlyBlurJoinsStaysApart) {
+// A line of 6 px that ends at x 200, and one across at `x`.
+std::vector<Contour> lineAndOneAcross(double x) {
   std::vector<Contour> lines(2);
-  for (Contour& c : lines) c.kind = ContourKind::Centreline;
   lines[0].points = contourPoints(straight({50.0, 100.0}, {200.0, 100.0}), true);
-  lines[1].points = contourPoints(straight({204.0, 40.0}, {204.0, 160.0}), true);
+  lines[1].points = contourPoints(straight({x, 40.0}, {x, 160.0}), true);
   for (Contour& c : lines) {
-    for (ContourPoint& p : c.points) {
-      p.widthPx = 6.0f;
-      p.sigmaPx = 0.05f;
-    }
+    c.kind = ContourKind::Centreline;
+    for (ContourPoint& p : c.points) p.widthPx = 6.0f;
     measureContour(c);
   }
+  return lines;
+}
+
+// An end that stops 4 px before the middle of a line of 6 px. Of two letters that only blur joins each keeps its end.
+TEST(MeetingEnds, WhatOnlyBlurJoinsStaysApart) {
+  std::vector<Contour> lines = lineAndOneAcross(204.0);
+  for (Contour& c : lines)
+    for (ContourPoint& p : c.points) p.sigmaPx = 0.05f;
   lines[0].endsInInk = {false, true};
   GreyImage grey(300, 200, 60000);
   for (int y = 97; y < 103; ++y)
@@ -135,15 +140,8 @@ TEST(MeetingEnds, WhatOnlyBlurJoinsStaysApart) {
 
 // Where no line goes on within the ink nothing is laid on, however dark the page.
 TEST(MeetingEnds, AnEndThatMeetsNoLineStays) {
-  std::vector<Contour> lines(2);
-  for (Contour& c : lines) c.kind = ContourKind::Centreline;
-  lines[0].points = contourPoints(straight({50.0, 100.0}, {200.0, 100.0}), true);
-  lines[1].points = contourPoints(straight({212.0, 40.0}, {212.0, 160.0}), true);
-  for (Contour& c : lines) {
-    for (ContourPoint& p : c.points) p.widthPx = 6.0f;
-    c.endsInInk = {true, true};
-    measureContour(c);
-  }
+  std::vector<Contour> lines = lineAndOneAcross(212.0);
+  for (Contour& c : lines) c.endsInInk = {true, true};
   const std::vector<ContourPoint> before = lines[0].points;
   leadToLines(lines, GreyImage(300, 200, 10000), {});
   EXPECT_TRUE(lines[0].points == before);
