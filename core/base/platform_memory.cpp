@@ -3,6 +3,7 @@
 
 #if !defined(_WIN32)
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #if defined(__GLIBC__)
@@ -10,6 +11,7 @@
 #endif
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -110,6 +112,22 @@ void keepFewHeaps() {
   mallopt(M_ARENA_MAX, kHeaps);
 #endif
 }
+
+void* allocateBuffer(std::size_t bytes) {
+#if defined(MADV_HUGEPAGE)
+  // Of a smaller buffer the part of a huge page that is left unused would be too much.
+  constexpr std::size_t kHugePage = std::size_t{2} << 20, kLeast = 2 * kHugePage;
+  if (bytes >= kLeast) {
+    const std::size_t whole = (bytes - 1) / kHugePage * kHugePage + kHugePage;
+    void* const buffer = whole < bytes ? nullptr : std::aligned_alloc(kHugePage, whole);
+    if (buffer != nullptr) madvise(buffer, whole, MADV_HUGEPAGE);  // a wish: where it fails, small pages are as good
+    return buffer;
+  }
+#endif
+  return std::malloc(std::max<std::size_t>(1, bytes));
+}
+
+void freeBuffer(void* buffer) { std::free(buffer); }
 
 std::optional<std::uint64_t> peakMemoryBytes() {
   rusage usage{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -26,6 +27,12 @@ void returnFreeMemory();
 /// two heaps, where the C library would keep freed buffers of up to 32 MB in as many heaps as there are threads. For a
 /// program that stays open; to be called before the first thread starts.
 void keepFewHeaps();
+
+/// Memory for a buffer that may be as large as a page, not initialised, for freeBuffer. The system gives fresh memory
+/// piece by piece as it is first written to, which takes longer than the writing: where it can, it is asked for large
+/// pieces. @return null: there is not so much.
+void* allocateBuffer(std::size_t bytes);
+void freeBuffer(void* buffer);
 
 /// [s] Processor time that this process has used so far, all threads together; 0 if unknown.
 double processorSeconds();

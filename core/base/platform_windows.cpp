@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -115,6 +116,10 @@ std::optional<std::uint64_t> residentMemoryBytes(std::int64_t processId) {
 void returnFreeMemory() {}
 
 void keepFewHeaps() {}
+
+void* allocateBuffer(std::size_t bytes) { return std::malloc(std::max<std::size_t>(1, bytes)); }
+
+void freeBuffer(void* buffer) { std::free(buffer); }
 
 std::optional<int> threadsWithinLimits() { return std::nullopt; }
 

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <vector>
 
+#include "core/base/platform_memory.h"
 #include "core/base/run_context.h"
 #include "core/image/grey_image.h"
 
@@ -14,10 +16,16 @@ namespace batten {
 struct Plane {
   int width = 0;
   int height = 0;
-  std::unique_ptr<float[]> data;
+  struct Free {
+    void operator()(float* buffer) const { freeBuffer(buffer); }
+  };
+  std::unique_ptr<float[], Free> data;
 
   Plane() = default;
-  Plane(int w, int h) : width(w), height(h), data(std::make_unique_for_overwrite<float[]>(std::ptrdiff_t{w} * h)) {}
+  Plane(int w, int h)
+      : width(w), height(h), data(static_cast<float*>(allocateBuffer(std::size_t{sizeof(float)} * w * h))) {
+    if (!data) throw std::bad_alloc();
+  }
   float* row(int y) { return data.get() + std::ptrdiff_t{y} * width; }
   const float* row(int y) const { return data.get() + std::ptrdiff_t{y} * width; }
 };

@@ -5,9 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +31,25 @@ TEST(Platform, MemoryThatIsTakenIsSeen) {
   EXPECT_GE(residentMemoryBytes(getpid()).value_or(0) + (kBlock / 8), *before + kBlock);
   EXPECT_GE(peakMemoryBytes().value_or(0) + (kBlock / 8), *before + kBlock);
   EXPECT_FALSE(residentMemoryBytes(-1));
+}
+
+TEST(Platform, ABufferKeepsWhatIsWrittenToIt) {
+  constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+  for (const std::size_t bytes :
+       {std::size_t{0}, std::size_t{1}, std::size_t{4097}, 4 * kMegabyte - 1, 4 * kMegabyte, 9 * kMegabyte + 3}) {
+    const std::vector<unsigned char> ones(bytes, 1), twos(bytes, 2);
+    void *const first = allocateBuffer(bytes), *const second = allocateBuffer(bytes);
+    ASSERT_NE(first, nullptr);
+    ASSERT_NE(second, nullptr);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(first) % alignof(std::max_align_t), 0u);
+    std::memset(first, 1, bytes);
+    std::memset(second, 2, bytes);
+    EXPECT_EQ(std::memcmp(first, ones.data(), bytes), 0) << bytes;
+    EXPECT_EQ(std::memcmp(second, twos.data(), bytes), 0) << bytes;
+    freeBuffer(first);
+    freeBuffer(second);
+  }
+  EXPECT_EQ(allocateBuffer(std::numeric_limits<std::size_t>::max()), nullptr);
 }
 
 TEST(Platform, AProcessIsKnownByItsMark) {
