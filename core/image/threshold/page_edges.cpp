@@ -84,9 +84,33 @@ BATTEN_HOT_LOOP void flagAbove(const float* squares, const float* spread, float 
   }
 }
 
-struct Gradients {
-  Plane squares;        ///< Squared lengths beyond the regions' own slope; the outermost rows and columns are flat.
-  float strong = 0.0f;  ///< 98 % of the certain gradients are smaller than this; 0 without any.
+/// Squared lengths of the gradients beyond the regions' own slope, row by row where they are needed: a plane of them
+/// would be fresh memory, which costs more than making them again.
+class GradientSquares {
+ public:
+  GradientSquares(const Plane& u, const RegionNoise& noise)
+      : u_(u),
+        slopeX_(noise.slopeX, u.width, u.height, true),
+        slopeY_(noise.slopeY, u.width, u.height, true),
+        mx_(u.width),
+        my_(u.width) {}
+
+  /// Those of row y. The outermost rows and columns are flat.
+  void fillRow(int y, float* row) {
+    if (y == 0 || y == u_.height - 1) {
+      std::fill_n(row, u_.width, 0.0f);
+      return;
+    }
+    slopeX_.fillRow(y, mx_.data());
+    slopeY_.fillRow(y, my_.data());
+    gradientRow({u_.row(y - 1), u_.row(y), u_.row(y + 1), mx_.data(), my_.data()}, row, 1, u_.width - 1);
+    row[0] = row[u_.width - 1] = 0.0f;
+  }
+
+ private:
+  const Plane& u_;
+  RegionSurface slopeX_, slopeY_;
+  std::vector<float> mx_, my_;
 };
 
 using StrengthCounts = std::array<int, kStrengthBins>;
@@ -103,29 +127,20 @@ float strongOf(const std::vector<StrengthCounts>& counts) {
   return 0.0f;
 }
 
-Gradients measureGradients(const Plane& u, const RegionNoise& noise, const RegionSurface& spread,
-                           const RunContext& context) {
-  Gradients found{Plane(u.width, u.height)};
-  const RegionSurface slopeX(noise.slopeX, u.width, u.height, true), slopeY(noise.slopeY, u.width, u.height, true);
+/// 98 % of the certain gradients are smaller than this; 0 without any.
+float strongGradient(const Plane& u, const RegionNoise& noise, const RegionSurface& spread, const RunContext& context) {
   std::vector<StrengthCounts> counts((u.height + kRowsPerBlock - 1) / kRowsPerBlock);
   parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
     StrengthCounts& mine = counts[begin / kRowsPerBlock];
     mine.fill(0);
-    std::vector<float> mx(u.width), my(u.width), s(u.width);
+    GradientSquares squares(u, noise);
+    std::vector<float> row(u.width), s(u.width);
     std::vector<std::uint8_t> flags(u.width);
     BitImage certain(u.width, 1);
     for (int y = begin; y < end; ++y) {
-      float* row = found.squares.row(y);
-      if (y == 0 || y == u.height - 1) {
-        std::fill_n(row, u.width, 0.0f);
-        continue;
-      }
-      slopeX.fillRow(y, mx.data());
-      slopeY.fillRow(y, my.data());
-      gradientRow({u.row(y - 1), u.row(y), u.row(y + 1), mx.data(), my.data()}, row, 1, u.width - 1);
-      row[0] = row[u.width - 1] = 0.0f;
+      squares.fillRow(y, row.data());
       spread.fillRow(y, s.data());
-      flagAbove(row, s.data(), 0.0f, kCertain, flags.data(), u.width);
+      flagAbove(row.data(), s.data(), 0.0f, kCertain, flags.data(), u.width);
       packFlags(flags.data(), u.width, certain.row(0));
       for (int i = 0; i < certain.wordsPerRow; ++i) {
         for (std::uint64_t bits = certain.row(0)[i]; bits != 0; bits &= bits - 1) {
@@ -135,12 +150,18 @@ Gradients measureGradients(const Plane& u, const RegionNoise& noise, const Regio
       }
     }
   });
-  found.strong = strongOf(counts);
-  return found;
+  return strongOf(counts);
 }
 
+/// Three rows of squares, one below the other.
+struct ThreeRows {
+  const float *above, *here, *below;
+  /// That of row 0, -1 or 1 from the middle one.
+  const float* at(int dy) const { return dy == 0 ? here : dy < 0 ? above : below; }
+};
+
 /// Whether the gradient at (x, y) is at least as long as at both neighbours along its direction (4 directions).
-bool isCrest(const Plane& u, const Plane& squares, int x, int y) {
+bool isCrest(const Plane& u, const ThreeRows& squares, int x, int y) {
   const float gx = u.row(y)[x + 1] - u.row(y)[x - 1], gy = u.row(y + 1)[x] - u.row(y - 1)[x];
   const float ax = std::fabs(gx), ay = std::fabs(gy);
   int dx = 1, dy = 0;
@@ -150,22 +171,30 @@ bool isCrest(const Plane& u, const Plane& squares, int x, int y) {
   } else if (ay > 0.4142f * ax) {
     dy = (gx > 0) == (gy > 0) ? 1 : -1;
   }
-  const float here = squares.row(y)[x];
-  return here >= squares.row(y + dy)[x + dx] && here > squares.row(y - dy)[x - dx];
+  const float here = squares.here[x];
+  return here >= squares.at(dy)[x + dx] && here > squares.at(-dy)[x - dx];
 }
 
-std::vector<EdgePoint> findCrests(const Plane& u, const Plane& squares, const BitImage& area,
+std::vector<EdgePoint> findCrests(const Plane& u, const RegionNoise& noise, const BitImage& area,
                                   const RunContext& context) {
   const int blocks = (u.height + kRowsPerBlock - 1) / kRowsPerBlock;
   std::vector<std::vector<EdgePoint>> parts(blocks);
   parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
     auto& part = parts[begin / kRowsPerBlock];
+    GradientSquares squares(u, noise);
+    std::vector<float> made(std::ptrdiff_t{3} * u.width);
+    const auto rowOf = [&](int y) { return made.data() + std::ptrdiff_t{y % 3} * u.width; };
+    int past = 0;  // of the rows that are made
     for (int y = std::max(begin, 1); y < std::min(end, u.height - 1); ++y) {
+      if (std::all_of(area.row(y), area.row(y) + area.wordsPerRow, [](std::uint64_t word) { return word == 0; }))
+        continue;
+      for (past = std::max(past, y - 1); past <= y + 1; ++past) squares.fillRow(past, rowOf(past));
+      const ThreeRows around{rowOf(y - 1), rowOf(y), rowOf(y + 1)};
       for (int i = 0; i < area.wordsPerRow; ++i) {
         for (std::uint64_t bits = area.row(y)[i]; bits != 0; bits &= bits - 1) {
           const int x = i * 64 + std::countr_zero(bits);
-          if (x < 1 || x >= u.width - 1 || !isCrest(u, squares, x, y)) continue;
-          part.push_back({x, y, std::sqrt(squares.row(y)[x])});
+          if (x < 1 || x >= u.width - 1 || !isCrest(u, around, x, y)) continue;
+          part.push_back({x, y, std::sqrt(around.here[x])});
         }
       }
     }
@@ -183,24 +212,26 @@ PageEdges findPageEdges(const Plane& u, const RunContext& context) {
   if (u.width < 3 || u.height < 3) return edges;
   const RegionNoise noise = measureNoise(u, context);
   const RegionSurface spread(noise.spread, u.width, u.height, true);
-  const auto [squares, strong] = measureGradients(u, noise, spread, context);
+  const float strong = strongGradient(u, noise, spread, context);
   if (context.isCancelled()) return edges;
   // On white-balanced scans the paper is clipped and has no noise: then the drawing's own edges set the scale.
   const float floor = kFloorShare * strong / kCertain;
   BitImage weak(u.width, u.height), certain(u.width, u.height);
-  parallelFor(context, u.height, kRowsPerBlock, [&, &squares = squares](int begin, int end) {
-    std::vector<float> s(u.width);
+  parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
+    GradientSquares squares(u, noise);
+    std::vector<float> row(u.width), s(u.width);
     std::vector<std::uint8_t> flags(s.size());
     for (int y = begin; y < end; ++y) {
+      squares.fillRow(y, row.data());
       spread.fillRow(y, s.data());
-      flagAbove(squares.row(y), s.data(), floor, kWeak, flags.data(), u.width);
+      flagAbove(row.data(), s.data(), floor, kWeak, flags.data(), u.width);
       packFlags(flags.data(), u.width, weak.row(y));
-      flagAbove(squares.row(y), s.data(), floor, kCertain, flags.data(), u.width);
+      flagAbove(row.data(), s.data(), floor, kCertain, flags.data(), u.width);
       packFlags(flags.data(), u.width, certain.row(y));
     }
   });
   edges.area = keepPieces(weak, {.minArea = 0, .minDiagonal = 0.0, .seeds = &certain}, context);
-  edges.crests = findCrests(u, squares, edges.area, context);
+  edges.crests = findCrests(u, noise, edges.area, context);
   return edges;
 }
 
