@@ -178,13 +178,14 @@ BATTEN_HOT_LOOP int greatestOf(const int* counts, int count) {
   return greatest;
 }
 
+bool isMuch(int count, float least) { return 2.0f * static_cast<float>(count) > least; }
+
 /// The squares of the counts that make at least half of `least`, added up.
 double scoreOf(const std::vector<int>& bins, float least) {
-  const auto isMuch = [&](int count) { return 2.0f * static_cast<float>(count) > least; };
   double score = 0.0;
-  if (!isMuch(greatestOf(bins.data(), static_cast<int>(bins.size())))) return score;
+  if (!isMuch(greatestOf(bins.data(), static_cast<int>(bins.size())), least)) return score;
   for (const int count : bins) {
-    if (isMuch(count)) score += static_cast<double>(count) * count;
+    if (isMuch(count, least)) score += static_cast<double>(count) * count;
   }
   return score;
 }
@@ -219,6 +220,7 @@ class SlopeScores {
         bands[std::clamp(static_cast<int>(p.y / bandHeight), 0, kBands - 1)].push_back(p);
       std::vector<int> bins(static_cast<std::size_t>(bandHeight + 2.0 * offset) + 2);
       for (int b = 0; b < kBands; ++b) {
+        if (!isMuch(static_cast<int>(bands[b].size()), static_cast<float>(least))) continue;  // none of its bins either
         for (int i = 0; i <= 2 * steps_ && !context.isCancelled(); ++i) {
           project(bands[b], slopeOf(i), (s + 0.5) * plane.stripWidth, offset - b * bandHeight, bins);
           scores_[s * kBands + b][i] = scoreOf(bins, static_cast<float>(least));
@@ -237,15 +239,15 @@ class SlopeScores {
   /// The lines of a strip: in the common direction, unless a fan suits them clearly better.
   RulingFan fanOf(int strip) const {
     RulingFan found{commonSlope(), 0.0};
+    const auto first = scores_.begin() + std::ptrdiff_t{strip} * kBands;
+    const auto isEmpty = [](const std::vector<double>& band) { return std::ranges::max(band) <= 0.0; };
+    if (std::all_of(first, first + kBands, isEmpty)) return found;
     double top = kClearlyBetter * sumOf(strip * kBands, (strip + 1) * kBands, common_);
+    const std::vector<std::array<int, kBands>> away = stepsFromMiddle();
     for (int middle = 0; middle <= 2 * steps_; ++middle) {
       for (int fan = -steps_; fan <= steps_; ++fan) {
         double sum = 0.0;
-        for (int b = 0; b < kBands; ++b) {
-          const double v = (2.0 * b + 1.0) / kBands - 1.0;
-          const auto step = std::clamp(static_cast<int>(std::lround(middle + fan * v)), 0, 2 * steps_);
-          sum += scores_[strip * kBands + b][step];
-        }
+        for (int b = 0; b < kBands; ++b) sum += first[b][std::clamp(middle + away[fan + steps_][b], 0, 2 * steps_)];
         if (sum <= top) continue;
         top = sum;
         found = {slopeOf(middle), kSteepest * fan / steps_};
@@ -256,6 +258,14 @@ class SlopeScores {
 
  private:
   double slopeOf(int step) const { return kSteepest * (step - steps_) / steps_; }
+  /// How many steps the bands of a strip lie from the middle one, fan by fan.
+  std::vector<std::array<int, kBands>> stepsFromMiddle() const {
+    std::vector<std::array<int, kBands>> away(2 * steps_ + 1);
+    for (int fan = -steps_; fan <= steps_; ++fan)
+      for (int b = 0; b < kBands; ++b)
+        away[fan + steps_][b] = static_cast<int>(std::floor(fan * ((2.0 * b + 1.0) / kBands - 1.0) + 0.5));
+    return away;
+  }
   double sumOf(int from, int to, int step) const {
     double sum = 0.0;
     for (int i = from; i < to; ++i) sum += scores_[i][step];
