@@ -140,11 +140,11 @@ double shareAtBorder(const cv::Mat1b& mask, const cv::Mat1b& other) {
 }
 
 /// Cells beyond straight edges of the sheet upon which nothing is drawn, unless they are its paper in shade.
-void addBeyondEdges(cv::Mat1b& beside, const SheetCells& cells) {
+void addBeyondEdges(cv::Mat1b& beside, const SheetCells& cells, const RunContext& context) {
   const cv::Mat rim = cv::getStructuringElement(cv::MORPH_RECT, {kSheetEdgeCells, kSheetEdgeCells});
   const cv::Mat besideEdge = cv::getStructuringElement(cv::MORPH_RECT, {kBesideEdgeCells, kBesideEdgeCells});
   const cv::Mat1b table = beside.clone();
-  for (const cv::Mat1b& beyond : beyondSheetEdges(cells)) {
+  for (const cv::Mat1b& beyond : beyondSheetEdges(cells, context)) {
     // Where the table is known already the sheet ends at it.
     if (shareAtBorder(beyond, table) > kMostKnown) continue;
     cv::Mat1b withRim, around, clear;
@@ -212,10 +212,10 @@ cv::Mat1b sheetWithoutNecks(const cv::Mat1b& beside) {
 }
 
 /// All cells beside a sheet; absent where it is doubtful that there is a sheet. `even`: its even area, filled.
-std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& cells) {
+std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& cells, const RunContext& context) {
   const cv::Mat1b table = besideTheSheet(even, cells);
   cv::Mat1b beside = table.clone();
-  addBeyondEdges(beside, cells);
+  addBeyondEdges(beside, cells, context);
   if (cv::countNonZero(beside) == 0) return std::nullopt;
   const cv::Mat1b sheet = sheetWithoutNecks(beside);
   const double share = cv::countNonZero(sheet) / static_cast<double>(sheet.total());
@@ -235,7 +235,7 @@ cv::Mat1b withSlowChanges(const cv::Mat1b& even, const SheetCells& cells) {
 }
 
 /// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book.
-std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
+std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& context) {
   const cv::Mat1i labels = joinCells(cells);
   std::vector<int> areas;
   for (const int label : labels) {
@@ -247,14 +247,14 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
   const int area = cv::countNonZero(even);
   if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;
   if (area < kMostSheet * static_cast<double>(even.total())) even = withSlowChanges(even, cells);
-  std::optional<cv::Mat1b> beside = cellsBeside(even, cells);
+  std::optional<cv::Mat1b> beside = cellsBeside(even, cells, context);
   if (!beside) return std::nullopt;
   for (int label = 0; label < std::ssize(areas); ++label) {
     if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
     const cv::Mat1b page = filledSheet(labels == label);
     // Within the sheet it is a shape that was drawn.
     if (cv::countNonZero(page & even) > 0 || !isFacingPage(page, even, cells, ShadedPaper(even, cells))) continue;
-    if (auto besideBoth = cellsBeside(even | page, cells)) beside = std::move(besideBoth);
+    if (auto besideBoth = cellsBeside(even | page, cells, context)) beside = std::move(besideBoth);
     break;
   }
   const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(*beside));
@@ -267,8 +267,8 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells) {
 std::optional<PaperSheet> findPaperSheet(const SheetCells& cells, const RunContext& context) {
   constexpr int kFewestCells = 40;  // of the picture along its shorter side
   if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
-  const std::optional<cv::Mat1b> sheet = sheetOf(cells);
-  if (!sheet) return std::nullopt;
+  const std::optional<cv::Mat1b> sheet = sheetOf(cells, context);
+  if (context.isCancelled() || !sheet) return std::nullopt;
   PaperSheet found;
   found.cellPx = cells.sizePx;
   found.cornersPx = cornersOf(*sheet, cells.sizePx);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/parallel.h"
 #include "core/base/statistics.h"
 
 namespace batten {
@@ -191,21 +192,24 @@ std::optional<StraightEdge> straightEdge(const SideSteps& steps, int along, int 
 
 }  // namespace
 
-std::vector<cv::Mat1b> beyondSheetEdges(const SheetCells& cells) {
-  std::vector<cv::Mat1b> found;
-  for (int side = 0; side < 4; ++side) {
+std::vector<cv::Mat1b> beyondSheetEdges(const SheetCells& cells, const RunContext& context) {
+  std::array<std::optional<cv::Mat1b>, 4> sides;
+  parallelFor(context, 4, 1, [&](int side, int) {
     const FromSide from{cells, side};
     const SideSteps steps = stepsOf(from);
     const std::optional<StraightEdge> edge = straightEdge(steps, from.along(), channelsOf(cells));
-    if (!edge) continue;
+    if (!edge) return;
     const double slope = (edge->last - edge->first) / std::max(1.0, 1.0 * (steps.places.back() - steps.places.front()));
     cv::Mat1b beyond(cells.rows, cells.columns, static_cast<unsigned char>(0));
     for (int i = 0; i < from.along(); ++i) {
       const double end = edge->first + slope * (i - steps.places.front());
       for (int depth = 0; depth <= std::min(end, from.deep() - 1.0); ++depth) beyond(from.at(i, depth)) = 255;
     }
-    found.push_back(std::move(beyond));
-  }
+    sides[side] = std::move(beyond);
+  });
+  std::vector<cv::Mat1b> found;
+  for (std::optional<cv::Mat1b>& beyond : sides)
+    if (beyond) found.push_back(std::move(*beyond));
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/image/sheet_cells.h"
 
 namespace batten {
@@ -15,6 +16,6 @@ inline constexpr double kSolidContrast = 12.0;
 /// each: white paper on a white table differs by a few grey or by its tint alone, too little for single cells, but all
 /// along the edge and within a few cells. A drawn line has the same paper on both sides, a shadow fades, a
 /// drawn solid is darker.
-std::vector<cv::Mat1b> beyondSheetEdges(const SheetCells&);
+std::vector<cv::Mat1b> beyondSheetEdges(const SheetCells&, const RunContext&);
 
 }  // namespace batten

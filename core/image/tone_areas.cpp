@@ -29,11 +29,15 @@ constexpr int kEdgePx = 2;              // beyond a solid: its blurred edge
 constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
 constexpr std::uint8_t kClearGround = 217;     // [of 255] seen to be shaded
 
-GreyImage reduced(const GreyImage& page, int factor) {
+GreyImage reduced(const GreyImage& page, int factor, const RunContext& context) {
+  constexpr int kRows = 16;  // of the copy: one part of the work of the threads
   GreyImage out(page.width / factor, page.height / factor);
   const cv::Mat from(page.height, page.width, CV_16U, const_cast<std::uint16_t*>(page.pixels.data()));
-  cv::Mat to(out.height, out.width, CV_16U, out.pixels.data());
-  cv::resize(from(cv::Rect(0, 0, out.width * factor, out.height * factor)), to, to.size(), 0, 0, cv::INTER_AREA);
+  parallelFor(context, out.height, kRows, [&](int begin, int end) {
+    cv::Mat to(end - begin, out.width, CV_16U, out.row(begin));
+    cv::resize(from(cv::Rect(0, begin * factor, to.cols * factor, to.rows * factor)), to, to.size(), 0, 0,
+               cv::INTER_AREA);
+  });
   return out;
 }
 
@@ -140,7 +144,7 @@ std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& 
   // A narrow strip has no shading, and its copy no pixels.
   if (std::min(page.width, page.height) < 2 * kToneCellPx * areas.pixelsPerPx) return std::nullopt;
   std::optional<GreyImage> small;
-  if (areas.pixelsPerPx > 1) small = reduced(page, areas.pixelsPerPx);
+  if (areas.pixelsPerPx > 1) small = reduced(page, areas.pixelsPerPx, context);
   const GreyImage& searched = small ? *small : page;
   const ToneCells cells = toneCellsOf(searched);
   if (context.isCancelled() || !mayBeShaded(cells)) return std::nullopt;

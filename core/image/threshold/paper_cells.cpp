@@ -155,7 +155,10 @@ PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrin
   paper.columns = cells.columns;
   paper.rows = cells.rows;
   estimate.isPaper = cells.isFree;
-  paper.grey = integrateSteps(cells, cellSteps(cells, false), cellSteps(cells, true));
+  std::array<std::vector<float>, 2> steps;  // right, down
+  steps.fill(std::vector<float>(cells.mean.size(), 0.0f));
+  parallelFor(context, 2, 1, [&](int i, int) { steps[i] = cellSteps(cells, i == 1); });
+  paper.grey = integrateSteps(cells, steps[0], steps[1]);
   // The integration leaves the height open: a high quantile of the free cells (large silhouettes are free too), later
   // the paper cells, settle it.
   std::vector<float> gaps;
