@@ -36,31 +36,35 @@ BATTEN_HOT_LOOP void meansOfFive(const float* in, float* __restrict out, int cou
   for (int i = 0; i < count; ++i) out[i] = (in[i] + in[i + 1] + in[i + 2] + in[i + 3] + in[i + 4]) / 5.0f;
 }
 
+BATTEN_HOT_LOOP void meansOfFiveRows(const float* const* rows, float* __restrict out, int count) {
+  const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3], *e = rows[4];
+  for (int i = 0; i < count; ++i) out[i] = (a[i] + b[i] + c[i] + d[i] + e[i]) / 5.0f;
+}
+
 /// Rows [first, past) of a plane averaged along x over 2 kAlong + 1 pixels. Made where they are needed: a whole plane
-/// of them, or a mirrored one, would be fresh memory, which costs more than the sums.
+/// of them would be fresh memory, which costs more than the sums.
 class AveragedRows {
  public:
-  explicit AveragedRows(const PlaneView& grey) : grey_(grey), width_(grey.width()), padded_(width_ + 2 * kAlong) {}
+  explicit AveragedRows(const Plane& grey) : grey_(grey), padded_(grey.width + 2 * kAlong) {}
 
   void make(int first, int past) {
     static_assert(kAlong == 2);
     first_ = first;
-    rows_.resize(std::ptrdiff_t{width_} * (past - first));
-    grey_.copyRows(first, past, rows_.data());
+    rows_.resize(std::ptrdiff_t{grey_.width} * (past - first));
     for (int y = first; y < past; ++y) {
-      float* row = rows_.data() + std::ptrdiff_t{y - first} * width_;
-      std::copy_n(row, width_, padded_.data() + kAlong);
+      const float* row = grey_.row(y);
+      std::copy_n(row, grey_.width, padded_.data() + kAlong);
       std::fill_n(padded_.data(), kAlong, row[0]);
-      std::fill_n(padded_.data() + kAlong + width_, kAlong, row[width_ - 1]);
-      meansOfFive(padded_.data(), row, width_);
+      std::fill_n(padded_.data() + kAlong + grey_.width, kAlong, row[grey_.width - 1]);
+      meansOfFive(padded_.data(), rows_.data() + std::ptrdiff_t{y - first} * grey_.width, grey_.width);
     }
   }
-  const float* row(int y) const { return rows_.data() + std::ptrdiff_t{y - first_} * width_; }
-  int height() const { return grey_.height(); }  ///< Of the plane.
+  const float* row(int y) const { return rows_.data() + std::ptrdiff_t{y - first_} * grey_.width; }
+  int height() const { return grey_.height; }  ///< Of the plane.
 
  private:
-  const PlaneView& grey_;
-  int width_, first_ = 0;
+  const Plane& grey_;
+  int first_ = 0;
   std::vector<float> padded_, rows_;
 };
 
@@ -120,39 +124,90 @@ RowsAround rowsAround(const AveragedRows& averaged, int y) {
   return rows;
 }
 
-/// Pixels in the middle of thin dark lines, strip by strip.
-std::array<std::vector<LinePixel>, kStrips> linePixels(const PlaneView& grey, const RunContext& context) {
+/// The same along a row of a plane that is averaged across: its columns are the rows of the mirrored plane.
+RowsAround columnsAround(const float* row, int width, int x) {
+  RowsAround columns{row + x - 1, row + x, row + x + 1, {}, {}};
+  for (std::size_t i = 0; i < kSides.size(); ++i) {
+    const bool isOnPage = x >= kSides[i] && x + kSides[i] < width;
+    columns.up[i] = isOnPage ? columns.here - kSides[i] : columns.here;
+    columns.down[i] = isOnPage ? columns.here + kSides[i] : columns.here;
+  }
+  return columns;
+}
+
+/// Calls `take` for every marked pixel. `marks` go on to a multiple of eight.
+template <class Take>
+void forEachMark(const std::vector<std::uint8_t>& marks, const Take& take) {
+  for (int x = 0; x < std::ssize(marks); x += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, marks.data() + x, 8);
+    if (eight == 0) continue;
+    for (int i = x; i < x + 8; ++i)
+      if (marks[i] != 0) take(i);
+  }
+}
+
+/// How far from the middle of a pixel, that is darker than the ones on both sides, the darkest place lies.
+float shiftBetween(float above, float here, float below) {
+  const float bend = above - 2.0f * here + below;
+  return bend > 0.0f ? 0.5f * (above - below) / bend : 0.0f;
+}
+
+using PixelsOfStrips = std::array<std::vector<LinePixel>, kStrips>;
+
+/// Pixels in the middle of thin dark lines on rows [begin, end).
+void addLinePixels(const Plane& grey, float least, int begin, int end, PixelsOfStrips& pixels) {
   static_assert(kSides.size() == 2);
   constexpr int kFarSide = kSides.back();  // rows that are needed beyond a block
-  std::array<std::vector<LinePixel>, kStrips> pixels;
+  std::vector<std::uint8_t> marks((grey.width + 7) / 8 * 8, 0);
+  AveragedRows averaged(grey);
+  averaged.make(std::max(0, begin - kFarSide), std::min(grey.height, end + kFarSide));
+  for (int y = std::max(1, begin); y < std::min(end, grey.height - 1); ++y) {
+    const RowsAround rows = rowsAround(averaged, y);
+    markThinDark(rows, least, marks.data(), grey.width);
+    forEachMark(marks, [&](int x) {
+      const float shift = shiftBetween(rows.above[x], rows.here[x], rows.below[x]);
+      pixels[stripOf(x, grey.width)].push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f + shift});
+    });
+  }
+}
+
+/// Those of the mirrored plane on its columns [begin, end), which are rows of the plane: nothing need be mirrored.
+void addMirroredLinePixels(const Plane& grey, float least, int begin, int end, PixelsOfStrips& pixels) {
+  constexpr int kFarSide = kSides.back();
+  const int width = grey.width;
+  std::vector<std::uint8_t> marks((width + 7) / 8 * 8, 0);
+  std::vector<float> row(width);
+  for (int y = begin; y < end; ++y) {
+    std::array<const float*, 2 * kAlong + 1> around{};
+    for (int i = -kAlong; i <= kAlong; ++i) around[i + kAlong] = grey.row(std::clamp(y + i, 0, grey.height - 1));
+    meansOfFiveRows(around.data(), row.data(), width);
+    const auto mark = [&](int x, int count) {
+      markThinDark(columnsAround(row.data(), width, x), least, marks.data() + x, count);
+    };
+    for (int x = 1; x < kFarSide; ++x) mark(x, 1);
+    mark(kFarSide, width - 2 * kFarSide);
+    for (int x = width - kFarSide; x + 1 < width; ++x) mark(x, 1);
+    std::vector<LinePixel>& ofStrip = pixels[stripOf(y, grey.height)];
+    forEachMark(marks, [&](int x) {
+      const float shift = shiftBetween(row[x - 1], row[x], row[x + 1]);
+      ofStrip.push_back({static_cast<float>(y) + 0.5f, static_cast<float>(x) + 0.5f + shift});
+    });
+  }
+}
+
+/// Pixels in the middle of thin dark lines, strip by strip, in no order that tells anything.
+/// @pre no side is shorter than kLeastStretchSide
+PixelsOfStrips linePixels(const PlaneView& grey, const RunContext& context) {
   const float least = std::max(kLeastDepth, static_cast<float>(kDepthPerNoise * noiseAcross(grey)));
-  const int width = grey.width(), height = grey.height();
-  const int blocks = (height + kRowsPerBlock - 1) / kRowsPerBlock;
-  std::vector<std::array<std::vector<LinePixel>, kStrips>> parts(blocks);
-  parallelFor(context, height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<std::uint8_t> marks((width + 7) / 8 * 8, 0);
-    AveragedRows averaged(grey);
-    averaged.make(std::max(0, begin - kFarSide), std::min(height, end + kFarSide));
-    for (int y = std::max(1, begin); y < std::min(end, height - 1); ++y) {
-      const RowsAround rows = rowsAround(averaged, y);
-      markThinDark(rows, least, marks.data(), width);
-      for (int x = 0; x < width; ++x) {
-        if (std::uint64_t eight = 0; x % 8 == 0) {
-          std::memcpy(&eight, marks.data() + x, 8);
-          if (eight == 0) {
-            x += 7;
-            continue;
-          }
-        }
-        if (marks[x] == 0) continue;
-        const float bend = rows.above[x] - 2.0f * rows.here[x] + rows.below[x];
-        const float shift = bend > 0.0f ? 0.5f * (rows.above[x] - rows.below[x]) / bend : 0.0f;
-        parts[begin / kRowsPerBlock][stripOf(x, width)].push_back(
-            {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f + shift});
-      }
-    }
+  const int rows = grey.plane.height, blocks = (rows + kRowsPerBlock - 1) / kRowsPerBlock;
+  std::vector<PixelsOfStrips> parts(blocks);
+  parallelFor(context, rows, kRowsPerBlock, [&](int begin, int end) {
+    const auto add = grey.isMirrored ? addMirroredLinePixels : addLinePixels;
+    add(grey.plane, least, begin, end, parts[begin / kRowsPerBlock]);
   });
-  for (const auto& part : parts) {
+  PixelsOfStrips pixels;
+  for (const PixelsOfStrips& part : parts) {
     for (std::size_t s = 0; s < kStrips; ++s) pixels[s].insert(pixels[s].end(), part[s].begin(), part[s].end());
   }
   return pixels;
@@ -208,8 +263,7 @@ std::vector<RulingStretch> peaksOf(const std::vector<int>& bins, double least, d
 /// How well each slope suits the lines of each strip and band of a plane.
 class SlopeScores {
  public:
-  SlopeScores(const std::array<std::vector<LinePixel>, kStrips>& pixels, const RulingStretches& plane,
-              const RunContext& context)
+  SlopeScores(const PixelsOfStrips& pixels, const RulingStretches& plane, const RunContext& context)
       : steps_(static_cast<int>(std::ceil(kSteepest * plane.stripWidth / kShiftPerStep))),
         scores_(kStrips * kBands, std::vector<double>(2 * steps_ + 1, 0.0)) {
     const double least = kLeastOfStrip * plane.stripWidth, bandHeight = plane.height / kBands;
