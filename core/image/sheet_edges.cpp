@@ -164,8 +164,31 @@ bool isSheetEdge(const StraightEdge& edge, const SideSteps& steps) {
   return own >= std::max(kLeastStep, kLeastOwn * std::fabs(step));
 }
 
+// Whether steps of one sign, however they lie, are great enough at as many places as isSheetEdge() asks for: on most
+// pages they are not, and no line need be tried.
+bool mayShowEdge(const SideSteps& steps, int channel) {
+  constexpr float kRounding = 0.99f;  // of what is asked for: more than rounding takes
+  const int n = static_cast<int>(steps.places.size()), last = steps.most - kNextDepth;
+  for (const float sign : {-1.0f, 1.0f}) {
+    int great = 0, showing = 0;
+    for (int p = 0; p < n; ++p) {
+      float most = 0.0f;
+      for (int depth = steps.least; depth <= last; ++depth)
+        most = std::max(most, sign * steps.steps[steps.index(p, depth)][channel]);
+      great += most >= kRounding * kLeastStep ? 1 : 0;
+      showing += most >= kRounding * kLeastOfStep * kLeastStep ? 1 : 0;
+    }
+    // No fewer than half of all values are as great as their upper median.
+    if (2 * great >= n && showing >= kLeastShowing * n) return true;
+  }
+  return false;
+}
+
 std::optional<StraightEdge> straightEdge(const SideSteps& steps, int along, int channels) {
   const int n = static_cast<int>(steps.places.size());
+  bool mayShow = false;
+  for (int k = 0; k < channels; ++k) mayShow = mayShow || mayShowEdge(steps, k);
+  if (!mayShow) return std::nullopt;
   const int lean = static_cast<int>(kMostLean * along), most = steps.most - kNextDepth;
   StraightEdge best;
   float greatest = 0.0f;
