@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/lanes_of_values.h"
 
+#include <limits>
+
 #include "core/base/hot_loop.h"
 
 namespace batten {
@@ -15,11 +17,20 @@ BATTEN_HOT_LOOP void orderLanes(std::int16_t* __restrict low, std::int16_t* __re
   }
 }
 
+BATTEN_HOT_LOOP void lessOf(const std::int16_t* __restrict values, std::int16_t* __restrict least, int lanes) {
+  for (int i = 0; i < lanes; ++i) least[i] = values[i] < least[i] ? values[i] : least[i];
+}
+
 }  // namespace
 
 std::int16_t* LanesOfValues::add() {
   values_.resize(values_.size() + lanes_);
   return &*(values_.end() - lanes_);
+}
+
+void LanesOfValues::leastOf(std::vector<std::int16_t>& out) const {
+  out.assign(lanes_, std::numeric_limits<std::int16_t>::max());
+  for (int k = 0; k < count(); ++k) lessOf(values_.data() + std::ptrdiff_t{k} * lanes_, out.data(), lanes_);
 }
 
 void LanesOfValues::sortTo(int rank) {

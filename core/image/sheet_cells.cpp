@@ -2,9 +2,9 @@
 #include "core/image/sheet_cells.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -17,6 +17,18 @@ namespace {
 
 constexpr double kPaperRankOfCell = 0.7;  // of the pixels of a cell by grey: ink is darker
 constexpr int kSamplesAcross = 4;         // of a cell
+
+constexpr std::int16_t stored(int value) { return static_cast<std::int16_t>(value - LanesOfValues::kMiddle); }
+
+/// Pixels that lie `pitch` apart, and their differences from their neighbours at the right.
+void takeEach(const std::uint16_t* __restrict at, std::ptrdiff_t pitch, int count, std::int16_t* __restrict levels,
+              std::int16_t* __restrict steps) {
+  for (int i = 0; i < count; ++i) {
+    const int here = at[i * pitch], next = at[i * pitch + 1];
+    levels[i] = stored(here);
+    steps[i] = stored(std::abs(next - here));
+  }
+}
 
 /// Some pixels of every cell of a row, and their differences from their neighbours at the right.
 class CellSamples {
@@ -33,11 +45,11 @@ class CellSamples {
 
   void take(int row) {
     for (LanesOfValues* values : {&levels_, &steps_, &lastSteps_}) values->clear();
-    darkest_.assign(columns_, std::numeric_limits<std::uint16_t>::max());
     for (int y = row * cellPx_; y < (row + 1) * cellPx_; y += stride_) {
       for (int x = 0; x < cellPx_; x += stride_) addPlace(grey_.row(y), x);
     }
     row_ = row;
+    levels_.leastOf(darkest_);
     levels_.sortTo(paperRank());
     steps_.sortTo(steps_.count() / 2);
     lastSteps_.sortTo(lastSteps_.count() / 2);
@@ -49,7 +61,7 @@ class CellSamples {
     return {levelOf(levels_.value(paperRank(), column)), 0.0f, 0.0f};
   }
   /// [grey]
-  float darkest(int column) const { return levelOf(darkest_[column]); }
+  float darkest(int column) const { return levelOf(darkest_[column] + LanesOfValues::kMiddle); }
   float roughness(int column) const {
     if (column + 1 < columns_) return levelOf(steps_.value(steps_.count() / 2, column));
     return levelOf(lastSteps_.value(lastSteps_.count() / 2, 0));
@@ -61,18 +73,12 @@ class CellSamples {
 
   /// One pixel of each cell. At the border of the page the last cell may have no neighbour at the right.
   void addPlace(const std::uint16_t* row, int x) {
-    const auto stored = [](int value) { return static_cast<std::int16_t>(value - LanesOfValues::kMiddle); };
     std::int16_t *level = levels_.add(), *step = steps_.add();
     const int last = columns_ - 1;
-    const std::uint16_t* at = row + x;
-    for (int i = 0; i < last; ++i, at += cellPx_) {
-      level[i] = stored(at[0]);
-      step[i] = stored(std::abs(at[1] - at[0]));
-      darkest_[i] = std::min(darkest_[i], at[0]);
-    }
+    takeEach(row + x, cellPx_, last, level, step);
+    const std::uint16_t* at = row + x + std::ptrdiff_t{last} * cellPx_;
     level[last] = stored(at[0]);
     step[last] = stored(0);  // lies in lastSteps_
-    darkest_[last] = std::min(darkest_[last], at[0]);
     if (at + 1 < row + grey_.width) *lastSteps_.add() = stored(std::abs(at[1] - at[0]));
   }
 
@@ -93,7 +99,7 @@ class CellSamples {
   const ColourImage& colour_;
   int cellPx_, columns_, stride_, row_ = 0;
   LanesOfValues levels_, steps_, lastSteps_;  ///< The last: of the last cell alone, those there are.
-  std::vector<std::uint16_t> darkest_;
+  std::vector<std::int16_t> darkest_;         ///< Stored as the values.
 };
 
 }  // namespace

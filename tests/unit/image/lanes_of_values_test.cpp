@@ -28,9 +28,12 @@ TEST(LanesOfValues, FindsTheValueOfARankInEveryLane) {
           }
         }
         ASSERT_EQ(values.count(), count);
+        std::vector<std::int16_t> least;
+        values.leastOf(least);
         values.sortTo(rank);
         for (int i = 0; i < lanes; ++i) {
           std::sort(plain[i].begin(), plain[i].end());
+          ASSERT_EQ(least[i] + LanesOfValues::kMiddle, plain[i].front()) << lanes << " " << count;
           ASSERT_EQ(values.value(rank, i), plain[i][rank]) << lanes << " " << count << " " << rank;
         }
       }
