@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -37,7 +38,8 @@ class LevelFairing {
         degree_(degree),
         toleranceMm_(toleranceMm),
         context_(context),
-        needs_(levels.all.size()) {}
+        needs_(levels.all.size()),
+        targets_(levels.all.size()) {}
 
   Result<LevelOutcome> overAll() {
     const auto fewest = std::ssize(levels_.ofTolerance().splits);
@@ -73,8 +75,13 @@ class LevelFairing {
     const FairingReport& report = one.faired.report;
     return one.level == levels_.first && report.withinTolerance && report.extremaAfter <= report.extremaBefore;
   }
-  Result<FairedCurve> over(std::size_t level, bool onlyIfMet) const {
-    return modifyShape(setup_, profileOf(level), toleranceMm_, context_, {ExtremaAsked::UpToSketch, onlyIfMet});
+  TargetCourses& targetOf(std::size_t level) {
+    auto& target = targets_[level];
+    if (!target) target = std::make_unique<TargetCourses>(setup_, profileOf(level), context_);
+    return *target;
+  }
+  Result<FairedCurve> over(std::size_t level, bool onlyIfMet) {
+    return modifyShape(targetOf(level), toleranceMm_, {ExtremaAsked::UpToSketch, onlyIfMet});
   }
 
   std::optional<Error> tryLevel(std::size_t level) {
@@ -93,7 +100,7 @@ class LevelFairing {
   /// What a level needs, where that is no more than `most`.
   std::optional<double> needOf(std::size_t level, double most) {
     std::optional<double>& mm = needs_[level].mm;
-    if (!mm && most > 0.0) mm = neededWithin(setup_, profileOf(level), most, context_);
+    if (!mm && most > 0.0) mm = neededWithin(targetOf(level), most);
     return mm && *mm <= most ? mm : std::nullopt;
   }
 
@@ -145,8 +152,9 @@ class LevelFairing {
   int degree_;
   double toleranceMm_;
   const RunContext& context_;
-  std::vector<LevelNeed> needs_;  ///< Per level.
-  double neededMm_ = 0.0;         ///< The least tolerance.
+  std::vector<LevelNeed> needs_;                         ///< Per level.
+  std::vector<std::unique_ptr<TargetCourses>> targets_;  ///< Of the levels that were looked at.
+  double neededMm_ = 0.0;                                ///< The least tolerance.
   std::optional<LevelOutcome> best_;
 };
 

@@ -63,11 +63,24 @@ TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& obje
   const double wanted = std::log(largest_ / smallest_) / std::log(long_ ? kRoughWeightStep : kWeightStep);
   count_ = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSteps);
   next_ = count_;
-  follow(mostMm);
+  reach(mostMm);
 }
 
-void TargetSteps::goOn() {
-  if (early_) follow(std::numeric_limits<double>::infinity());
+void TargetSteps::reach(double mostMm) {
+  auto beyond = firstBeyond(mostMm);
+  if (!beyond && next_) {
+    follow(mostMm);
+    beyond = firstBeyond(mostMm);
+  }
+  early_ = beyond.has_value();
+  passedOver_ = beyond.value_or(0);
+}
+
+/// On the way from the sketch; the step at the target is no reason to end before it.
+std::optional<std::size_t> TargetSteps::firstBeyond(double mostMm) const {
+  for (std::size_t i = steps_.size(); i-- > 0;)
+    if (steps_[i].weight > smallest_ && steps_[i].deviationMm > mostMm) return i;
+  return std::nullopt;
 }
 
 double TargetSteps::weightOf(int step) const {
@@ -79,9 +92,9 @@ void TargetSteps::follow(double mostMm) {
   TargetStep from{0.0, setup_.points,      setup_.start.places, LevenbergOptions{}.damping, 0.0, 0.0,
                   0,   Termination::NotRun};
   if (!steps_.empty()) from = steps_.front();
-  early_ = false;
   std::reverse(steps_.begin(), steps_.end());
-  while (next_ && !context_.isCancelled()) {
+  bool isBeyond = false;
+  while (next_ && !isBeyond && !context_.isCancelled()) {
     const int i = *next_;
     next_ = i > 0 ? std::optional(i - 1) : std::nullopt;
     const FairingLimits limits = i > 0 ? (long_ ? kRough : kWarm) : long_ ? kProbe : kFull;
@@ -89,12 +102,11 @@ void TargetSteps::follow(double mostMm) {
     if (!step) break;
     from = *step;
     steps_.push_back(std::move(*step));
-    early_ = i > 0 && from.deviationMm > mostMm;
-    if (early_) break;
+    isBeyond = i > 0 && from.deviationMm > mostMm;
   }
   std::reverse(steps_.begin(), steps_.end());
   if (context_.isCancelled()) steps_.clear();
-  if (early_) return;
+  if (isBeyond) return;
   next_.reset();
   rough_ = long_ && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup_.extent;
   if (!long_ || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
@@ -124,11 +136,11 @@ std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& fr
 }
 
 std::optional<TargetStep> TargetSteps::between(const TargetStep& from, double weight) const {
-  return solve(weight, from, rough_ ? kRough : kWarm);
+  return solve(weight, from, isRough() ? kRough : kWarm);
 }
 
 std::optional<TargetStep> TargetSteps::polished(const TargetStep& from) const {
-  return rough_ ? std::nullopt : solve(from.weight, from, kPolish);
+  return isRough() ? std::nullopt : solve(from.weight, from, kPolish);
 }
 
 }  // namespace batten

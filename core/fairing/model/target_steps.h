@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
@@ -41,14 +42,14 @@ class TargetSteps {
   TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
               double mostMm = std::numeric_limits<double>::infinity());
 
-  /// Where they ended early: goes on, as if they had not.
-  void goOn();
+  /// As if they had been followed with this bound; what is known already is not made again.
+  void reach(double mostMm);
   /// The first meets the target fully, but where they ended before (endsEarly). Empty when the sketch has a cusp, or
   /// when cancelled.
-  const std::vector<TargetStep>& steps() const { return steps_; }
+  std::span<const TargetStep> steps() const { return std::span(steps_).subspan(passedOver_); }
   bool endsEarly() const { return early_; }
   /// Less effort was made: a long curve, and a target far out of its reach.
-  bool isRough() const { return rough_; }
+  bool isRough() const { return rough_ && !early_; }
   /// A step of another weight, from one that is near.
   std::optional<TargetStep> between(const TargetStep& from, double weight) const;
   std::optional<TargetStep> polished(const TargetStep& from) const;
@@ -56,16 +57,18 @@ class TargetSteps {
 
  private:
   void follow(double mostMm);
+  std::optional<std::size_t> firstBeyond(double mostMm) const;
   double weightOf(int step) const;
   std::optional<TargetStep> solve(double weight, const TargetStep& from, const FairingLimits& limits) const;
 
   const FairingSetup& setup_;
   const FairingObjective& objective_;
   const RunContext& context_;
-  std::vector<TargetStep> steps_;
+  std::vector<TargetStep> steps_;          ///< From the target, or where they ended, to the sketch.
+  std::size_t passedOver_ = 0;             ///< Of them: beyond the bound.
   double smallest_ = 0.0, largest_ = 0.0;  ///< Weights of the steps at the target and at the sketch.
   int count_ = 0;                          ///< Steps beside the first.
-  std::optional<int> next_;                ///< The one to be made next.
+  std::optional<int> next_;                ///< The one to be made next; nothing: the last one was made, or failed.
   bool long_ = false, rough_ = false, early_ = false;
   mutable int iterations_ = 0;
 };

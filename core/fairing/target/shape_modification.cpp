@@ -11,7 +11,6 @@
 
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/model/coarse_setups.h"
 #include "core/fairing/model/fairing_state.h"
 #include "core/fairing/model/target_steps.h"
 #include "core/fairing/profile/profile_data.h"
@@ -59,32 +58,28 @@ constexpr ModificationNotes kNotesOfFilter{
 /// Of all curves within the tolerance the one with the fewest extrema, of these the one nearest to the target.
 class ShapeModification {
  public:
-  ShapeModification(const std::shared_ptr<const FairingSetup>& setup, const FairingObjective& objective,
-                    double toleranceMm, const RunContext& context, ModificationEffort effort)
-      : sketch_(*setup),
-        objective_(objective),
+  ShapeModification(TargetCourses& target, double toleranceMm, ModificationEffort effort)
+      : target_(target),
+        sketch_(target.sketch()),
+        objective_(*target.objective()),
         toleranceMm_(toleranceMm),
-        context_(context),
+        context_(target.context()),
         onlyIfMet_(effort.onlyIfMet),
         onlyNeed_(effort.onlyNeed),
         isFiltered_(effort.isFiltered),
         notes_(effort.isFiltered ? kNotesOfFilter : kNotesOfTarget),
-        asked_(extremaAsked(*setup, objective)) {
+        asked_(extremaAsked(sketch_, objective_)) {
     if (effort.asked == ExtremaAsked::UpToSketch)
-      asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed, setup->check));
+      asked_ = std::min(asked_, countedExtrema(sketch_.original, sketch_.closed, sketch_.check));
     if (onlyIfMet_ || onlyNeed_) mostMm_ = kBeyondReach * toleranceMm;
-    openAll(setup);
+    openAll();
     // One that comes to its target decides together with the others, which are then followed to the end.
-    const auto endsEarly = [](const Course& course) { return course.followed.endsEarly(); };
+    const auto endsEarly = [](const Course& course) { return course.followed->endsEarly(); };
     const bool allEndEarly = std::all_of(courses_.begin(), courses_.end(), endsEarly);
     if (allEndEarly || std::none_of(courses_.begin(), courses_.end(), endsEarly)) return;
     mostMm_ = std::numeric_limits<double>::infinity();
-    courses_.front().followed.goOn();
-    if (isCalm()) {
-      while (courses_.size() > 1) courses_.pop_back();
-      calm_.clear();
-    }
-    for (Course& course : courses_) course.followed.goOn();
+    courses_.clear();
+    openAll();
   }
   Result<FairedCurve> run() {
     if (context_.isCancelled()) return cancelled();
@@ -101,7 +96,7 @@ class ShapeModification {
     report_.neededMm = toleranceFor(full.deviationMm);
     metMisfit_ = full.misfit;
     if (!isFiltered_) takeUpTo(toleranceMm_);
-    report_.withinTolerance = !courses_.front().followed.endsEarly() && *report_.neededMm <= toleranceMm_;
+    report_.withinTolerance = !courses_.front().followed->endsEarly() && *report_.neededMm <= toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     if (isFiltered_) {
       useEach();
@@ -109,7 +104,7 @@ class ShapeModification {
       useRoundTolerances();
     }
     for (const Course& course : courses_) {
-      if (!course_ || (course_ == &course && best_.weight > course.followed.steps().front().weight))
+      if (!course_ || (course_ == &course && best_.weight > course.followed->steps().front().weight))
         useTolerance(course);
     }
     if (context_.isCancelled()) return cancelled();
@@ -125,34 +120,34 @@ class ShapeModification {
   /// The steps over one knot vector.
   struct Course {
     const FairingSetup* setup;
-    TargetSteps followed;
+    const TargetSteps* followed;
     std::vector<TargetStep> toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
   };
 
-  void openAll(const std::shared_ptr<const FairingSetup>& setup) {
-    open(setup.get());
+  void openAll() {
+    open(target_.own(mostMm_));
     if (isCalm() || (onlyNeed_ && isBeyond())) return;
-    calm_ = calmSetups(setup);
-    for (const auto& calm : calm_) open(calm.get());
+    for (const TargetCourse& calm : target_.calm(mostMm_)) open(calm);
   }
   /// A target that is so far from the sketch is not looked for over fewer knots.
-  bool isBeyond() const { return !courses_.empty() && courses_.front().followed.steps().front().deviationMm > mostMm_; }
+  bool isBeyond() const {
+    return !courses_.empty() && courses_.front().followed->steps().front().deviationMm > mostMm_;
+  }
   /// Where the target is met without tremor, there is none to be passed over.
   bool isCalm() const {
-    if (courses_.empty() || courses_.front().followed.endsEarly()) return false;
-    const std::vector<TargetStep>& steps = courses_.front().followed.steps();
+    if (courses_.empty() || courses_.front().followed->endsEarly()) return false;
+    const auto steps = courses_.front().followed->steps();
     return !steps.empty() && steps.front().extrema <= asked_;
   }
-  void open(const FairingSetup* over) {
-    Course course{over, TargetSteps(*over, objective_, context_, mostMm_)};
-    if (!course.followed.steps().empty()) courses_.push_back(std::move(course));
+  void open(const TargetCourse& course) {
+    if (!course.followed->steps().empty()) courses_.push_back({course.setup.get(), course.followed.get()});
   }
   /// Of the courses' ends at the target the one that meets it best.
   const TargetStep& fullStep() const {
     const Course* best = &courses_.front();
     for (const Course& course : courses_)
-      if (course.followed.steps().front().misfit < best->followed.steps().front().misfit) best = &course;
-    return best->followed.steps().front();
+      if (course.followed->steps().front().misfit < best->followed->steps().front().misfit) best = &course;
+    return best->followed->steps().front();
   }
   bool isWithin(const TargetStep& step) const { return step.deviationMm <= kToleranceRoom * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
@@ -162,7 +157,7 @@ class ShapeModification {
   void takeUpTo(double toleranceMm) {
     std::vector<std::pair<const TargetStep*, const Course*>> within;
     for (const Course& course : courses_)
-      for (const TargetStep& step : course.followed.steps())
+      for (const TargetStep& step : course.followed->steps())
         if (step.deviationMm <= kToleranceRoom * toleranceMm) within.emplace_back(&step, &course);
     if (isFiltered_) {
       std::stable_sort(within.begin(), within.end(),
@@ -211,7 +206,7 @@ class ShapeModification {
   };
   Sides sidesOf(const Course& course, double toleranceMm) const {
     Sides sides;
-    for (const TargetStep& step : course.followed.steps()) {
+    for (const TargetStep& step : course.followed->steps()) {
       if (step.deviationMm <= kToleranceRoom * toleranceMm) {
         sides.inside = &step;
         break;
@@ -243,7 +238,7 @@ class ShapeModification {
       if (near && (near->deviationMm >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide.weight))
         break;
       const double weight = near ? weightBetween(wide, *near, toleranceMm) : kWeightStep * wide.weight;
-      auto step = course.followed.between(near ? *near : wide, weight);
+      auto step = course.followed->between(near ? *near : wide, weight);
       if (!step) break;
       if (step->deviationMm <= kToleranceRoom * toleranceMm) {
         found.push_back(*step);
@@ -259,13 +254,13 @@ class ShapeModification {
     const Sides sides = sidesOf(course, toleranceMm_);
     if (!sides.outside) return;
     if (course.toTolerance.empty()) {
-      const int most = course.followed.isRough() ? kRoughSteps : kSearchSteps;
+      const int most = course.followed->isRough() ? kRoughSteps : kSearchSteps;
       for (const TargetStep& step : between(course, sides, toleranceMm_, most)) takeOfSameRank(step, &course);
     }
     if (course_ != &course || context_.isCancelled()) return;
-    const auto polished = course.followed.polished(best_);
+    const auto polished = course.followed->polished(best_);
     if (polished && isWithin(*polished)) takeOfSameRank(*polished, &course);
-    if (course.setup == &sketch_ && !course.followed.isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
+    if (course.setup == &sketch_ && !course.followed->isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
       useBarrier(course);
   }
 
@@ -299,7 +294,7 @@ class ShapeModification {
 
   void explain() {
     const auto adds = [this](const TargetStep& step) { return isWithin(step) && rank(step) > rank(best_); };
-    const auto& own = courses_.front().followed;
+    const auto& own = *courses_.front().followed;
     report_.why = course_ ? best_.why : Termination::FixedPoint;
     if (!course_ && (!report_.withinTolerance || std::any_of(own.steps().begin(), own.steps().end(), adds))) {
       report_.why = Termination::ToleranceLimited;
@@ -320,7 +315,7 @@ class ShapeModification {
   }
 
   Result<FairedCurve> done() {
-    for (const Course& course : courses_) report_.iterations += course.followed.iterations();
+    for (const Course& course : courses_) report_.iterations += course.followed->iterations();
     report_.objectiveAfter = std::sqrt(best_.misfit);
     explain();
     if (!course_ || course_->setup == &sketch_)
@@ -333,11 +328,11 @@ class ShapeModification {
     return FairedCurve{std::move(*curve), std::move(report_)};
   }
 
+  TargetCourses& target_;
   const FairingSetup& sketch_;
   const FairingObjective& objective_;
   double toleranceMm_, mostMm_ = std::numeric_limits<double>::infinity();
   const RunContext& context_;
-  std::vector<std::shared_ptr<const FairingSetup>> calm_;
   std::vector<Course> courses_;
   bool onlyIfMet_, onlyNeed_, isFiltered_;
   const ModificationNotes& notes_;
@@ -350,20 +345,22 @@ class ShapeModification {
 
 }  // namespace
 
-Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
-                                double toleranceMm, const RunContext& context, ModificationEffort effort) {
-  const auto objective = targetObjective(*setup, profile);
-  if (!objective) return fail(objective.error());
-  auto faired = ShapeModification(setup, *objective, toleranceMm, context, effort).run();
-  if (faired) faired->report.similarityAfter = similarityToSketch(faired->curve, setup->sketchedCurve());
+Result<FairedCurve> modifyShape(TargetCourses& target, double toleranceMm, ModificationEffort effort) {
+  if (!target.objective()) return fail(target.objective().error());
+  auto faired = ShapeModification(target, toleranceMm, effort).run();
+  if (faired) faired->report.similarityAfter = similarityToSketch(faired->curve, target.sketch().sketchedCurve());
   return faired;
 }
 
-std::optional<double> neededWithin(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
-                                   double mostMm, const RunContext& context) {
-  const auto objective = targetObjective(*setup, profile);
-  if (!objective) return std::nullopt;
-  return ShapeModification(setup, *objective, mostMm, context, {.onlyNeed = true}).neededMm();
+Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
+                                double toleranceMm, const RunContext& context, ModificationEffort effort) {
+  TargetCourses target(setup, profile, context);
+  return modifyShape(target, toleranceMm, effort);
+}
+
+std::optional<double> neededWithin(TargetCourses& target, double mostMm) {
+  if (!target.objective()) return std::nullopt;
+  return ShapeModification(target, mostMm, {.onlyNeed = true}).neededMm();
 }
 
 void noteMetOverMoreSpans(FairingReport& report) {

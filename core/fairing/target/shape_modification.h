@@ -9,6 +9,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/profile/target_profiles.h"
+#include "core/fairing/target/target_courses.h"
 
 namespace batten {
 
@@ -34,14 +35,14 @@ struct ModificationEffort {
   bool isFiltered = false;  ///< The profile is the curve's own curvature without short waves: notes advise so.
 };
 
-/// The same on a setup that several fairings share.
+/// The same along courses that several modifications share, on a setup that several fairings share.
+Result<FairedCurve> modifyShape(TargetCourses& target, double toleranceMm, ModificationEffort effort = {});
 Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
                                 double toleranceMm, const RunContext& context, ModificationEffort effort = {});
 
-/// The tolerance that meets the target of this setup: [mm]. Nothing where that is much more than
-/// `mostMm`, or where the curve cannot be moved.
-std::optional<double> neededWithin(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
-                                   double mostMm, const RunContext& context);
+/// The tolerance that meets the target: [mm]. Nothing where that is much more than `mostMm`, or where the curve cannot
+/// be moved.
+std::optional<double> neededWithin(TargetCourses& target, double mostMm);
 
 /// The target could have been met over other spans, but with more extrema.
 void noteMetOverMoreSpans(FairingReport&);

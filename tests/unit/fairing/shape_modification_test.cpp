@@ -226,6 +226,35 @@ TEST(ModifyShape, ATargetThatIsHardlyFollowedIsNotMet) {
   EXPECT_GT(met, 0);
 }
 
+TEST(TargetSteps, ReachedLaterAreThoseFollowedAtOnce) {
+  const NurbsCurve curve = test::noisy(test::wave(300.0, 20.0, 24), 0.5, 3);
+  const auto setup = makeSetup(curve, false, {});
+  ASSERT_TRUE(setup);
+  const auto objective = targetObjective(**setup, fitTargets(curve, {}).profiles[0]);
+  ASSERT_TRUE(objective);
+  const TargetSteps whole(**setup, *objective, {});
+  ASSERT_GT(whole.steps().size(), 3u);
+  const double bound = 1.001 * whole.steps()[2].deviationMm;  // left by the step after it
+  ASSERT_GT(whole.steps()[1].deviationMm, bound);
+  const auto isSame = [](std::span<const TargetStep> a, std::span<const TargetStep> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const TargetStep& x, const TargetStep& y) { return x.points == y.points; });
+  };
+  TargetSteps steps(**setup, *objective, {}, bound);
+  EXPECT_TRUE(steps.endsEarly());
+  EXPECT_TRUE(isSame(steps.steps(), whole.steps().subspan(1)));
+  const int made = steps.iterations();
+  steps.reach(std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(steps.endsEarly());
+  EXPECT_TRUE(isSame(steps.steps(), whole.steps()));
+  EXPECT_GT(steps.iterations(), made);
+  EXPECT_EQ(steps.iterations(), whole.iterations());
+  steps.reach(bound);
+  EXPECT_TRUE(steps.endsEarly());
+  EXPECT_TRUE(isSame(steps.steps(), whole.steps().subspan(1)));
+  EXPECT_EQ(steps.iterations(), whole.iterations());
+}
+
 TEST(ModifyShape, ClosedCurvesStillMeetWithAllDerivatives) {
   const auto bumpy = [](double f) {
     const double a = 2.0 * std::numbers::pi * f, r = 1.0 + 0.004 * std::sin(11.0 * a);
