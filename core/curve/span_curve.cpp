@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/hot_loop.h"
 #include "core/curve/foot_step.h"
 #include "core/solve/gauss_legendre.h"
 
@@ -62,6 +63,35 @@ class PartLength {
   }
   NodeValues slope_{};
 };
+
+/// Of a polynomial of degree p, its coefficients from the constant one on, and its derivatives: Horner for the Taylor
+/// coefficients at tau. The order is known to the compiler, so that all of them stay in registers.
+template <std::size_t kOrder>
+std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
+  std::array<Vec2, kOrder + 1> jet;
+  jet.fill(Vec2::Zero());
+  jet[0] = c[p];
+  for (std::size_t k = p; k-- > 0;) {
+    BATTEN_UNROLL
+    for (std::size_t d = kOrder; d >= 1; --d) jet[d] = jet[d] * tau + jet[d - 1];
+    jet[0] = jet[0] * tau + c[k];
+  }
+  double factor = 1.0;
+  BATTEN_UNROLL
+  for (std::size_t d = 1; d <= kOrder; ++d) {
+    factor *= static_cast<double>(d) * inverseWidth;
+    jet[d] *= factor;
+  }
+  return jet;
+}
+
+template <std::size_t kOrder>
+Jet jetAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
+  const auto low = taylorAt<kOrder>(c, p, tau, inverseWidth);
+  Jet jet;
+  for (std::size_t d = 0; d < jet.size(); ++d) jet[d] = d <= kOrder ? low[std::min(d, kOrder)] : Vec2(Vec2::Zero());
+  return jet;
+}
 
 }  // namespace
 
@@ -146,22 +176,19 @@ SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : bas
 Jet SpanCurve::at(const SpanPlace& place, int order) const {
   const std::size_t p = basis_->degree();
   const Vec2* c = &coefficients_[place.span * (p + 1)];
-  Jet jet;
-  jet.fill(Vec2::Zero());
-  jet[0] = c[p];
-  for (std::size_t k = p; k-- > 0;) {  // Horner for the Taylor coefficients at tau
-    for (int d = order; d >= 1; --d) {
-      jet[d] = jet[d] * place.tau + jet[d - 1];
-    }
-    jet[0] = jet[0] * place.tau + c[k];
-  }
   const double inverse = 1.0 / basis_->width(place.span);
-  double factor = 1.0;
-  for (int d = 1; d <= order; ++d) {
-    factor *= d * inverse;
-    jet[d] *= factor;
+  switch (order) {
+    case 0:
+      return jetAt<0>(c, p, place.tau, inverse);
+    case 1:
+      return jetAt<1>(c, p, place.tau, inverse);
+    case 2:
+      return jetAt<2>(c, p, place.tau, inverse);
+    case 3:
+      return jetAt<3>(c, p, place.tau, inverse);
+    default:
+      return jetAt<4>(c, p, place.tau, inverse);
   }
-  return jet;
 }
 
 double SpanCurve::speed(const SpanPlace& place) const {
@@ -218,9 +245,11 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
 SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
   const SpanBasis& basis = curve.basis();
   SpanPlace place = start;
+  const std::size_t p = basis.degree();
   for (int step = 0; step < 8; ++step) {
-    const Jet jet = curve.at(place, 2);
-    double move = footStep(jet[0] - point, jet[1], jet[2]) / basis.width(place.span);
+    const double width = basis.width(place.span);
+    const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
+    double move = footStep(jet[0] - point, jet[1], jet[2]) / width;
     if (!std::isfinite(move)) return place;
     move = std::clamp(move, -1.0, 1.0);
     SpanPlace next{place.span, place.tau + move};

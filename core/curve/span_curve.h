@@ -71,6 +71,10 @@ class SpanCurve {
   /// Derivatives up to `order` (0..4); those above are zero.
   Jet at(const SpanPlace& place, int order) const;
   double speed(const SpanPlace& place) const;
+  /// Those of the powers of the position 0..1 within the span, degree + 1 of them.
+  const Vec2* coefficients(int span) const {
+    return coefficients_.data() + std::ptrdiff_t{span} * (basis_->degree() + 1);
+  }
   /// No second derivative with respect to the position 0..1 within the span is longer: of the curve, and of its
   /// difference to another one over the same basis.
   double bendBound(int span) const;
