@@ -184,13 +184,14 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);
-  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths,
+  const BitImage rows = hasOwnLengths(params) ? BitImage(ink.width, ink.height) : findRows(*split, params, context);
+  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, &rows, params.minWidths,
                                   split->known.get(), page};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());
   split->known.reset();
   context.report(0.3);
-  found.blots = findBlots(*split, *lines, params.minWidths, context);
+  found.blots = findBlots(*split, *lines, rows, params.minWidths, context);
   const bool dropsFaint = edges.mode == EdgeMode::Automatic && !hasOwnLengths(params);
   const int faint = dropsFaint ? dropFaint(found, *split, *lines, ink, grey, edges, context) : 0;
   if (edges.mode == EdgeMode::Centreline) {
@@ -203,7 +204,8 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   const bool isPaintedInVain = split->painted && both(found.blots, *split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
-  const auto grainy = split->pencil ? std::optional(without(BitImage(split->pencil->ink), found.blots)) : std::nullopt;
+  const auto grainy =
+      split->pencil ? std::optional(without(without(BitImage(split->pencil->ink), found.blots), rows)) : std::nullopt;
   int texture = 0;
   if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
     EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);

@@ -5,7 +5,9 @@
 #include <new>
 #include <vector>
 
+#include "core/image/bits/bit_steps.h"
 #include "core/image/bits/faint_lines.h"
+#include "core/image/bits/mark_rows.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/threshold/level_masks.h"
 
@@ -14,6 +16,17 @@ namespace {
 
 /// A speck of the default 20 px has a box of 8 px across; other areas in proportion.
 constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;
+constexpr int kRowShare = 4;  // a mark that lies in a row may be so many times smaller than a speck
+
+/// The dashes and dots of broken lines among the specks that were dropped. @param all what was ink before.
+BitImage rowsOfSpecks(const BitImage& all, const BitImage& certain, const BitImage& ink, int area,
+                      const RunContext& context) {
+  const PieceRule least{.minArea = (area + kRowShare - 1) / kRowShare, .seeds = &certain};
+  const BitImage specks = without(all, ink);
+  const BitImage marks = keepPieces(specks, least, context);
+  if (context.isCancelled() || marks.count() == 0) return BitImage(ink.width, ink.height);
+  return marksInRows(marks, either(ink, marks), context);
+}
 
 BitImage withoutNoiseHoles(BitImage ink, int area, const RunContext& context) {
   BitImage filled = ink;
@@ -35,13 +48,16 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (context.isCancelled()) return cancelled();
     LevelMasks masks = compareWithLevels(folds.empty() ? image : flat, thresholds, params, context);
     if (context.isCancelled()) return cancelled();
-    BitImage ink = std::move(masks.ink);
+    BitImage ink = masks.ink;
     if (params.speckArea > 0) {
       const double diagonal = kDiagonalPerRootArea * std::sqrt(static_cast<double>(params.speckArea));
       ink = keepPieces(ink, {.minArea = params.speckArea, .minDiagonal = diagonal, .seeds = &*masks.certain}, context);
     }
     if (context.isCancelled()) return cancelled();
     if (params.reach < 1.0) ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
+    if (context.isCancelled()) return cancelled();
+    if (params.speckArea > 0)
+      ink = either(std::move(ink), rowsOfSpecks(masks.ink, *masks.certain, ink, params.speckArea, context));
     if (context.isCancelled()) return cancelled();
     if (!thresholds.holesArePaper) ink = withoutNoiseHoles(std::move(ink), params.holeArea, context);
     if (context.isCancelled()) return cancelled();

@@ -11,6 +11,7 @@
 #include "core/contour/chosen_ink.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
+#include "core/image/bits/mark_rows.h"
 #include "core/image/bits/page_margins.h"
 #include "core/image/bits/run_pieces.h"
 
@@ -79,7 +80,16 @@ BitImage penFillings(const BitImage& ink, const BitImage& swellings, std::option
 
 }  // namespace
 
-BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
+BitImage findRows(const InkSplit& split, const ContourParams& params, const RunContext& context) {
+  constexpr double kLongest = 1.5;  // times the shortest line: its box also holds its width
+  const double shortest = std::max(params.minLengthPx, params.minWidths * split.penPx.value_or(0.0));
+  const BitImage brief =
+      without(split.strokes, keepPieces(split.strokes, {.minDiagonal = kLongest * shortest}, context));
+  return marksInRows(brief, either(split.strokes, split.shapes), context);
+}
+
+BitImage findBlots(const InkSplit& split, const ContourSet& lines, const BitImage& rows, double minWidths,
+                   const RunContext& context) {
   constexpr double kBlotWidths = 3.0;    // [stroke widths] shorter ink has no direction
   constexpr double kBesideLinePx = 1.5;  // the pixel of a place and its eight neighbours
   BitImage ink = split.strokes;
@@ -102,7 +112,8 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
   std::vector<InkRun> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const InkRun& run = pieces.runs[i];
-    if (countBits(beside, run) > 0 || (grainy && countBits(*grainy, run) > 0)) hasLine[pieces.piece[i]] = true;
+    const bool isGrain = grainy && countBits(*grainy, run) > 0 && countBits(rows, run) == 0;
+    if (countBits(beside, run) > 0 || isGrain) hasLine[pieces.piece[i]] = true;
     InkRun& b = box[pieces.piece[i]];
     b = pieces.piece[i] == static_cast<int>(i) ? run : InkRun{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
     const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);

@@ -14,8 +14,12 @@ namespace batten {
 
 /// Pieces of stroke ink that no line follows. What a pencil drew is one only where it is wider than its strokes: the
 /// rest are specks. What the user wants to be longer is a short line.
+/// @param rows dots of broken lines, which are no specks.
 /// @param minWidths ContourParams::minWidths.
-BitImage findBlots(const InkSplit&, const ContourSet& lines, double minWidths, const RunContext&);
+BitImage findBlots(const InkSplit&, const ContourSet& lines, const BitImage& rows, double minWidths, const RunContext&);
+
+/// What may be the dashes and dots of broken lines: strokes too short to be kept by themselves, in rows.
+BitImage findRows(const InkSplit&, const ContourParams&, const RunContext&);
 
 /// Places of pen strokes that are wider than the pen, and that the lines with their widths leave out: what strokes
 /// enclose and fill, knots, scribbles. Ink that two strokes across each other could hold is none. Up to the strokes,

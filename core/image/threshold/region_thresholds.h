@@ -36,7 +36,8 @@ struct ThresholdParams {
                        ///< as in the papers.
   double reach = 0.0;  ///< [-] 0..1. Share of the minimum contrast of ink that thin, long faint lines need; smaller
                        ///< keeps fainter ones, 1 = ink as it is, 0 = chosen by the program.
-  int speckArea = 20;  ///< [px] >= 0. Smaller pieces of ink are specks and are dropped; 0 keeps all.
+  int speckArea = 20;  ///< [px] >= 0. Smaller pieces of ink are specks and are dropped, but for those of
+                       ///< a quarter of it that lie in rows; 0 keeps all.
   int holeArea = 10;   ///< [px] >= 0. Smaller holes inside ink are filled; 0 keeps all.
   /// [grey 0..255] The user's own thresholds on the scan's scale, at the region's centre; absent = automatic.
   std::array<std::optional<double>, kRegions> grid{};

@@ -321,7 +321,8 @@ void appendBinary(std::vector<Parameter>& table) {
   table.push_back(integer(
       kBinary,
       {"threshold.speck_area", "Drop specks below", "px²",
-       "Ink components with a smaller area are dropped as dirt. Larger drops more; 0 keeps all."},
+       "Ink components with a smaller area are dropped as dirt, but for dashes and dots in a row. Larger drops more; "
+       "0 keeps all."},
       {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.threshold.speckArea; }));
   table.push_back(integer(
       kBinary,

@@ -174,7 +174,7 @@ TEST(PencilSolids, TheMarginOfThePageIsNoMark) {
   fill(split.strokes, 40, 40, 56, 56);
   split.pencil = PencilInk{split.strokes, split.strokes, 5.0};
   split.penPx = 5.0;
-  const BitImage found = findBlots(split, {}, 3.0, {});
+  const BitImage found = findBlots(split, {}, BitImage(200, 100), 3.0, {});
   EXPECT_TRUE(found.at(48, 48));
   EXPECT_FALSE(found.at(160, 5));
 }

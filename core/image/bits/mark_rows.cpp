@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/bits/mark_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/parallel.h"
+#include "core/base/vec2.h"
+#include "core/image/bits/run_pieces.h"
+
+namespace batten {
+namespace {
+
+constexpr int kDirections = 24;             // over half a turn; a mark is met half a step aside
+constexpr double kNoBroader = 1.6;          // times as broad, and a pixel of the raster
+constexpr double kAlongAcross = 1.25;       // a mark is no broader than this part of its length, and half a pixel
+constexpr double kGapsAlike = 3.0;          // times as wide, and a pixel
+constexpr int kDirectionsAlike = 2;         // steps from mark to mark
+constexpr double kLeastGapWidths = 0.75;    // nearer pieces are the grain of a stroke
+constexpr int kLeastMembers = 3;            // of a row
+constexpr double kLeastLengthWidths = 2.0;  // a dot's gap is measured by this many of its widths
+constexpr std::int64_t kMostMarkPx = 4096;  // a larger piece is no mark
+constexpr int kMarksPerLook = 16;           // one part of the work of the threads
+
+struct Mark {
+  int piece = 0;             // index of its first run
+  std::vector<Vec2> pixels;  // centres
+  Vec2 middle = Vec2::Zero();
+};
+
+// What lies on one side of a mark.
+struct Neighbour {
+  double gapPx = 0.0;
+  std::optional<int> piece;  // of another mark; absent: the end of longer ink
+  Vec2 at = Vec2::Zero();    // its first pixel
+};
+
+struct Member {
+  int direction = 0;
+  std::array<std::optional<Neighbour>, 2> side;
+  bool hasBoth() const { return side[0] && side[1]; }
+};
+
+std::vector<Mark> marksOf(const RunPieces& pieces) {
+  std::map<int, Mark> byPiece;
+  std::map<int, std::int64_t> areas;
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) areas[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    if (areas[pieces.piece[i]] > kMostMarkPx) continue;
+    Mark& mark = byPiece[pieces.piece[i]];
+    mark.piece = pieces.piece[i];
+    for (int x = pieces.runs[i].x0; x < pieces.runs[i].x1; ++x)
+      mark.pixels.emplace_back(x + 0.5, pieces.runs[i].y + 0.5);
+  }
+  std::vector<Mark> marks;
+  for (auto& [piece, mark] : byPiece) {
+    for (const Vec2& p : mark.pixels) mark.middle += p / static_cast<double>(mark.pixels.size());
+    marks.push_back(std::move(mark));
+  }
+  return marks;
+}
+
+Vec2 unitOf(int direction) {
+  const double angle = direction * std::numbers::pi / kDirections;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+bool isInk(const BitImage& ink, const Vec2& at) {
+  return ink.at(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
+}
+
+class RowSearch {
+ public:
+  RowSearch(const RunPieces& pieces, const BitImage& ink) : pieces_(pieces), ink_(ink) {}
+
+  // The member that a mark is of a row; absent: it has no neighbour in any direction. Two neighbours are better than
+  // one, and near ones better than far ones.
+  std::optional<Member> memberOf(const Mark& mark) const {
+    std::optional<Member> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kDirections; ++k) {
+      const std::optional<Member> found = along(mark, k);
+      if (!found) continue;
+      double gaps = 0.0;
+      for (const auto& side : found->side) gaps += side ? side->gapPx : 0.0;
+      const bool isBetter = !best || (found->hasBoth() && !best->hasBoth());
+      if (!isBetter && (found->hasBoth() != best->hasBoth() || gaps >= least)) continue;
+      best = found;
+      least = gaps;
+    }
+    return best;
+  }
+
+ private:
+  std::optional<Member> along(const Mark& mark, int direction) const {
+    const Vec2 u = unitOf(direction), v(-u.y(), u.x());
+    double from = 0.0, to = 0.0, left = 0.0, right = 0.0;
+    for (const Vec2& p : mark.pixels) {
+      const Vec2 off = p - mark.middle;
+      from = std::min(from, off.dot(u)), to = std::max(to, off.dot(u));
+      right = std::min(right, off.dot(v)), left = std::max(left, off.dot(v));
+    }
+    const double lengthPx = to - from + 1.0, widthPx = left - right + 1.0;
+    if (widthPx > kAlongAcross * lengthPx + 0.5) return std::nullopt;
+    const double reachPx = kMostMarkGap * std::max(lengthPx, kLeastLengthWidths * widthPx);
+    Member member{direction, {}};
+    member.side[0] = neighbour(mark, -u, -from, reachPx, widthPx);
+    member.side[1] = neighbour(mark, u, to, reachPx, widthPx);
+    if (!member.side[0] && !member.side[1]) return std::nullopt;
+    if (member.hasBoth()) {
+      const double a = member.side[0]->gapPx, b = member.side[1]->gapPx;
+      if (std::max(a, b) > kGapsAlike * std::min(a, b) + 1.0) return std::nullopt;
+    }
+    return member;
+  }
+
+  std::optional<Neighbour> neighbour(const Mark& mark, const Vec2& u, double beginPx, double reachPx,
+                                     double widthPx) const {
+    constexpr double kStepPx = 0.5, kInsidePx = 1.0;  // along the way; into the ink that is met
+    for (double gap = kStepPx; gap <= reachPx; gap += kStepPx) {
+      const Vec2 at = mark.middle + (beginPx + 0.5 + gap) * u;
+      if (!isInk(ink_, at)) continue;
+      const auto piece = pieceAt(pieces_, static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
+      if (piece == mark.piece) return std::nullopt;  // it bends
+      if (gap < kLeastGapWidths * widthPx) return std::nullopt;
+      if (!isNarrow(at + kInsidePx * u, u, kNoBroader * widthPx + 1.0)) return std::nullopt;
+      return Neighbour{gap, piece, at};
+    }
+    return std::nullopt;
+  }
+
+  // Whether the ink at a place is no broader than this across a direction: the end of something that lies along it, and
+  // not the side of a line that is met askew.
+  bool isNarrow(const Vec2& at, const Vec2& u, double mostPx) const {
+    constexpr int kAngles = 8;  // of half a turn
+    const Vec2 v(-u.y(), u.x());
+    for (int k = 1; k < kAngles; ++k) {
+      const double angle = k * std::numbers::pi / kAngles;
+      const Vec2 askew = std::cos(angle) * u + std::sin(angle) * v;
+      const double most = mostPx / std::sin(angle);
+      double chordPx = 0.0;
+      for (const double side : {-1.0, 1.0})
+        for (double off = 0.5; off <= most && isInk(ink_, at + side * off * askew); off += 0.5) chordPx += 0.5;
+      if (chordPx > most) return false;
+    }
+    return true;
+  }
+
+  const RunPieces& pieces_;
+  const BitImage& ink_;
+};
+
+bool areAlike(int a, int b) {
+  const int step = std::abs(a - b);
+  return std::min(step, kDirections - step) <= kDirectionsAlike;
+}
+
+}  // namespace
+
+BitImage marksInRows(const BitImage& marks, const BitImage& ink, const RunContext& context) {
+  BitImage kept(ink.width, ink.height);
+  const RunPieces pieces = findPieces(marks, Connectivity::Eight, context);
+  if (pieces.runs.empty() || context.isCancelled()) return kept;
+  const std::vector<Mark> all = marksOf(pieces);
+  std::vector<std::optional<Member>> members(all.size());
+  const RowSearch search(pieces, ink);
+  parallelFor(context, static_cast<int>(all.size()), kMarksPerLook, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) members[i] = search.memberOf(all[i]);
+  });
+  std::map<int, int> byPiece;
+  for (int i = 0; i < std::ssize(all); ++i) byPiece[all[i].piece] = i;
+  // Neighbours that lie in one direction are of one row; the last of it has been met by the one before it.
+  DisjointSets rows(static_cast<int>(all.size()));
+  std::vector<int> ends(all.size(), 0);
+  const auto neighbourOf = [&](const Neighbour& n) -> std::optional<int> {
+    const auto found = n.piece ? byPiece.find(*n.piece) : byPiece.end();
+    return found == byPiece.end() ? std::nullopt : std::optional(found->second);
+  };
+  std::vector<bool> isMember(all.size(), false);
+  for (int i = 0; i < std::ssize(all); ++i) {
+    if (!members[i] || !members[i]->hasBoth()) continue;
+    isMember[i] = true;
+    for (const auto& side : members[i]->side) {
+      const std::optional<int> other = neighbourOf(*side);
+      if (!other) {
+        ++ends[i];
+        continue;
+      }
+      const std::optional<Member>& its = members[*other];
+      if (!its || !areAlike(its->direction, members[i]->direction)) continue;
+      isMember[*other] = true;
+      rows.join(i, *other);
+    }
+  }
+  std::vector<int> size(all.size(), 0);
+  for (int i = 0; i < std::ssize(all); ++i)
+    if (isMember[i]) size[rows.root(i)] += 1 + ends[i];
+  for (std::size_t r = 0; r < pieces.runs.size(); ++r) {
+    const auto found = byPiece.find(pieces.piece[r]);
+    if (found != byPiece.end() && isMember[found->second] && size[rows.root(found->second)] >= kLeastMembers)
+      setBits(kept, pieces.runs[r]);
+  }
+  return kept;
+}
+
+}  // namespace batten

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Dashes and dots of broken lines are told from dirt by their rows.
+#include "core/image/bits/mark_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/base/vec2.h"
+#include "core/image/bits/bit_steps.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSide = 320;
+const Vec2 kMiddle(160.0, 160.0);
+
+/// A rectangle `length` x `width` around a place, turned by an angle.
+void drawDash(BitImage& image, const Vec2& at, double angle, double length, double width) {
+  const Vec2 u(std::cos(angle), std::sin(angle)), v(-u.y(), u.x());
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Vec2 off = Vec2(x + 0.5, y + 0.5) - at;
+      if (std::abs(off.dot(u)) <= 0.5 * length && std::abs(off.dot(v)) <= 0.5 * width) image.set(x, y, true);
+    }
+  }
+}
+
+/// Dashes 9 px long, 3 px wide and 15 px apart, a line through the middle of the page.
+BitImage dashedLine(double angle, int count) {
+  BitImage marks(kSide, kSide);
+  const Vec2 u(std::cos(angle), std::sin(angle));
+  for (int i = 0; i < count; ++i) drawDash(marks, kMiddle + 15.0 * (i - 0.5 * (count - 1)) * u, angle, 9.0, 3.0);
+  return marks;
+}
+
+TEST(MarkRows, ADashedLineStaysWhole) {
+  for (int degrees = 0; degrees < 180; degrees += 15) {
+    const BitImage marks = dashedLine(degrees * std::numbers::pi / 180.0, 7);
+    EXPECT_EQ(marksInRows(marks, marks, {}), marks) << degrees << " degrees";
+  }
+}
+
+TEST(MarkRows, TwoDashesAreNoRow) {
+  const BitImage marks = dashedLine(0.4, 2);
+  EXPECT_EQ(marksInRows(marks, marks, {}).count(), 0);
+}
+
+TEST(MarkRows, ADotBetweenTheEndsOfTwoLinesIsPartOfThem) {
+  BitImage marks(kSide, kSide), lines(kSide, kSide);
+  drawDash(marks, kMiddle, 0.0, 4.0, 4.0);
+  drawDash(lines, kMiddle - Vec2(60.0, 0.0), 0.0, 100.0, 4.0);
+  drawDash(lines, kMiddle + Vec2(60.0, 0.0), 0.0, 100.0, 4.0);
+  EXPECT_EQ(marksInRows(marks, either(lines, marks), {}), marks);
+}
+
+TEST(MarkRows, ADotBetweenTwoParallelLinesIsDirt) {
+  BitImage marks(kSide, kSide), lines(kSide, kSide);
+  drawDash(marks, kMiddle, 0.0, 4.0, 4.0);
+  drawDash(lines, kMiddle - Vec2(0.0, 10.0), 0.0, 200.0, 4.0);
+  drawDash(lines, kMiddle + Vec2(0.0, 10.0), 0.0, 200.0, 4.0);
+  EXPECT_EQ(marksInRows(marks, either(lines, marks), {}).count(), 0);
+}
+
+TEST(MarkRows, ScatteredDirtIsDropped) {
+  std::mt19937 random(5);
+  BitImage marks(1000, 1000);
+  const int count = 500;  // one on 2000 px
+  for (int i = 0; i < count; ++i) {
+    const int x = 5 + static_cast<int>(random() % 990), y = 5 + static_cast<int>(random() % 990);
+    for (int dy = 0; dy < 3; ++dy)
+      for (int dx = 0; dx < 3; ++dx) marks.set(x + dx, y + dy, true);
+  }
+  const BitImage kept = marksInRows(marks, marks, {});
+  EXPECT_LT(static_cast<double>(kept.count()), 0.1 * static_cast<double>(marks.count()));
+}
+
+TEST(MarkRows, TheSameWithAnyNumberOfThreads) {
+  std::mt19937 random(9);
+  BitImage marks(600, 600);
+  for (int i = 0; i < 900; ++i) marks.set(static_cast<int>(random() % 600), static_cast<int>(random() % 600), true);
+  RunContext one, four;
+  one.threads = 1;
+  four.threads = 4;
+  EXPECT_EQ(marksInRows(marks, marks, one), marksInRows(marks, marks, four));
+}
+
+}  // namespace
+}  // namespace batten
