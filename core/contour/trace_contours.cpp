@@ -184,7 +184,8 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);
-  const BitImage rows = hasOwnLengths(params) ? BitImage(ink.width, ink.height) : findRows(*split, params, context);
+  const BitImage rows =
+      hasOwnLengths(params) ? BitImage(ink.width, ink.height) : findRows(*split, params.minWidths, context);
   const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, &rows, params.minWidths,
                                   split->known.get(), page};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);

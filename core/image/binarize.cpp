@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "core/image/bits/bit_steps.h"
@@ -18,14 +19,13 @@ namespace {
 constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;
 constexpr int kRowShare = 4;  // a mark that lies in a row may be so many times smaller than a speck
 
-/// The dashes and dots of broken lines among the specks that were dropped. @param all what was ink before.
-BitImage rowsOfSpecks(const BitImage& all, const BitImage& certain, const BitImage& ink, int area,
-                      const RunContext& context) {
+/// The ink with the dashes and dots of broken lines among the specks that were dropped. @param all what was ink before.
+BitImage withRows(BitImage ink, const BitImage& all, const BitImage& certain, int area, const RunContext& context) {
   const PieceRule least{.minArea = (area + kRowShare - 1) / kRowShare, .seeds = &certain};
-  const BitImage specks = without(all, ink);
-  const BitImage marks = keepPieces(specks, least, context);
-  if (context.isCancelled() || marks.count() == 0) return BitImage(ink.width, ink.height);
-  return marksInRows(marks, either(ink, marks), context);
+  const BitImage marks = keepPieces(without(all, ink), least, context);
+  if (context.isCancelled() || marks.count() == 0) return ink;
+  const BitImage rows = marksInRows(marks, either(ink, marks), context);
+  return either(std::move(ink), rows);
 }
 
 BitImage withoutNoiseHoles(BitImage ink, int area, const RunContext& context) {
@@ -56,8 +56,7 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (context.isCancelled()) return cancelled();
     if (params.reach < 1.0) ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
     if (context.isCancelled()) return cancelled();
-    if (params.speckArea > 0)
-      ink = either(std::move(ink), rowsOfSpecks(masks.ink, *masks.certain, ink, params.speckArea, context));
+    if (params.speckArea > 0) ink = withRows(std::move(ink), masks.ink, *masks.certain, params.speckArea, context);
     if (context.isCancelled()) return cancelled();
     if (!thresholds.holesArePaper) ink = withoutNoiseHoles(std::move(ink), params.holeArea, context);
     if (context.isCancelled()) return cancelled();

@@ -80,11 +80,10 @@ BitImage penFillings(const BitImage& ink, const BitImage& swellings, std::option
 
 }  // namespace
 
-BitImage findRows(const InkSplit& split, const ContourParams& params, const RunContext& context) {
+BitImage findRows(const InkSplit& split, double minWidths, const RunContext& context) {
   constexpr double kLongest = 1.5;  // times the shortest line: its box also holds its width
-  const double shortest = std::max(params.minLengthPx, params.minWidths * split.penPx.value_or(0.0));
-  const BitImage brief =
-      without(split.strokes, keepPieces(split.strokes, {.minDiagonal = kLongest * shortest}, context));
+  const double longest = kLongest * (minWidths * split.penPx.value_or(0.0));
+  const BitImage brief = without(split.strokes, keepPieces(split.strokes, {.minDiagonal = longest}, context));
   return marksInRows(brief, either(split.strokes, split.shapes), context);
 }
 

@@ -19,7 +19,8 @@ namespace batten {
 BitImage findBlots(const InkSplit&, const ContourSet& lines, const BitImage& rows, double minWidths, const RunContext&);
 
 /// What may be the dashes and dots of broken lines: strokes too short to be kept by themselves, in rows.
-BitImage findRows(const InkSplit&, const ContourParams&, const RunContext&);
+/// @param minWidths ContourParams::minWidths.
+BitImage findRows(const InkSplit&, double minWidths, const RunContext&);
 
 /// Places of pen strokes that are wider than the pen, and that the lines with their widths leave out: what strokes
 /// enclose and fill, knots, scribbles. Ink that two strokes across each other could hold is none. Up to the strokes,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -30,16 +30,19 @@ constexpr std::int64_t kMostMarkPx = 4096;  // a larger piece is no mark
 constexpr int kMarksPerLook = 16;           // one part of the work of the threads
 
 struct Mark {
-  int piece = 0;             // index of its first run
   std::vector<Vec2> pixels;  // centres
   Vec2 middle = Vec2::Zero();
+};
+
+struct Marks {
+  std::vector<Mark> all;
+  std::vector<std::optional<int>> ofPiece;  // index into `all`, by the first run of the piece
 };
 
 // What lies on one side of a mark.
 struct Neighbour {
   double gapPx = 0.0;
-  std::optional<int> piece;  // of another mark; absent: the end of longer ink
-  Vec2 at = Vec2::Zero();    // its first pixel
+  std::optional<int> mark;  // absent: the end of longer ink
 };
 
 struct Member {
@@ -48,22 +51,23 @@ struct Member {
   bool hasBoth() const { return side[0] && side[1]; }
 };
 
-std::vector<Mark> marksOf(const RunPieces& pieces) {
-  std::map<int, Mark> byPiece;
-  std::map<int, std::int64_t> areas;
+Marks marksOf(const RunPieces& pieces) {
+  Marks marks;
+  std::vector<std::int64_t> areas(pieces.runs.size(), 0);
+  marks.ofPiece.resize(pieces.runs.size());
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) areas[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (areas[pieces.piece[i]] > kMostMarkPx) continue;
-    Mark& mark = byPiece[pieces.piece[i]];
-    mark.piece = pieces.piece[i];
-    for (int x = pieces.runs[i].x0; x < pieces.runs[i].x1; ++x)
-      mark.pixels.emplace_back(x + 0.5, pieces.runs[i].y + 0.5);
+    std::optional<int>& index = marks.ofPiece[pieces.piece[i]];
+    if (!index) {
+      index = static_cast<int>(marks.all.size());
+      marks.all.emplace_back();
+    }
+    const InkRun& run = pieces.runs[i];
+    for (int x = run.x0; x < run.x1; ++x) marks.all[*index].pixels.emplace_back(x + 0.5, run.y + 0.5);
   }
-  std::vector<Mark> marks;
-  for (auto& [piece, mark] : byPiece) {
+  for (Mark& mark : marks.all)
     for (const Vec2& p : mark.pixels) mark.middle += p / static_cast<double>(mark.pixels.size());
-    marks.push_back(std::move(mark));
-  }
   return marks;
 }
 
@@ -78,11 +82,12 @@ bool isInk(const BitImage& ink, const Vec2& at) {
 
 class RowSearch {
  public:
-  RowSearch(const RunPieces& pieces, const BitImage& ink) : pieces_(pieces), ink_(ink) {}
+  RowSearch(const RunPieces& pieces, const Marks& marks, const BitImage& ink)
+      : pieces_(pieces), marks_(marks), ink_(ink) {}
 
   // The member that a mark is of a row; absent: it has no neighbour in any direction. Two neighbours are better than
   // one, and near ones better than far ones.
-  std::optional<Member> memberOf(const Mark& mark) const {
+  std::optional<Member> memberOf(int mark) const {
     std::optional<Member> best;
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kDirections; ++k) {
@@ -99,8 +104,9 @@ class RowSearch {
   }
 
  private:
-  std::optional<Member> along(const Mark& mark, int direction) const {
-    const Vec2 u = unitOf(direction), v(-u.y(), u.x());
+  std::optional<Member> along(int index, int direction) const {
+    const Mark& mark = marks_.all[index];
+    const Vec2 u = unitOf(direction), v = leftNormal(u);
     double from = 0.0, to = 0.0, left = 0.0, right = 0.0;
     for (const Vec2& p : mark.pixels) {
       const Vec2 off = p - mark.middle;
@@ -111,8 +117,8 @@ class RowSearch {
     if (widthPx > kAlongAcross * lengthPx + 0.5) return std::nullopt;
     const double reachPx = kMostMarkGap * std::max(lengthPx, kLeastLengthWidths * widthPx);
     Member member{direction, {}};
-    member.side[0] = neighbour(mark, -u, -from, reachPx, widthPx);
-    member.side[1] = neighbour(mark, u, to, reachPx, widthPx);
+    member.side[0] = neighbour(index, -u, -from, reachPx, widthPx);
+    member.side[1] = neighbour(index, u, to, reachPx, widthPx);
     if (!member.side[0] && !member.side[1]) return std::nullopt;
     if (member.hasBoth()) {
       const double a = member.side[0]->gapPx, b = member.side[1]->gapPx;
@@ -121,17 +127,17 @@ class RowSearch {
     return member;
   }
 
-  std::optional<Neighbour> neighbour(const Mark& mark, const Vec2& u, double beginPx, double reachPx,
-                                     double widthPx) const {
+  std::optional<Neighbour> neighbour(int index, const Vec2& u, double beginPx, double reachPx, double widthPx) const {
     constexpr double kStepPx = 0.5, kInsidePx = 1.0;  // along the way; into the ink that is met
     for (double gap = kStepPx; gap <= reachPx; gap += kStepPx) {
-      const Vec2 at = mark.middle + (beginPx + 0.5 + gap) * u;
+      const Vec2 at = marks_.all[index].middle + (beginPx + 0.5 + gap) * u;
       if (!isInk(ink_, at)) continue;
       const auto piece = pieceAt(pieces_, static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
-      if (piece == mark.piece) return std::nullopt;  // it bends
+      const std::optional<int> mark = piece ? marks_.ofPiece[*piece] : std::nullopt;
+      if (mark == index) return std::nullopt;  // it bends
       if (gap < kLeastGapWidths * widthPx) return std::nullopt;
       if (!isNarrow(at + kInsidePx * u, u, kNoBroader * widthPx + 1.0)) return std::nullopt;
-      return Neighbour{gap, piece, at};
+      return Neighbour{gap, mark};
     }
     return std::nullopt;
   }
@@ -140,7 +146,7 @@ class RowSearch {
   // not the side of a line that is met askew.
   bool isNarrow(const Vec2& at, const Vec2& u, double mostPx) const {
     constexpr int kAngles = 8;  // of half a turn
-    const Vec2 v(-u.y(), u.x());
+    const Vec2 v = leftNormal(u);
     for (int k = 1; k < kAngles; ++k) {
       const double angle = k * std::numbers::pi / kAngles;
       const Vec2 askew = std::cos(angle) * u + std::sin(angle) * v;
@@ -154,6 +160,7 @@ class RowSearch {
   }
 
   const RunPieces& pieces_;
+  const Marks& marks_;
   const BitImage& ink_;
 };
 
@@ -168,44 +175,37 @@ BitImage marksInRows(const BitImage& marks, const BitImage& ink, const RunContex
   BitImage kept(ink.width, ink.height);
   const RunPieces pieces = findPieces(marks, Connectivity::Eight, context);
   if (pieces.runs.empty() || context.isCancelled()) return kept;
-  const std::vector<Mark> all = marksOf(pieces);
-  std::vector<std::optional<Member>> members(all.size());
-  const RowSearch search(pieces, ink);
-  parallelFor(context, static_cast<int>(all.size()), kMarksPerLook, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) members[i] = search.memberOf(all[i]);
+  const Marks found = marksOf(pieces);
+  const int count = static_cast<int>(found.all.size());
+  std::vector<std::optional<Member>> members(count);
+  const RowSearch search(pieces, found, ink);
+  parallelFor(context, count, kMarksPerLook, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) members[i] = search.memberOf(i);
   });
-  std::map<int, int> byPiece;
-  for (int i = 0; i < std::ssize(all); ++i) byPiece[all[i].piece] = i;
   // Neighbours that lie in one direction are of one row; the last of it has been met by the one before it.
-  DisjointSets rows(static_cast<int>(all.size()));
-  std::vector<int> ends(all.size(), 0);
-  const auto neighbourOf = [&](const Neighbour& n) -> std::optional<int> {
-    const auto found = n.piece ? byPiece.find(*n.piece) : byPiece.end();
-    return found == byPiece.end() ? std::nullopt : std::optional(found->second);
-  };
-  std::vector<bool> isMember(all.size(), false);
-  for (int i = 0; i < std::ssize(all); ++i) {
+  DisjointSets rows(count);
+  std::vector<int> ends(count, 0);
+  std::vector<bool> isMember(count, false);
+  for (int i = 0; i < count; ++i) {
     if (!members[i] || !members[i]->hasBoth()) continue;
     isMember[i] = true;
     for (const auto& side : members[i]->side) {
-      const std::optional<int> other = neighbourOf(*side);
-      if (!other) {
+      if (!side->mark) {
         ++ends[i];
         continue;
       }
-      const std::optional<Member>& its = members[*other];
-      if (!its || !areAlike(its->direction, members[i]->direction)) continue;
-      isMember[*other] = true;
-      rows.join(i, *other);
+      const std::optional<Member>& other = members[*side->mark];
+      if (!other || !areAlike(other->direction, members[i]->direction)) continue;
+      isMember[*side->mark] = true;
+      rows.join(i, *side->mark);
     }
   }
-  std::vector<int> size(all.size(), 0);
-  for (int i = 0; i < std::ssize(all); ++i)
+  std::vector<int> size(count, 0);
+  for (int i = 0; i < count; ++i)
     if (isMember[i]) size[rows.root(i)] += 1 + ends[i];
   for (std::size_t r = 0; r < pieces.runs.size(); ++r) {
-    const auto found = byPiece.find(pieces.piece[r]);
-    if (found != byPiece.end() && isMember[found->second] && size[rows.root(found->second)] >= kLeastMembers)
-      setBits(kept, pieces.runs[r]);
+    const std::optional<int> mark = found.ofPiece[pieces.piece[r]];
+    if (mark && isMember[*mark] && size[rows.root(*mark)] >= kLeastMembers) setBits(kept, pieces.runs[r]);
   }
   return kept;
 }
