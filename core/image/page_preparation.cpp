@@ -19,6 +19,7 @@
 #include "core/image/sheet_cells.h"
 #include "core/image/threshold/region_values.h"
 #include "core/image/tone_areas.h"
+#include "core/image/without_tones.h"
 
 namespace batten {
 namespace {

@@ -14,18 +14,21 @@
 namespace batten {
 namespace {
 
-constexpr int kLongestSidePx = 1750;    // of the copy that is searched, which has half of that at least
-constexpr double kAroundTone = 1.2;     // of the longest tone: the window in which its paper is seen
-constexpr double kDarkestTone = 190.0;  // [of 255] darkness on which nothing darker could be drawn
-constexpr double kMostOfLines = 0.85;   // of the darkness of the lines on it: what is as dark is a solid
-constexpr double kDarkLines = 0.75;     // quantile of the darkness of the lines on an area
-constexpr double kSharp = 0.6;          // of the tone's darkness, within a brush: more gradual is a fade
-constexpr double kMostBare = 0.4;       // of the border sharp and without a line: more is a shape
-constexpr double kMostGrain = 0.35;     // of the area inside darker than its ground: more is hatching or grain
-constexpr double kLeastLined = 0.3;     // of the border along lines: less is no area that somebody drew lines around
-constexpr double kLeastRadius = 2.0;    // [brushes] of the largest circle inside
-constexpr int kBlurPx = 1;              // that a line is blurred over its border, on the copy
-constexpr int kEdgePx = 2;              // beyond a solid: its blurred edge
+constexpr int kLongestSidePx = 1750;       // of the copy that is searched, which has half of that at least
+constexpr double kAroundTone = 1.2;        // of the longest tone: the window in which its paper is seen
+constexpr double kDarkestTone = 190.0;     // [of 255] darkness on which nothing darker could be drawn
+constexpr double kMostOfLines = 0.85;      // of the darkness of the lines on it: what is as dark is a solid
+constexpr double kDarkLines = 0.75;        // quantile of the darkness of the lines on an area
+constexpr double kSharp = 0.6;             // of the tone's darkness, within a brush: more gradual is a fade
+constexpr double kMostBare = 0.7;          // of the border sharp and without a line: more is a shape
+constexpr double kLeastBarePiece = 4.0;    // [brushes] of a bare border that becomes a line
+constexpr double kGrainQuantile = 0.9;     // of the depth below the ground beside the lines
+constexpr double kMostGrainDepth = 0.375;  // [darkness of lines] what the grain may become: below their half level
+constexpr double kMostGrain = 0.35;        // of the area inside darker than its ground: more is hatching or grain
+constexpr double kLeastLined = 0.3;        // of the border along lines: less is no area that somebody drew lines around
+constexpr double kLeastRadius = 2.0;       // [brushes] of the largest circle inside
+constexpr int kBlurPx = 1;                 // that a line is blurred over its border, on the copy
+constexpr int kEdgePx = 2;                 // beyond a solid: its blurred edge
 constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
 constexpr std::uint8_t kClearGround = 217;     // [of 255] seen to be shaded
 
@@ -47,26 +50,38 @@ enum class AreaKind {
   Unclear,  ///< Narrow: it goes with the tone that it is part of, if any.
 };
 
+/// What is known of an area of ink.
+struct Area {
+  AreaKind kind = AreaKind::Solid;
+  cv::Mat1b bare;         ///< Of a tone: its border where that is sharp and without a line.
+  double mostGain = 0.0;  ///< Of a tone: see ToneAreas.
+};
+
 /// What an area of ink is that is nowhere darker than kDarkestTone. @param area not 0 inside; the pictures are cut to a
 /// box around it.
-AreaKind kindOf(const cv::Mat1b& area, const ToneLook& look) {
+Area areaOf(const cv::Mat1b& area, const ToneLook& look) {
   const double darkness = darknessQuantile(look.ground, area, 0.5);
   const cv::Mat1b inner = shrunkMask(area, 2), border = area & (shrunkMask(area, 1) == 0);
   const int borderPx = cv::countNonZero(border);
-  if (cv::countNonZero(border & look.nearLine) < kLeastLined * borderPx) return AreaKind::Solid;
-  const cv::Mat1b bare = border & (look.nearLine == 0) & (look.range >= kSharp * darkness);
-  if (cv::countNonZero(bare) > kMostBare * borderPx) return AreaKind::Solid;
+  if (cv::countNonZero(border & look.nearLine) < kLeastLined * borderPx) return {};
+  Area found;
+  found.bare = border & (look.nearLine == 0) & (look.range >= kSharp * darkness);
+  if (cv::countNonZero(found.bare) > kMostBare * borderPx) return {};
   const cv::Mat1b linesOn = look.lines & look.nearLine & grownMask(area, look.brush);
-  if (darkness > kMostOfLines * darknessQuantile(look.flat, linesOn, kDarkLines)) return AreaKind::Solid;
-  if (cv::countNonZero(inner & look.lines) > kMostGrain * cv::countNonZero(inner)) return AreaKind::Solid;
+  if (darkness > kMostOfLines * darknessQuantile(look.flat, linesOn, kDarkLines)) return {};
+  if (cv::countNonZero(inner & look.lines) > kMostGrain * cv::countNonZero(inner)) return {};
   double radius = 0.0;
   cv::Mat1f distance;
   cv::distanceTransform(area, distance, cv::DIST_L2, cv::DIST_MASK_5);
   cv::minMaxLoc(distance, nullptr, &radius);
-  return radius < kLeastRadius * look.brush ? AreaKind::Unclear : AreaKind::Tone;
+  found.kind = radius < kLeastRadius * look.brush ? AreaKind::Unclear : AreaKind::Tone;
+  const cv::Mat1b depth = look.ground - look.flat;
+  const double grain = darknessQuantile(255 - depth, inner & (look.nearLine == 0), kGrainQuantile);
+  found.mostGain = std::max(1.0, kMostGrainDepth * look.lineDarkness / std::max(1.0, grain));
+  return found;
 }
 
-/// What kindOf() reads of it.
+/// What areaOf() reads of it.
 ToneLook cutTo(const ToneLook& look, const cv::Rect& box) {
   ToneLook part = look;
   for (cv::Mat1b* picture : {&part.flat, &part.ground, &part.lines, &part.nearLine, &part.range})
@@ -77,12 +92,25 @@ ToneLook cutTo(const ToneLook& look, const cv::Rect& box) {
 /// Areas of wide ink, parted into tones and solids.
 struct Parted {
   cv::Mat1b tones, solids;
-  int longestPx = 0;  ///< Of the tones.
+  cv::Mat1b bare;      ///< Borders of tones that become lines.
+  cv::Mat1b mostGain;  ///< Of the tones, see ToneAreas.
+  int longestPx = 0;   ///< Of the tones.
 };
+void addTone(Parted& parted, const cv::Rect& box, const cv::Mat1b& mask, const Area& area, const ToneLook& look) {
+  parted.tones(box) |= mask;
+  parted.longestPx = std::max({parted.longestPx, box.width, box.height});
+  // A step from tone to tone is none of the drawing's lines.
+  const cv::Mat1b byPaper = area.bare & grownMask(look.ground(box) >= kFaintestGround, look.brush);
+  parted.bare(box) |= longPieces(byPaper, kLeastBarePiece * look.brush);
+  parted.mostGain(box).setTo(std::min(255.0, std::floor(ToneAreas::kGainUnit * area.mostGain)), mask);
+}
+
 Parted partedAreas(const ToneLook& look, const RunContext& context) {
   // Black that touches a tone is no part of it.
-  Parted parted{cv::Mat1b::zeros(look.wide.size()), look.wide & (look.ground < 255.0 - kDarkestTone), 0};
-  const double mostPx = kMostPaperWindow * std::max(look.wide.rows, look.wide.cols);  // behind wider ones is no paper
+  const cv::Size size = look.wide.size();
+  Parted parted{cv::Mat1b::zeros(size), look.wide & (look.ground < 255.0 - kDarkestTone), cv::Mat1b::zeros(size),
+                cv::Mat1b(size, 255), 0};
+  const double mostPx = kMostPaperWindow * std::max(size.height, size.width);  // behind wider ones is no paper
   cv::Mat1i labels;
   cv::Mat stats, centres;
   const int count =
@@ -91,14 +119,15 @@ Parted partedAreas(const ToneLook& look, const RunContext& context) {
     cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP),
                  stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
     const int rim = look.brush + 2;
-    box = cv::Rect(box.x - rim, box.y - rim, box.width + 2 * rim, box.height + 2 * rim) &
-          cv::Rect({0, 0}, look.wide.size());
-    const cv::Mat1b area = labels(box) == k;
-    const AreaKind kind = std::min(box.width, box.height) > mostPx ? AreaKind::Solid : kindOf(area, cutTo(look, box));
-    if (kind == AreaKind::Unclear) continue;
-    cv::Mat1b to = kind == AreaKind::Tone ? parted.tones(box) : parted.solids(box);
-    to |= area;
-    if (kind == AreaKind::Tone) parted.longestPx = std::max({parted.longestPx, box.width, box.height});
+    box = cv::Rect(box.x - rim, box.y - rim, box.width + 2 * rim, box.height + 2 * rim) & cv::Rect({0, 0}, size);
+    const cv::Mat1b mask = labels(box) == k;
+    if (std::min(box.width, box.height) > mostPx) {
+      parted.solids(box) |= mask;
+      continue;
+    }
+    const Area area = areaOf(mask, cutTo(look, box));
+    if (area.kind == AreaKind::Tone) addTone(parted, box, mask, area, look);
+    if (area.kind == AreaKind::Solid) parted.solids(box) |= mask;
   }
   return parted;
 }
@@ -118,21 +147,25 @@ cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
          (grownMask(parted.solids, kEdgePx) == 0);
 }
 
-/// The ground, below lines that of the nearest place beside them: a line along the border of a tone has tone on one
-/// side and paper on the other, and its middle must not move.
+/// A picture, where it is covered that of the nearest place that is not.
+cv::Mat1b fromBeside(const cv::Mat1b& picture, const cv::Mat1b& covered) {
+  cv::Mat1f distance;
+  cv::Mat1i labels;
+  cv::distanceTransform(covered, distance, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+  std::vector<std::uint8_t> valueOf(static_cast<std::ptrdiff_t>(labels.total()) + 1, 255);
+  for (int y = 0; y < picture.rows; ++y)
+    for (int x = 0; x < picture.cols; ++x)
+      if (covered(y, x) == 0) valueOf[labels(y, x)] = picture(y, x);
+  return labelled(labels, valueOf);
+}
+
+/// The ground, below lines that beside them: a line along the border of a tone has tone on one side and paper on the
+/// other, and its middle must not move.
 cv::Mat1b groundBesideLines(const ToneLook& look) {
   // A pixel lower at the borders, where the page has an edge within a pixel of the copy: brighter than paper is
   // nothing.
   const cv::Mat1b ground = shrunkMask(look.ground, 1);
-  const cv::Mat1b covered = grownMask(look.lines, static_cast<int>(std::ceil(0.5 * look.lineWidthPx)) + kBlurPx);
-  cv::Mat1f distance;
-  cv::Mat1i labels;
-  cv::distanceTransform(covered, distance, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
-  std::vector<std::uint8_t> groundOf(static_cast<std::ptrdiff_t>(labels.total()) + 1, 255);
-  for (int y = 0; y < ground.rows; ++y)
-    for (int x = 0; x < ground.cols; ++x)
-      if (covered(y, x) == 0) groundOf[labels(y, x)] = ground(y, x);
-  return labelled(labels, groundOf);
+  return fromBeside(ground, grownMask(look.lines, static_cast<int>(std::ceil(0.5 * look.lineWidthPx)) + kBlurPx));
 }
 
 }  // namespace
@@ -168,29 +201,16 @@ std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& 
   if (context.isCancelled() || cv::countNonZero(ground < 255) == 0) return std::nullopt;
   areas.columns = ground.cols, areas.rows = ground.rows;
   areas.ground.assign(ground.begin(), ground.end());
+  const cv::Mat1b mostGain = fromBeside(parted.mostGain, parted.tones == 0);
+  areas.mostGain.assign(mostGain.begin(), mostGain.end());
+  cv::Mat1b levels;
+  paper.convertTo(levels, CV_8U, 1.0 / GreyImage::kGreyUnit);
+  areas.paper.assign(levels.begin(), levels.end());
+  if (cv::countNonZero(parted.bare) > 0) areas.bare.assign(parted.bare.begin(), parted.bare.end());
+  areas.lineWidthPx = look->lineWidthPx * areas.pixelsPerPx;
+  areas.lineDarkness = look->lineDarkness;
   areas.share = static_cast<double>(cv::countNonZero(ground < kClearGround)) / static_cast<double>(ground.total());
   return areas;
-}
-
-GreyImage withoutTones(GreyImage page, const ToneAreas& areas, const RunContext& context) {
-  const double perPx = areas.pixelsPerPx;
-  parallelFor(context, page.height, 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const double v = std::clamp((y + 0.5) / perPx - 0.5, 0.0, areas.rows - 1.0);
-      const int j = static_cast<int>(v), below = std::min(j + 1, areas.rows - 1);
-      for (int x = 0; x < page.width; ++x) {
-        const double u = std::clamp((x + 0.5) / perPx - 0.5, 0.0, areas.columns - 1.0);
-        const int i = static_cast<int>(u), right = std::min(i + 1, areas.columns - 1);
-        const int a = areas.groundAt(i, j), b = areas.groundAt(right, j);
-        const int c = areas.groundAt(i, below), d = areas.groundAt(right, below);
-        if ((a & b & c & d) == 255) continue;
-        const double upper = a + (u - i) * (b - a), lower = c + (u - i) * (d - c);
-        const double ground = std::max(1.0, upper + (v - j) * (lower - upper));
-        page.row(y)[x] = static_cast<std::uint16_t>(std::min(65535.0, 255.0 * page.row(y)[x] / ground + 0.5));
-      }
-    }
-  });
-  return page;
 }
 
 }  // namespace batten

@@ -17,18 +17,22 @@ struct ToneAreas {
   int columns = 0, rows = 0;  ///< Of `ground`.
   /// [0..255 of the paper's brightness] What lines are drawn on, row by row: 255 where nothing is shaded.
   std::vector<std::uint8_t> ground;
-  double share = 0.0;  ///< 0..1 of the page is clearly shaded.
-  int groundAt(int column, int row) const { return ground[std::ptrdiff_t{row} * columns + column]; }
+  /// [1 / kGainUnit] By what the depth below the ground may be multiplied at most, row by row: more, and the grain of
+  /// the tone is as deep as lines.
+  std::vector<std::uint8_t> mostGain;
+  static constexpr double kGainUnit = 16.0;
+  std::vector<std::uint8_t> paper;  ///< [grey 0..255] What the ground is a share of, row by row.
+  std::vector<std::uint8_t> bare;   ///< Not 0 along sharp borders that no line is drawn along, row by row; or empty.
+  double lineWidthPx = 0.0;         ///< [px of the page] Of the lines.
+  double lineDarkness = 0.0;        ///< [of 255] Of the lines.
+  double share = 0.0;               ///< 0..1 of the page is clearly shaded.
 };
 
 /// Finds areas of even tone that lines are drawn on and around, as the shading of marker or airbrush: wider than any
 /// line, lighter than the lines on them, smooth inside, and bounded by lines, or by a gradual fade where it has
-/// none. An area that ends in a sharp edge without a line, or has no lines, is a shape and stays ink; so do black, and
-/// areas of hatching and of grain.
+/// none. An area that ends in a sharp edge without a line nearly all along, or has no lines, is a shape and stays ink;
+/// so do black, and areas of hatching and of grain.
 /// @return Absent: there are none, or the search was cancelled.
 std::optional<ToneAreas> findToneAreas(const GreyImage&, const RunContext&);
-
-/// The page with the ground of its tones as bright as paper: lines on them stand out as on paper.
-GreyImage withoutTones(GreyImage, const ToneAreas&, const RunContext&);
 
 }  // namespace batten

@@ -56,7 +56,8 @@ cv::Mat1b middleLines(const cv::Mat1f& distance) {
   return (distance >= around - 1e-3f) & (distance > 0.0f);
 }
 
-/// Pieces of `mask` that are at least `lengthPx` long.
+}  // namespace
+
 cv::Mat1b longPieces(const cv::Mat1b& mask, double lengthPx) {
   cv::Mat1i labels;
   cv::Mat stats, centres;
@@ -67,8 +68,6 @@ cv::Mat1b longPieces(const cv::Mat1b& mask, double lengthPx) {
       isLong[k] = 255;
   return labelled(labels, isLong);
 }
-
-}  // namespace
 
 cv::Mat1b labelled(const cv::Mat1i& labels, const std::vector<std::uint8_t>& values) {
   cv::Mat1b out(labels.size());

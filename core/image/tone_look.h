@@ -49,6 +49,8 @@ bool lookAtLines(ToneLook&, const RunContext&);
 /// The ground and its lines alone, where the brightness is another; what is near lines stays. False: cancelled.
 bool lookAtGround(ToneLook&, const RunContext&);
 
+/// Pieces of a mask whose box is at least `lengthPx` long or high.
+cv::Mat1b longPieces(const cv::Mat1b& mask, double lengthPx);
 /// Each pixel by the value of its label.
 cv::Mat1b labelled(const cv::Mat1i& labels, const std::vector<std::uint8_t>& values);
 /// Of 255 - flat where the mask is not 0; 0 where it is nowhere. @param share 0..1

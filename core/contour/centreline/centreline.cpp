@@ -16,6 +16,7 @@
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
+#include "core/contour/centreline/page_border_lines.h"
 #include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/paper_faces.h"
 #include "core/contour/centreline/refinement.h"
@@ -88,18 +89,6 @@ StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& option
   cutAtRims(found.paths, *shapes);
   endAtRims(found.paths, *shapes);
   return found;
-}
-
-// Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
-bool isMargin(const Contour& c, const GreyImage& grey, double pixelsPerPx) {
-  constexpr double kTouchPx = 2.0, kMostly = 0.7;  // from the stroke to the border of the page; of its points
-  int touching = 0;
-  for (const ContourPoint& point : c.points) {
-    const Vec2& p = point.at;
-    const double toBorder = std::min({p.x(), p.y(), grey.width - p.x(), grey.height - p.y()});
-    if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx * pixelsPerPx) ++touching;
-  }
-  return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
 }
 
 // Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
@@ -424,8 +413,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (!params.intent && params.mergeWidths <= 0.0)
     set.junctions = junctionsOfLines(std::move(found.strokes.junctions), set.contours);
   if (context.isCancelled()) return cancelled();
-  set.report.droppedMargins =
-      static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey, pixelsPerPx); }));
+  set.report.droppedMargins = dropPageBorderLines(set.contours, grey.width, grey.height, pixelsPerPx);
   return set;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shading that lines are drawn on and around is paper to them; shapes, solids and hatching are not.
 #include "core/image/tone_areas.h"
+#include "core/image/without_tones.h"
 
 #include <gtest/gtest.h>
 
@@ -93,6 +94,52 @@ TEST(ToneAreas, AFadeNeedsNoLine) {
   ASSERT_TRUE(areas);
   const GreyImage page = withoutTones(scan.grey, *areas, {});
   for (int y = 250; y <= 390; y += 20) EXPECT_GT(page.level(320, y), 0.9 * kPaperGrey) << "at " << y;
+}
+
+// A marker's edge is where the drawing ends, whether a line was drawn along it or not.
+TEST(ToneAreas, ABareSharpBorderBecomesALineWhereTheToneEnds) {
+  Drawing d = drum();
+  d.line = [](double x, double y) { return x < 380.0 ? std::min(std::abs(insideDrum(x, y)), fromLid(x, y)) : 100.0; };
+  const Scan scan = pageOf(d);
+  const auto areas = findToneAreas(scan.grey, {});
+  ASSERT_TRUE(areas);
+  ASSERT_FALSE(areas->bare.empty());
+  const GreyImage page = withoutTones(scan.grey, *areas, {});
+  for (int y = 210; y <= 320; y += 10) {
+    double dark = 0.0, moment = 0.0;
+    for (int x = 490; x < 510; ++x) {
+      const double depth = std::max(0.0, kPaperGrey - page.level(x, y) - 25.0);
+      dark += depth, moment += depth * (x + 0.5);
+    }
+    ASSERT_GT(dark, 60.0) << "at " << y;
+    EXPECT_NEAR(moment / dark, 500.0, 0.5) << "at " << y;
+    EXPECT_GT(page.level(470, y), 0.85 * kPaperGrey) << "at " << y;
+  }
+}
+
+TEST(ToneAreas, TheGrainOfADarkToneIsNotRaisedToLines) {
+  Drawing d = drum();
+  d.tone = [](double x, double y) {
+    const double grain = 0.2 * std::sin(1.9 * x + 0.4 * y) * std::sin(2.3 * y - 0.6 * x);
+    return cover(insideDrum(x, y)) * (1.0 + grain);
+  };
+  const Scan scan = pageOf(d);
+  auto areas = findToneAreas(scan.grey, {});
+  ASSERT_TRUE(areas);
+  // [grey] Between the 5 % quantile and the median, and the 1 % quantile, beside the lines.
+  const auto spreadOf = [](const GreyImage& page) {
+    std::vector<double> levels;
+    for (int y = 225; y < 330; ++y)
+      for (int x = 180; x < 460; ++x) levels.push_back(page.level(x, y));
+    std::sort(levels.begin(), levels.end());
+    return std::pair(levels[levels.size() / 2] - levels[levels.size() * 5 / 100], levels[levels.size() / 100]);
+  };
+  const GreyImage page = withoutTones(scan.grey, *areas, {});
+  const auto [spread, darkest] = spreadOf(page);
+  EXPECT_LT(spread, 0.375 * (kPaperGrey - kInkGrey)) << "lines are taken from half of it on";
+  EXPECT_LT(page.level(320, 210), darkest) << "the lid's lower edge is darker";
+  std::fill(areas->mostGain.begin(), areas->mostGain.end(), std::uint8_t{255});
+  EXPECT_LT(spread, 0.85 * spreadOf(withoutTones(scan.grey, *areas, {})).first) << "than as deep as on paper";
 }
 
 TEST(ToneAreas, BlackThatTouchesATonePersists) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Edges of sheets and margins of scanners are no lines of a drawing; what a drawing has near the border of its page is.
+
+#include "core/contour/centreline/page_border_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace batten {
+namespace {
+
+constexpr int kWholeWidth = 1000, kWholeHeight = 800;
+
+Contour borderLine(const Vec2& from, const Vec2& to, double bow = 0.0) {
+  constexpr int kSteps = 100;
+  std::vector<Vec2> points;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double t = static_cast<double>(k) / kSteps;
+    points.push_back(from + t * (to - from) + Vec2::Constant(4.0 * bow * t * (1.0 - t)));
+  }
+  Contour c;
+  c.kind = ContourKind::Centreline;
+  c.points = contourPoints(points, true);
+  for (ContourPoint& p : c.points) p.widthPx = 3.0f;
+  measureContour(c);
+  return c;
+}
+
+int droppedOf(std::vector<Contour> lines) { return dropPageBorderLines(lines, kWholeWidth, kWholeHeight, 1.0); }
+
+const Contour kDrawnBend = borderLine({300.0, 300.0}, {700.0, 500.0}, 40.0);
+
+TEST(PageBorderLines, TheEdgeOfASheetIsDroppedAlongEverySide) {
+  EXPECT_EQ(droppedOf({borderLine({12.0, 100.0}, {16.0, 700.0}), kDrawnBend}), 1);
+  EXPECT_EQ(droppedOf({borderLine({988.0, 100.0}, {985.0, 700.0}), kDrawnBend}), 1);
+  EXPECT_EQ(droppedOf({borderLine({100.0, 14.0}, {900.0, 10.0}), kDrawnBend}), 1);
+  EXPECT_EQ(droppedOf({borderLine({100.0, 790.0}, {900.0, 784.0}), kDrawnBend}), 1);
+}
+
+TEST(PageBorderLines, TheDrawingStaysInOrder) {
+  const Contour second = borderLine({200.0, 600.0}, {800.0, 650.0});
+  std::vector<Contour> lines{kDrawnBend, borderLine({12.0, 100.0}, {16.0, 700.0}), second};
+  EXPECT_EQ(dropPageBorderLines(lines, kWholeWidth, kWholeHeight, 1.0), 1);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].points, kDrawnBend.points);
+  EXPECT_EQ(lines[1].points, second.points);
+}
+
+TEST(PageBorderLines, LinesOfADrawingNearTheBorderStay) {
+  EXPECT_EQ(droppedOf({borderLine({12.0, 300.0}, {14.0, 480.0}), kDrawnBend}), 0) << "short";
+  EXPECT_EQ(droppedOf({borderLine({40.0, 100.0}, {40.0, 700.0}), kDrawnBend}), 0) << "far from the border";
+  EXPECT_EQ(droppedOf({borderLine({6.0, 100.0}, {6.0, 700.0}, 18.0), kDrawnBend}), 0) << "bent";
+  EXPECT_EQ(droppedOf({borderLine({100.0, 785.0}, {900.0, 785.0}), borderLine({500.0, 400.0}, {500.0, 783.0})}), 0)
+      << "the ground that something stands on";
+  EXPECT_EQ(droppedOf({borderLine({12.0, 12.0}, {12.0, 788.0}), borderLine({12.0, 12.0}, {988.0, 12.0}),
+                       borderLine({988.0, 12.0}, {988.0, 788.0}), borderLine({12.0, 788.0}, {988.0, 788.0})}),
+            0)
+      << "a frame";
+  EXPECT_EQ(droppedOf({borderLine({16.0, 100.0}, {16.0, 700.0}), borderLine({6.0, 300.0}, {6.0, 350.0})}), 0)
+      << "something is drawn beyond";
+}
+
+TEST(PageBorderLines, WhatTouchesTheBorderNearlyAllAlongIsAMargin) {
+  EXPECT_EQ(droppedOf({borderLine({2.0, 100.0}, {2.0, 180.0}), kDrawnBend}), 1);
+  EXPECT_EQ(droppedOf({borderLine({2.0, 100.0}, {40.0, 180.0}), kDrawnBend}), 0);
+}
+
+}  // namespace
+}  // namespace batten
