@@ -19,6 +19,7 @@
 #include "core/contour/ink/faint_marks.h"
 #include "core/contour/ink/ink_split.h"
 #include "core/contour/ink/line_choices.h"
+#include "core/contour/ink/page_edge_lines.h"
 #include "core/contour/ink/tone_grain.h"
 #include "core/contour/outline/implied_borders.h"
 #include "core/contour/outline/ink_borders.h"
@@ -328,6 +329,8 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
   const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
   if (edges.mode == EdgeMode::Automatic && isOfOne && !hasOwnLengths(params))
     dropGrain(found->set, grey, found->painted, context);
+  if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params))
+    dropPageEdgeLines(found->set, grey.width, grey.height);
   if (isOfAllInk(edges, params)) noteUntraced(found->set, ink);
   return std::move(found->set);
 }

@@ -16,7 +16,6 @@
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
-#include "core/contour/centreline/page_border_lines.h"
 #include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/paper_faces.h"
 #include "core/contour/centreline/refinement.h"
@@ -89,6 +88,18 @@ StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& option
   cutAtRims(found.paths, *shapes);
   endAtRims(found.paths, *shapes);
   return found;
+}
+
+// Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
+bool isMargin(const Contour& c, const GreyImage& grey, double pixelsPerPx) {
+  constexpr double kTouchPx = 2.0, kMostly = 0.7;  // from the stroke to the border of the page; of its points
+  int touching = 0;
+  for (const ContourPoint& point : c.points) {
+    const Vec2& p = point.at;
+    const double toBorder = std::min({p.x(), p.y(), grey.width - p.x(), grey.height - p.y()});
+    if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx * pixelsPerPx) ++touching;
+  }
+  return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
 }
 
 // Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
@@ -220,18 +231,11 @@ double widthsOf(const StrokePath& s) {
   return s.length() / s.widthPx() + ends;
 }
 
-// A dash of a broken line, long enough to have a direction.
-bool isDash(const StrokePath& s, double widths, const BitImage* rows) {
-  constexpr double kLeastWidths = 1.5;
-  if (rows == nullptr || s.closed || s.points.size() < 3 || widths < kLeastWidths) return false;
-  return anyInDisc(*rows, s.points[s.points.size() / 2].at, 1.0);
-}
-
-// Strokes shorter than `minWidths` of their widths are blots, but for dashes. Grain breaks the strokes of a pencil and
-// makes short ones of its own, which end free. Such are kept where they are as dark as the strokes around, or as ink
-// must be by the threshold if they look like strokes of the same pencil: no broader, as marks are, and long enough for
-// its width. What parts two faces of the paper was drawn, however short and even where no grey values are read: the bar
-// of an A, the rim of a lamp beside another. @return how many such strokes there are, which come last.
+// Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
+// of its own, which end free. Such are kept where they are as dark as the strokes around, or as ink must be by the
+// threshold if they look like strokes of the same pencil: no broader, as marks are, and long enough for its width.
+// What parts two faces of the paper was drawn, however short and even where no grey values are read: the bar of an A,
+// the rim of a lamp beside another. @return how many such strokes there are, which come last.
 int dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const CentrelineOptions& options, bool anyPencil,
               PaperFaces* faces, const RunContext& context) {
   constexpr double kGrainWidths = 2.5;               // times the shortest: longer ones are no grain
@@ -247,10 +251,6 @@ int dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const Centr
     StrokePath& s = paths[i];
     const double widths = widthsOf(s);
     const bool isPencil = grain && grain->isPencil(i), isShort = s.points.size() < 3 || widths < minWidths;
-    if (isShort && isDash(s, widths, options.rows)) {
-      kept.push_back(std::move(s));
-      continue;
-    }
     if (isShort || (!isPencil && isHidden(s))) {
       const bool isLink = faces != nullptr && (s.closed || isBetweenJunctions(s)) && faces->arePartedBy(s);
       if (isLink || !isShort) (isLink ? links : kept).push_back(std::move(s));
@@ -413,7 +413,8 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (!params.intent && params.mergeWidths <= 0.0)
     set.junctions = junctionsOfLines(std::move(found.strokes.junctions), set.contours);
   if (context.isCancelled()) return cancelled();
-  set.report.droppedMargins = dropPageBorderLines(set.contours, grey.width, grey.height, pixelsPerPx);
+  set.report.droppedMargins =
+      static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey, pixelsPerPx); }));
   return set;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edges of sheets and margins of scanners are no lines of a drawing; what a drawing has near the border of its page is.
 
-#include "core/contour/centreline/page_border_lines.h"
+#include "core/contour/ink/page_edge_lines.h"
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace batten {
@@ -27,30 +28,51 @@ Contour borderLine(const Vec2& from, const Vec2& to, double bow = 0.0) {
   return c;
 }
 
-int droppedOf(std::vector<Contour> lines) { return dropPageBorderLines(lines, kWholeWidth, kWholeHeight, 1.0); }
+int droppedOf(std::vector<Contour> lines) {
+  ContourSet set;
+  set.contours = std::move(lines);
+  dropPageEdgeLines(set, kWholeWidth, kWholeHeight);
+  return set.report.droppedMargins;
+}
 
 const Contour kDrawnBend = borderLine({300.0, 300.0}, {700.0, 500.0}, 40.0);
 
-TEST(PageBorderLines, TheEdgeOfASheetIsDroppedAlongEverySide) {
+TEST(PageEdgeLines, TheEdgeOfASheetIsDroppedAlongEverySide) {
   EXPECT_EQ(droppedOf({borderLine({12.0, 100.0}, {16.0, 700.0}), kDrawnBend}), 1);
   EXPECT_EQ(droppedOf({borderLine({988.0, 100.0}, {985.0, 700.0}), kDrawnBend}), 1);
   EXPECT_EQ(droppedOf({borderLine({100.0, 14.0}, {900.0, 10.0}), kDrawnBend}), 1);
   EXPECT_EQ(droppedOf({borderLine({100.0, 790.0}, {900.0, 784.0}), kDrawnBend}), 1);
 }
 
-TEST(PageBorderLines, TheDrawingStaysInOrder) {
+TEST(PageEdgeLines, TheDrawingStaysInOrder) {
   const Contour second = borderLine({200.0, 600.0}, {800.0, 650.0});
-  std::vector<Contour> lines{kDrawnBend, borderLine({12.0, 100.0}, {16.0, 700.0}), second};
-  EXPECT_EQ(dropPageBorderLines(lines, kWholeWidth, kWholeHeight, 1.0), 1);
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0].points, kDrawnBend.points);
-  EXPECT_EQ(lines[1].points, second.points);
+  ContourSet set;
+  set.contours = {kDrawnBend, borderLine({12.0, 100.0}, {16.0, 700.0}), second};
+  dropPageEdgeLines(set, kWholeWidth, kWholeHeight);
+  ASSERT_EQ(set.contours.size(), 2u);
+  EXPECT_EQ(set.contours[0].points, kDrawnBend.points);
+  EXPECT_EQ(set.contours[1].points, second.points);
 }
 
-TEST(PageBorderLines, LinesOfADrawingNearTheBorderStay) {
+TEST(PageEdgeLines, TheShadowAlongAnEdgeIsOneToo) {
+  Contour shadow = borderLine({8.0, 100.0}, {10.0, 700.0});
+  const Contour back = borderLine({15.0, 700.0}, {12.0, 100.0});
+  shadow.points.insert(shadow.points.end(), back.points.begin(), back.points.end());
+  shadow.kind = ContourKind::Outline, shadow.closed = true;
+  EXPECT_EQ(droppedOf({shadow, kDrawnBend}), 1);
+}
+
+TEST(PageEdgeLines, WhatTheUserChoseAndTheOnlyLineStay) {
+  Contour edge = borderLine({12.0, 100.0}, {16.0, 700.0});
+  EXPECT_EQ(droppedOf({edge}), 0);
+  edge.traceMode.emplace();
+  EXPECT_EQ(droppedOf({edge, kDrawnBend}), 0);
+}
+
+TEST(PageEdgeLines, LinesOfADrawingNearTheBorderStay) {
   EXPECT_EQ(droppedOf({borderLine({12.0, 300.0}, {14.0, 480.0}), kDrawnBend}), 0) << "short";
   EXPECT_EQ(droppedOf({borderLine({40.0, 100.0}, {40.0, 700.0}), kDrawnBend}), 0) << "far from the border";
-  EXPECT_EQ(droppedOf({borderLine({6.0, 100.0}, {6.0, 700.0}, 18.0), kDrawnBend}), 0) << "bent";
+  EXPECT_EQ(droppedOf({borderLine({6.0, 100.0}, {6.0, 700.0}, 24.0), kDrawnBend}), 0) << "bent";
   EXPECT_EQ(droppedOf({borderLine({100.0, 785.0}, {900.0, 785.0}), borderLine({500.0, 400.0}, {500.0, 783.0})}), 0)
       << "the ground that something stands on";
   EXPECT_EQ(droppedOf({borderLine({12.0, 12.0}, {12.0, 788.0}), borderLine({12.0, 12.0}, {988.0, 12.0}),
@@ -59,11 +81,6 @@ TEST(PageBorderLines, LinesOfADrawingNearTheBorderStay) {
       << "a frame";
   EXPECT_EQ(droppedOf({borderLine({16.0, 100.0}, {16.0, 700.0}), borderLine({6.0, 300.0}, {6.0, 350.0})}), 0)
       << "something is drawn beyond";
-}
-
-TEST(PageBorderLines, WhatTouchesTheBorderNearlyAllAlongIsAMargin) {
-  EXPECT_EQ(droppedOf({borderLine({2.0, 100.0}, {2.0, 180.0}), kDrawnBend}), 1);
-  EXPECT_EQ(droppedOf({borderLine({2.0, 100.0}, {40.0, 180.0}), kDrawnBend}), 0);
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/page_border_lines.h"
+#include "core/contour/ink/page_edge_lines.h"
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace batten {
 namespace {
 
-constexpr double kTouchPx = 2.0, kMostly = 0.7;  // from the stroke to the border of the page; of its points
 // All of the shorter side of the page, but for the length, which is of the side that the line runs along.
 constexpr double kNearBorder = 0.03;  // the edge of a sheet that fills the picture
-constexpr double kStraight = 0.015;   // sheets lie and are scanned a little askew
 constexpr double kLong = 0.3;
 constexpr double kAlone = 0.015;  // of any other line: a frame, a table or the ground touches something
 
@@ -18,16 +18,6 @@ struct Page {
   double width, height;
   double shorter() const { return std::min(width, height); }
 };
-
-bool touchesBorder(const Contour& c, const Page& page, double pixelsPerPx) {
-  int touching = 0;
-  for (const ContourPoint& point : c.points) {
-    const Vec2& p = point.at;
-    const double toBorder = std::min({p.x(), p.y(), page.width - p.x(), page.height - p.y()});
-    if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx * pixelsPerPx) ++touching;
-  }
-  return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
-}
 
 /// A place as seen from one side of the page: along it, and inwards.
 Vec2 seenFrom(int side, const Vec2& p, const Page& page) {
@@ -59,10 +49,9 @@ bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, cons
   const Contour& line = contours[index];
   const Extent extent = extentFrom(side, line, page);
   const double along = side < 2 ? page.width : page.height;
-  if (line.closed || extent.most.y() > kNearBorder * page.shorter() ||
+  if (line.traceMode || extent.most.y() > kNearBorder * page.shorter() ||
       extent.most.x() - extent.least.x() < kLong * along)
     return false;
-  if (extent.most.y() - extent.least.y() > kStraight * page.shorter()) return false;
   const double alone = kAlone * page.shorter();
   for (int k = 0; k < std::ssize(contours); ++k) {
     if (k == index) continue;
@@ -77,16 +66,17 @@ bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, cons
 
 }  // namespace
 
-int dropPageBorderLines(std::vector<Contour>& contours, int pageWidth, int pageHeight, double pixelsPerPx) {
+void dropPageEdgeLines(ContourSet& set, int pageWidth, int pageHeight) {
   const Page page{static_cast<double>(pageWidth), static_cast<double>(pageHeight)};
-  int dropped =
-      static_cast<int>(std::erase_if(contours, [&](const Contour& c) { return touchesBorder(c, page, pixelsPerPx); }));
-  std::vector<bool> isEdge(contours.size(), false);
-  for (int k = 0; k < std::ssize(contours); ++k)
-    for (int side = 0; side < 4 && !isEdge[k]; ++side) isEdge[k] = isSheetEdge(side, k, contours, page);
-  std::size_t k = 0;
-  dropped += static_cast<int>(std::erase_if(contours, [&](const Contour&) { return isEdge[k++]; }));
-  return dropped;
+  std::vector<Contour> kept, edges;
+  for (int k = 0; k < std::ssize(set.contours); ++k) {
+    bool isEdge = false;
+    for (int side = 0; side < 4 && !isEdge; ++side) isEdge = isSheetEdge(side, k, set.contours, page);
+    (isEdge ? edges : kept).push_back(set.contours[k]);
+  }
+  if (kept.empty()) return;
+  set.report.droppedMargins += static_cast<int>(std::ssize(edges));
+  set.contours = std::move(kept);
 }
 
 }  // namespace batten
