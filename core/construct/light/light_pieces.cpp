@@ -84,6 +84,11 @@ Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOpti
 
 int detailStep(double detail) { return static_cast<int>(std::lround(detail / kDetailStep)); }
 
+struct DetailAsked {
+  double detail = 0.0;     ///< 0..1.
+  bool isCompared = true;  ///< With smaller ones.
+};
+
 /// What one detail comes to.
 struct DetailCurve {
   LightCurve light;
@@ -94,8 +99,8 @@ struct DetailCurve {
 /// The lightest of the curves of this and every smaller detail: each holds what this one asks, as it lies nearer and
 /// keeps more. So more detail never gives more control points than a smaller one; beyond kMostCompared, where that
 /// takes long, it may, and beyond kFarMore none is compared. One that has more curvature extrema than the dense curve
-/// is none of them.
-Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool closed, const ConstructParams& params,
+/// is none of them. A detail that nobody moves is not compared: that would take ten times as long.
+Result<DetailCurve> lightestUpTo(DetailAsked asked, const NurbsCurve& dense, bool closed, const ConstructParams& params,
                                  const ConstructContour& contour, const RunContext& context) {
   std::optional<DetailCurve> best;
   std::optional<int> mostExtrema;
@@ -103,8 +108,8 @@ Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool cl
     if (!mostExtrema) mostExtrema = countedExtrema(dense, closed, context);
     return countedExtrema(curve, closed, context) > *mostExtrema;
   };
-  int step = detailStep(detail);
-  while (step >= 0) {
+  int step = detailStep(asked.detail);
+  while (step >= 0 && (asked.isCompared || !best)) {
     DetailCurve one;
     one.detail = step * kDetailStep;
     one.options = lightOptions(params, contour, dense, one.detail);
@@ -133,9 +138,9 @@ void finishExact(ConstructedPiece& piece, bool closed, LightKind kind) {
   piece.report.isCircle = piece.report.isCircle || (closed && kind == LightKind::Arc);
 }
 
-void lighten(ConstructedPiece& piece, bool closed, double detail, const ConstructParams& params,
+void lighten(ConstructedPiece& piece, bool closed, DetailAsked asked, const ConstructParams& params,
              const ConstructContour& contour, const RunContext& context) {
-  auto lightest = lightestUpTo(detail, piece.curve, closed, params, contour, context);
+  auto lightest = lightestUpTo(asked, piece.curve, closed, params, contour, context);
   if (!lightest) return;  // cancelled, or nothing that a light curve could stand for
   const double pixelMm = contour.pixelMm;
   const LightOptions& options = lightest->options;
@@ -182,7 +187,7 @@ bool isRaggedByTool(const NurbsCurve& dense, const ConstructContour& contour, in
 void lightenRagged(ConstructedPiece& piece, bool closed, const ConstructParams& params, const ConstructContour& contour,
                    const RunContext& context) {
   const std::string ofDense = std::exchange(piece.report.note, {});
-  lighten(piece, closed, kRaggedDetail, params, contour, context);
+  lighten(piece, closed, {kRaggedDetail, false}, params, contour, context);
   if (!piece.report.light || !piece.report.light->isSimplified) {
     if (piece.report.note.empty()) piece.report.note = ofDense;
     return;
@@ -243,7 +248,7 @@ Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const Construc
       if (isRaggedByTool(made[i].curve, contour, i, params, context)) {
         lightenRagged(made[i], closed, params, contour, context);
       } else {
-        lighten(made[i], closed, contour.pieces[i].detail.value_or(params.detail), params, contour, context);
+        lighten(made[i], closed, {contour.pieces[i].detail.value_or(params.detail)}, params, contour, context);
       }
     }
   });
