@@ -27,6 +27,7 @@
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
 #include "core/contour/outline/texture_holes.h"
+#include "core/contour/outline/tonal_holes.h"
 #include "core/contour/outline/uneven_ink.h"
 #include "core/image/binarize.h"
 #include "core/image/bits/bit_steps.h"
@@ -364,6 +365,8 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     refineOutlines(*set, grey, context);
     refineSoftOutlines(*set, grey, context);
     if (edges.mode == EdgeMode::Outline) dropSoftBorders(*set, grey, params, context);
+    if (edges.mode == EdgeMode::Automatic && edges.internal == InnerBorders::Automatic)
+      dropTonalHoles(*set, grey, context);
     if (context.isCancelled()) return cancelled();
     leadToLines(set->contours, grey, context);
     const bool isOfOneStroke = edges.mergeWidths <= 0.0 && !set->report.isGrouped;
