@@ -231,11 +231,18 @@ double widthsOf(const StrokePath& s) {
   return s.length() / s.widthPx() + ends;
 }
 
-// Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
-// of its own, which end free. Such are kept where they are as dark as the strokes around, or as ink must be by the
-// threshold if they look like strokes of the same pencil: no broader, as marks are, and long enough for its width.
-// What parts two faces of the paper was drawn, however short and even where no grey values are read: the bar of an A,
-// the rim of a lamp beside another. @return how many such strokes there are, which come last.
+// A dash of a broken line, long enough to have a direction.
+bool isDash(const StrokePath& s, double widths, const BitImage* rows) {
+  constexpr double kLeastWidths = 1.5;
+  if (rows == nullptr || s.closed || s.points.size() < 3 || widths < kLeastWidths) return false;
+  return anyInDisc(*rows, s.points[s.points.size() / 2].at, 1.0);
+}
+
+// Strokes shorter than `minWidths` of their widths are blots, but for dashes. Grain breaks the strokes of a pencil and
+// makes short ones of its own, which end free. Such are kept where they are as dark as the strokes around, or as ink
+// must be by the threshold if they look like strokes of the same pencil: no broader, as marks are, and long enough for
+// its width. What parts two faces of the paper was drawn, however short and even where no grey values are read: the bar
+// of an A, the rim of a lamp beside another. @return how many such strokes there are, which come last.
 int dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const CentrelineOptions& options, bool anyPencil,
               PaperFaces* faces, const RunContext& context) {
   constexpr double kGrainWidths = 2.5;               // times the shortest: longer ones are no grain
@@ -251,6 +258,10 @@ int dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const Centr
     StrokePath& s = paths[i];
     const double widths = widthsOf(s);
     const bool isPencil = grain && grain->isPencil(i), isShort = s.points.size() < 3 || widths < minWidths;
+    if (isShort && isDash(s, widths, options.rows)) {
+      kept.push_back(std::move(s));
+      continue;
+    }
     if (isShort || (!isPencil && isHidden(s))) {
       const bool isLink = faces != nullptr && (s.closed || isBetweenJunctions(s)) && faces->arePartedBy(s);
       if (isLink || !isShort) (isLink ? links : kept).push_back(std::move(s));
