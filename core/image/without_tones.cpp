@@ -14,13 +14,13 @@ namespace batten {
 namespace {
 
 constexpr double kWidthPerBlur = 2.3548;  // of a Gaussian at half its height, per sigma: 2 sqrt(2 ln 2)
-constexpr double kSlopePerBlur =
-    2.5066;                           // sqrt(2 pi): the steepest slope of a blurred step of 1 is 1 / (sigma sqrt(2 pi))
+// sqrt(2 pi): the steepest slope of a step of 1, blurred, is 1 / (sigma sqrt(2 pi)).
+constexpr double kSlopePerBlur = 2.5066;
 constexpr double kBorderWidth = 0.5;  // [line widths] of the line that a border becomes
 constexpr double kReach = 3.0;        // [sigmas] of the blur
 constexpr int kTilePx = 64;           // of the areas' pixels, along a side
 
-const cv::Mat1b mapOf(const std::vector<std::uint8_t>& values, const ToneAreas& areas) {
+cv::Mat1b mapOf(const std::vector<std::uint8_t>& values, const ToneAreas& areas) {
   return {areas.rows, areas.columns, const_cast<std::uint8_t*>(values.data())};
 }
 

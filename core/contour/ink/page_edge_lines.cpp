@@ -2,8 +2,8 @@
 #include "core/contour/ink/page_edge_lines.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace batten {
@@ -68,15 +68,13 @@ bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, cons
 
 void dropPageEdgeLines(ContourSet& set, int pageWidth, int pageHeight) {
   const Page page{static_cast<double>(pageWidth), static_cast<double>(pageHeight)};
-  std::vector<Contour> kept, edges;
-  for (int k = 0; k < std::ssize(set.contours); ++k) {
-    bool isEdge = false;
-    for (int side = 0; side < 4 && !isEdge; ++side) isEdge = isSheetEdge(side, k, set.contours, page);
-    (isEdge ? edges : kept).push_back(set.contours[k]);
-  }
-  if (kept.empty()) return;
-  set.report.droppedMargins += static_cast<int>(std::ssize(edges));
-  set.contours = std::move(kept);
+  std::vector<bool> isEdge(set.contours.size(), false);
+  for (int k = 0; k < std::ssize(set.contours); ++k)
+    for (int side = 0; side < 4 && !isEdge[k]; ++side) isEdge[k] = isSheetEdge(side, k, set.contours, page);
+  if (std::find(isEdge.begin(), isEdge.end(), false) == isEdge.end()) return;
+  std::size_t index = 0;
+  set.report.droppedMargins +=
+      static_cast<int>(std::erase_if(set.contours, [&](const Contour&) { return isEdge[index++]; }));
 }
 
 }  // namespace batten
