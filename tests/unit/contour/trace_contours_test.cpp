@@ -252,6 +252,21 @@ TEST(TraceContours, MarginsOfTheScannerAreNoLines) {
   for (const Vec2& p : positionsOf(set->contours[0].points)) EXPECT_NEAR(p.y(), 150 + 0.2 * p.x(), 4.0);
 }
 
+// Dashes of less than three widths, which would be dropped or be shapes anywhere else.
+TEST(TraceContours, DashesInARowAreLines) {
+  const OutlinePage page = render([&](double x, double y) {
+    bool isInk = std::abs(y - 150.0 - 0.3 * x) < 2.5 && x > 20.0 && x < 380.0;
+    for (int k = 0; k < 10; ++k) isInk = isInk || (std::abs(x - 60.0 - 27.0 * k) < 6.5 && std::abs(y - 60.0) < 2.5);
+    return isInk;
+  });
+  const auto set = traceContours(page.ink, page.grey, {}, {}, {});
+  ASSERT_TRUE(set.has_value());
+  const auto inRow = std::count_if(set->contours.begin(), set->contours.end(), [](const Contour& c) {
+    return c.kind == ContourKind::Centreline && std::abs(c.points.front().at.y() - 60.0) < 4.0;
+  });
+  EXPECT_EQ(inRow, 10);
+}
+
 // A tone laid up to a curved edge that fades out below it: no line is drawn, the edge itself is followed.
 TEST(TraceContours, EdgesOfTonesAreFollowedWhereTheyAreSharp) {
   constexpr int kWidth = 500, kHeight = 400;
