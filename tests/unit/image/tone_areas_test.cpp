@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -117,6 +119,45 @@ TEST(ToneAreas, ABareSharpBorderBecomesALineWhereTheToneEnds) {
   }
 }
 
+// On a page whose sides the pixels of the areas do not divide, with any number of threads.
+TEST(ToneAreas, ABareBorderIsALineWhereThePageHasIt) {
+  constexpr int kColumns = 300, kRows = 170, kTimes = 2;
+  constexpr double kEdge = 301.3, kTone = 0.5;
+  GreyImage scanned(kTimes * kColumns + 1, kTimes * kRows + 1);
+  for (int y = 0; y < scanned.height; ++y)
+    for (int x = 0; x < scanned.width; ++x) {
+      const double level = kPaperGrey * (1.0 - (1.0 - kTone) * cover(kEdge - x - 0.5));
+      scanned.row(y)[x] = static_cast<std::uint16_t>(GreyImage::kGreyUnit * level);
+    }
+  ToneAreas areas;
+  areas.pixelsPerPx = kTimes, areas.columns = kColumns, areas.rows = kRows;
+  areas.lineWidthPx = 6.0, areas.lineDarkness = 200.0;
+  areas.paper.assign(std::ptrdiff_t{kColumns} * kRows, static_cast<std::uint8_t>(kPaperGrey));
+  areas.mostGain.assign(areas.paper.size(), 255);
+  areas.ground = areas.mostGain;
+  areas.bare.assign(areas.paper.size(), 0);
+  for (int j = 0; j < kRows; ++j) {
+    for (int i = 0; i < 150; ++i) areas.ground[std::ptrdiff_t{j} * kColumns + i] = 128;
+    if (j > 30) areas.bare[std::ptrdiff_t{j} * kColumns + 149] = 255;
+  }
+  RunContext one, eight;
+  one.threads = 1, eight.threads = 8;
+  const GreyImage page = withoutTones(scanned, areas, one);
+  EXPECT_EQ(page, withoutTones(scanned, areas, eight));
+  for (int y = 100; y < scanned.height; y += 20) {
+    double dark = 0.0, moment = 0.0;
+    for (int x = 290; x < 313; ++x) {
+      const double depth = std::max(0.0, kPaperGrey - page.level(x, y) - 60.0);
+      dark += depth, moment += depth * (x + 0.5);
+    }
+    ASSERT_GT(dark, 100.0) << "at " << y;
+    EXPECT_NEAR(moment / dark, kEdge, 0.6) << "at " << y;
+    EXPECT_NEAR(page.level(200, y), kPaperGrey, 3.0) << "at " << y;
+    EXPECT_EQ(page.row(y)[400], scanned.row(y)[400]) << "at " << y;
+  }
+  EXPECT_GT(page.level(301, 20), 0.5 * kPaperGrey) << "no line where the border is not bare";
+}
+
 TEST(ToneAreas, TheGrainOfADarkToneIsNotRaisedToLines) {
   Drawing d = drum();
   d.tone = [](double x, double y) {
@@ -217,7 +258,7 @@ TEST(ToneAreas, AreFoundOnALargePageToo) {
   const Scan small = pageOf(drum());
   Scan large = small;
   const int times = 4;
-  large.grey = GreyImage(times * kPageWidth, times * kPageHeight);
+  large.grey = GreyImage(times * kPageWidth, times * kPageHeight + 1);
   for (int y = 0; y < large.grey.height; ++y)
     for (int x = 0; x < large.grey.width; ++x) large.grey.row(y)[x] = small.grey.row(y / times)[x / times];
   const auto areas = findToneAreas(large.grey, {});
