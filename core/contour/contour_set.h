@@ -104,7 +104,7 @@ struct ContourReport {
   int droppedShort = 0;           ///< Shorter than the smallest length.
   int droppedHoles = 0;           ///< Inner borders, in outline mode without them.
   double droppedHolesPx = 0.0;    ///< [px^2] Area of inner borders that were dropped as short.
-  int droppedMargins = 0;         ///< Lines along the border of the page: the margin of the scanner.
+  int droppedMargins = 0;         ///< Lines along the border of the page: margins of the scanner, edges of a sheet.
   int droppedFaint = 0;           ///< Specks much fainter than the strokes around.
   int droppedGrain = 0;           ///< Short lines that are the grain of a tone.
   double refinedShare = 0;        ///< Part of the points that were placed on the grey values, 0..1.

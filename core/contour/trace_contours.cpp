@@ -328,10 +328,10 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
   noteChoices(found->set, found->regions, edges.choices, found->blots, page != nullptr ? kFineFactor : 1.0, context);
   // A line of several strokes lies beside their ink.
   const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
-  if (edges.mode == EdgeMode::Automatic && isOfOne && !hasOwnLengths(params))
-    dropGrain(found->set, grey, found->painted, context);
-  if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params))
+  if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
+    if (isOfOne) dropGrain(found->set, grey, found->painted, context);
     dropPageEdgeLines(found->set, grey.width, grey.height);
+  }
   if (isOfAllInk(edges, params)) noteUntraced(found->set, ink);
   return std::move(found->set);
 }

@@ -99,7 +99,7 @@ struct DetailCurve {
 /// The lightest of the curves of this and every smaller detail: each holds what this one asks, as it lies nearer and
 /// keeps more. So more detail never gives more control points than a smaller one; beyond kMostCompared, where that
 /// takes long, it may, and beyond kFarMore none is compared. One that has more curvature extrema than the dense curve
-/// is none of them. A detail that nobody moves is not compared: that would take ten times as long.
+/// is none of them. A detail that nobody set is not compared: that would take several times as long.
 Result<DetailCurve> lightestUpTo(DetailAsked asked, const NurbsCurve& dense, bool closed, const ConstructParams& params,
                                  const ConstructContour& contour, const RunContext& context) {
   std::optional<DetailCurve> best;

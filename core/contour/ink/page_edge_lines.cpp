@@ -11,8 +11,8 @@ namespace {
 
 // All of the shorter side of the page, but for the length, which is of the side that the line runs along.
 constexpr double kNearBorder = 0.03;  // the edge of a sheet that fills the picture
-constexpr double kLong = 0.3;
-constexpr double kAlone = 0.015;  // of any other line: a frame, a table or the ground touches something
+constexpr double kLong = 0.3;         // shorter ones near the border are drawn
+constexpr double kAlone = 0.015;      // of any other line: a frame, a table or the ground touches something
 
 struct Page {
   double width, height;

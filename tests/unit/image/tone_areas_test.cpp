@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shading that lines are drawn on and around is paper to them; shapes, solids and hatching are not.
 #include "core/image/tone_areas.h"
-#include "core/image/without_tones.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "core/image/page_preparation.h"
+#include "core/image/without_tones.h"
 #include "tests/support/stress_page.h"
 
 namespace batten {
@@ -258,7 +258,7 @@ TEST(ToneAreas, AreFoundOnALargePageToo) {
   const Scan small = pageOf(drum());
   Scan large = small;
   const int times = 4;
-  large.grey = GreyImage(times * kPageWidth, times * kPageHeight + 1);
+  large.grey = GreyImage(times * kPageWidth, times * kPageHeight);
   for (int y = 0; y < large.grey.height; ++y)
     for (int x = 0; x < large.grey.width; ++x) large.grey.row(y)[x] = small.grey.row(y / times)[x / times];
   const auto areas = findToneAreas(large.grey, {});
