@@ -252,7 +252,7 @@ TEST(TraceContours, MarginsOfTheScannerAreNoLines) {
   for (const Vec2& p : positionsOf(set->contours[0].points)) EXPECT_NEAR(p.y(), 150 + 0.2 * p.x(), 4.0);
 }
 
-// Dashes of less than three widths, which would be dropped or be shapes anywhere else.
+// Of not quite three widths: one line each.
 TEST(TraceContours, DashesInARowAreLines) {
   const OutlinePage page = render([&](double x, double y) {
     bool isInk = std::abs(y - 150.0 - 0.3 * x) < 2.5 && x > 20.0 && x < 380.0;
