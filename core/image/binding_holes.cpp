@@ -127,6 +127,52 @@ bool isMarginEmpty(const cv::Mat1b& dark, const std::vector<Hole>& holes, bool a
   return beside <= kMostBeside * own;
 }
 
+struct HoleRow {
+  std::vector<Hole> holes;
+  cv::Rect edge;  ///< [cells] What lies along the side of the page beside the holes: the edge of the sheet.
+};
+
+std::vector<Hole> evenRow(const cv::Mat1b& dark, int side) {
+  const bool acrossPage = side % 2 == 0;
+  std::vector<Hole> holes = darkPieces(dark, acrossPage, side >= 2);
+  if (std::ssize(holes) < kFewestHoles) return {};
+  std::ranges::stable_sort(holes, {}, &Hole::along);
+  keepEqual(holes);
+  keepStraight(holes);
+  if (!isEvenRow(holes, acrossPage ? dark.cols : dark.rows)) return {};
+  return isMarginEmpty(dark, holes, acrossPage, side >= 2) ? holes : std::vector<Hole>();
+}
+
+/// The row along one side of the page: 0 above, 1 on the left, 2 below, 3 on the right. Where the sheet ends in the
+/// picture, its edge or the shadow along it joins the wires of the binding: as much along the side is left out as shows
+/// the most of them.
+HoleRow rowAlong(const cv::Mat1b& dark, int side) {
+  const bool acrossPage = side % 2 == 0;
+  const int across = acrossPage ? dark.rows : dark.cols, along = acrossPage ? dark.cols : dark.rows;
+  cv::Mat1b inside = dark.clone();
+  HoleRow most;
+  int left = 0;
+  for (int outer = 0; outer < static_cast<int>(kDeepest * across); ++outer) {
+    if (std::vector<Hole> holes = evenRow(inside, side); holes.size() > most.holes.size())
+      most.holes = std::move(holes), left = outer;
+    const int line = side < 2 ? outer : across - 1 - outer;
+    (acrossPage ? inside.row(line) : inside.col(line)).setTo(0);
+  }
+  if (most.holes.empty()) return most;
+  const int from = static_cast<int>(most.holes.front().along), to = static_cast<int>(most.holes.back().along);
+  const int spacing = (to - from) / static_cast<int>(std::ssize(most.holes) - 1);
+  const int begin = std::max(0, from - spacing), length = std::min(along, to + spacing) - begin;
+  const int at = side < 2 ? 0 : across - left;
+  most.edge = acrossPage ? cv::Rect(begin, at, length, left) : cv::Rect(at, begin, left, length);
+  return most;
+}
+
+void mark(const cv::Rect& box, BitImage& cells) {
+  for (int j = std::max(0, box.y); j < std::min(cells.height, box.br().y); ++j) {
+    for (int i = std::max(0, box.x); i < std::min(cells.width, box.br().x); ++i) cells.set(i, j, true);
+  }
+}
+
 }  // namespace
 
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
@@ -139,26 +185,19 @@ std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
   for (int j = 0; j < cells.rows; ++j) {
     for (int i = 0; i < cells.columns; ++i) dark(j, i) = cells.dark(j, i) < limit ? 255 : 0;
   }
-  std::vector<Hole> found;
+  HoleRow found;
   for (int side = 0; side < 4; ++side) {
-    const bool acrossPage = side % 2 == 0;
-    std::vector<Hole> holes = darkPieces(dark, acrossPage, side >= 2);
-    if (std::ssize(holes) < kFewestHoles) continue;
-    std::ranges::stable_sort(holes, {}, &Hole::along);
-    keepEqual(holes);
-    keepStraight(holes);
-    if (!isEvenRow(holes, acrossPage ? cells.columns : cells.rows)) continue;
-    if (!isMarginEmpty(dark, holes, acrossPage, side >= 2)) continue;
-    if (!found.empty()) return std::nullopt;
-    found = std::move(holes);
+    HoleRow row = rowAlong(dark, side);
+    if (row.holes.empty()) continue;
+    if (!found.holes.empty()) return std::nullopt;
+    found = std::move(row);
   }
-  if (found.empty()) return std::nullopt;
-  BindingHoles binding{BitImage(cells.columns, cells.rows), static_cast<int>(found.size())};
-  for (const Hole& hole : found) {
-    for (int j = std::max(0, hole.box.y - kRimCells); j < std::min(cells.rows, hole.box.br().y + kRimCells); ++j) {
-      for (int i = std::max(0, hole.box.x - kRimCells); i < std::min(cells.columns, hole.box.br().x + kRimCells); ++i)
-        binding.cells.set(i, j, true);
-    }
+  if (found.holes.empty()) return std::nullopt;
+  BindingHoles binding{BitImage(cells.columns, cells.rows), static_cast<int>(found.holes.size())};
+  mark(found.edge, binding.cells);
+  for (const Hole& hole : found.holes) {
+    const cv::Size rim(2 * kRimCells, 2 * kRimCells);
+    mark(cv::Rect(hole.box.tl() - cv::Point(kRimCells, kRimCells), hole.box.size() + rim), binding.cells);
   }
   return binding;
 }

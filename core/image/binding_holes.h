@@ -8,15 +8,16 @@
 
 namespace batten {
 
-/// The holes of a spiral or comb binding.
+/// The holes, or the wires, of a spiral or comb binding.
 struct BindingHoles {
-  BitImage cells;  ///< Holes and their rims, of the size of the cells.
+  BitImage cells;  ///< Holes and their rims, and the edge of the sheet beside them; of the size of the cells.
   int count = 0;
 };
 
 /// Finds a row of at least eight dark holes of one size at one distance, straight along one side of the page and near
-/// it, in a margin that is empty otherwise: letters have others beside them. Absent where two sides have such a row:
-/// that is a frame that was drawn or printed.
+/// it, in a margin that is empty otherwise: letters have others beside them. What joins them along the side, as the
+/// edge of the sheet or a shadow, does not count. Absent where two sides have such a row: that is a frame that was
+/// drawn or printed.
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells);
 
 }  // namespace batten

@@ -16,9 +16,9 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastReachPx = 2.0;  // to either side of a curve
-constexpr double kCellPx = 8.0;        // a curve lies nearer than this to the points that it was fitted to
-constexpr double kMostlyInk = 0.8;     // of a place
+constexpr double kLeastReachPx = 2.0;     // to either side of a curve
+constexpr double kCellPx = 8.0;           // a curve lies nearer than this to the points that it was fitted to
+constexpr double kMostlyInk = 2.0 / 3.0;  // of a place: pencil shading has highlights
 
 // What a curve asks the points of its line.
 class LineWidths {

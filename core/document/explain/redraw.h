@@ -29,7 +29,7 @@ std::vector<RedrawnCurve> redrawCurves(const PipelineOutput&, const RunContext&)
 double explainingReach(const RedrawnPoint&);
 
 /// The page that the curves explain: strokes as wide as they are, and the reach around them; borders, the reach around
-/// them, and what they enclose where at least 4/5 of it is `ink`.
+/// them, and what they enclose where at least two thirds of it are `ink`.
 BitImage redrawPage(const std::vector<RedrawnCurve>&, const PipelineOutput&, const BitImage& ink, const RunContext&);
 
 }  // namespace batten

@@ -199,21 +199,27 @@ TEST(Explanation, ADeclaredBridgeIsNotInvented) {
   EXPECT_LT(drawing.explain().invented, 0.01);
 }
 
-TEST(Explanation, AnOutlineAroundPaperExplainsItsBorderOnly) {
+/// What the outer border of a ring alone explains, its radius 120 px.
+double explainedByOuterBorder(double innerRadiusPx) {
   Drawing drawing;
   test::LabelPage page(500, 400);
   page.begin(true);
-  page.area({test::circle({250, 200}, 120), test::circle({250, 200}, 90)});
+  page.area({test::circle({250, 200}, 120), test::circle({250, 200}, innerRadiusPx)});
   drawing.scan.grey = page.grey(2);
   drawing.recipe.edges.mode = EdgeMode::Outline;
   StageCache cache;
   drawing.out = runPipeline(drawing.scan, drawing.recipe, cache, {}, {});
-  // The outer border alone: the fill would hold more paper than ink.
   FairedSet outer = *drawing.out.faired;
   for (TracedCurve& c : outer.curves) c.included = !drawing.out.contours->contours[c.contour].hole;
   drawing.out.faired = std::make_shared<FairedSet>(outer);
-  EXPECT_LT(drawing.explain().explained, 0.2);
+  return drawing.explain().explained;
 }
+
+TEST(Explanation, AnOutlineAroundPaperExplainsItsBorderOnly) {
+  EXPECT_LT(explainedByOuterBorder(90.0), 0.2) << "more paper than ink";
+}
+
+TEST(Explanation, AnOutlineAroundShadingWithAHighlightExplainsIt) { EXPECT_GT(explainedByOuterBorder(60.0), 0.97); }
 
 TEST(Explanation, StandsInTheReportWhereAsked) {
   const Drawing drawing;

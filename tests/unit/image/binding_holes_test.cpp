@@ -58,6 +58,20 @@ TEST(BindingHoles, ArePaintedOverAndTheDrawingStays) {
   EXPECT_TRUE(preparePage(scan, off, {})->isUntouched());
 }
 
+// The sheet ends in the picture, askew and with a shadow, and its wires go on beyond.
+TEST(BindingHoles, ArePaintedOverWithTheEdgeThatJoinsThem) {
+  const auto edge = [](double y) { return 6.0 + 0.006 * y; };
+  const auto isWire = [&](double x, double y) {
+    return x < edge(y) + 16.0 && std::fabs(std::remainder(y - 40.0, 30.0)) < 4.5;
+  };
+  const Scan scan = boundPage([&](double x, double y) { return isWire(x, y) || std::fabs(x - edge(y)) < 2.0; });
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page && page->grey);
+  EXPECT_EQ(page->bindingHoles, 30);
+  EXPECT_EQ(darkPixelsOf(*page->grey, 0, 60), 0);
+  EXPECT_EQ(darkPixelsOf(*page->grey, 60, kBoundWidth), darkPixelsOf(scan.grey, 60, kBoundWidth));
+}
+
 TEST(BindingHoles, AreAtOneSideOfThePageOnly) {
   const Scan frame = boundPage([](double x, double y) { return isBindingHole(x, y) || isBindingHole(640.0 - x, y); });
   EXPECT_TRUE(preparePage(frame, {}, {})->isUntouched());
