@@ -330,7 +330,7 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
   const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
   if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
     if (isOfOne) dropGrain(found->set, grey, found->painted, context);
-    dropPageEdgeLines(found->set, grey.width, grey.height);
+    dropPageEdgeLines(found->set, grey);
   }
   if (isOfAllInk(edges, params)) noteUntraced(found->set, ink);
   return std::move(found->set);

@@ -2,9 +2,15 @@
 #include "core/contour/ink/page_edge_lines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
+
+#include "core/base/statistics.h"
+#include "core/contour/centreline/stroke_profile.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -13,6 +19,17 @@ namespace {
 constexpr double kNearBorder = 0.03;  // the edge of a sheet that fills the picture
 constexpr double kLong = 0.3;         // shorter ones near the border are drawn
 constexpr double kAlone = 0.015;      // of any other line: a frame, a table or the ground touches something
+constexpr double kInside = 0.12;      // no edge that shows as a step lies farther from the border
+constexpr double kPart = 0.008;       // so near an edge lies what is a part of it
+constexpr double kPiece = 0.03;       // shorter pieces of an edge show no step for certain
+
+constexpr double kLeastStep = 0.015;                  // of the brightness: by which one side of an edge is darker
+constexpr double kStepped = 0.6, kAgainst = 0.1;      // of the length of an edge: so, and the other way round
+constexpr double kLeastAlong = 4.0;                   // of what an edge runs inwards
+constexpr double kMostBow = 0.015, kMostBowPx = 2.0;  // of its length: a sheet is cut straight
+constexpr double kGoesOn = 0.6;                       // of its length: so far beyond its ends an edge goes on straight
+constexpr double kEdgeSideWidths = 1.5;               // from the middle of a line to the paper beside it
+constexpr double kEdgeSidePx[] = {3.0, 5.0, 7.0, 9.0, 11.0};  // and farther
 
 struct Page {
   double width, height;
@@ -64,13 +81,168 @@ bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, cons
   return true;
 }
 
+/// +1 where the page is clearly brighter on the side of its middle than on that of its border along most of a line, and
+/// hardly anywhere darker; -1 where it is the other way round; else 0.
+int stepAlong(const Contour& line, int side, const GreyImage& grey) {
+  constexpr int kEvery = 4, kTangent = 4;  // points
+  const Page page{static_cast<double>(grey.width), static_cast<double>(grey.height)};
+  std::vector<float> widths = strokeWidthsOf(line.points);
+  const double beside = widths.empty() ? 0.0 : kEdgeSideWidths * static_cast<double>(upperMedian(widths));
+  int brighter = 0, darker = 0, all = 0;
+  for (int i = kTangent; i + kTangent < std::ssize(line.points); i += kEvery) {
+    const Vec2 along = line.points[i + kTangent].at - line.points[i - kTangent].at;
+    if (!(along.norm() > 0.0)) continue;
+    const Vec2& at = line.points[i].at;
+    Vec2 inwards = leftNormal(along.normalized());
+    if (seenFrom(side, at + inwards, page).y() < seenFrom(side, at, page).y()) inwards = -inwards;
+    double inner = 0.0, outer = 0.0;
+    for (const double px : kEdgeSidePx) {
+      const Vec2 in = at + (beside + px) * inwards, out = at - (beside + px) * inwards;
+      inner += static_cast<double>(sampleGrey(grey, in.x(), in.y()));
+      outer += static_cast<double>(sampleGrey(grey, out.x(), out.y()));
+    }
+    const double least = kLeastStep * std::max(inner, outer);
+    ++all, brighter += inner - outer > least ? 1 : 0, darker += outer - inner > least ? 1 : 0;
+  }
+  const double most = kStepped * all, few = kAgainst * all;
+  if (brighter > most && darker < few) return 1;
+  return darker > most && brighter < few ? -1 : 0;
+}
+
+bool isStraightEdge(const Contour& line) {
+  const Vec2 from = line.points.front().at, chord = line.points.back().at - from;
+  const double length = chord.norm();
+  if (line.closed || !(length > 0.0)) return false;
+  const Vec2 across = leftNormal(chord / length);
+  return std::all_of(line.points.begin(), line.points.end(), [&](const ContourPoint& p) {
+    return std::fabs(across.dot(p.at - from)) <= std::max(kMostBow * length, kMostBowPx);
+  });
+}
+
+/// A line along one side that may be a part of the edge of a sheet: the page steps there.
+struct EdgePiece {
+  int contour = 0;
+  Extent extent;
+  std::vector<double> depths;  ///< [px] How far it lies from the border, at equal steps along the side.
+};
+constexpr double kDepthStepPx = 8.0;
+
+EdgePiece edgePieceOf(int contour, int side, const Contour& line, const Page& page) {
+  EdgePiece piece{contour, extentFrom(side, line, page), {}};
+  const double length = piece.extent.most.x() - piece.extent.least.x();
+  piece.depths.assign(static_cast<std::size_t>(length / kDepthStepPx) + 1, 0.0);
+  for (const ContourPoint& point : line.points) {
+    const Vec2 p = seenFrom(side, point.at, page);
+    double& depth = piece.depths[static_cast<std::size_t>((p.x() - piece.extent.least.x()) / kDepthStepPx)];
+    depth = std::max(depth, p.y());
+  }
+  return piece;
+}
+
+bool isBeyond(const EdgePiece& piece, const Contour& other, int side, const Page& page) {
+  const double alone = kAlone * page.shorter();
+  return std::any_of(other.points.begin(), other.points.end(), [&](const ContourPoint& point) {
+    const Vec2 p = seenFrom(side, point.at, page) - Vec2(piece.extent.least.x(), 0.0);
+    const double last = static_cast<double>(piece.depths.size()) - 1.0;
+    const double at = std::clamp(p.x() / kDepthStepPx, 0.0, last);
+    return p.x() > -alone && p.x() < piece.extent.most.x() - piece.extent.least.x() + alone &&
+           p.y() < piece.depths[static_cast<std::size_t>(at)] + alone;
+  });
+}
+
+/// Whether a line lies along a piece of the edge, or goes on where it ends: a part of the edge too.
+bool isPartOf(const Contour& edge, const Contour& line, const Page& page) {
+  const Vec2 from = edge.points.front().at, chord = edge.points.back().at - from;
+  const Vec2 along = chord.normalized(), across = leftNormal(along);
+  return std::all_of(line.points.begin(), line.points.end(), [&](const ContourPoint& p) {
+    const double at = along.dot(p.at - from) / chord.norm();
+    return at > -kGoesOn && at < 1.0 + kGoesOn && std::fabs(across.dot(p.at - from)) < kPart * page.shorter();
+  });
+}
+
+/// The lines along one side of a page and which of them are parts of the edge of a sheet.
+class SheetEdge {
+ public:
+  SheetEdge(int side, const std::vector<Contour>& contours, const Page& page)
+      : side_(side), contours_(contours), page_(page) {}
+
+  /// @param pieces All with the same step.
+  std::vector<bool> partsOf(std::vector<EdgePiece> pieces) const {
+    for (;;) {
+      std::vector<bool> parts = linesAlong(pieces);
+      const auto drawn = std::erase_if(pieces, [&](const EdgePiece& e) { return hasLineBeyond(e, parts); });
+      if (drawn == 0) return lengthOf(parts) < kLong * (side_ < 2 ? page_.width : page_.height) ? none() : parts;
+    }
+  }
+
+ private:
+  std::vector<bool> none() const { return std::vector<bool>(contours_.size(), false); }
+
+  std::vector<bool> linesAlong(const std::vector<EdgePiece>& pieces) const {
+    std::vector<bool> parts = none();
+    for (int k = 0; k < std::ssize(contours_); ++k) {
+      parts[k] = !contours_[k].traceMode && std::any_of(pieces.begin(), pieces.end(), [&](const EdgePiece& e) {
+        return e.contour == k || isPartOf(contours_[e.contour], contours_[k], page_);
+      });
+    }
+    return parts;
+  }
+
+  bool hasLineBeyond(const EdgePiece& piece, const std::vector<bool>& parts) const {
+    for (int k = 0; k < std::ssize(contours_); ++k)
+      if (!parts[k] && isBeyond(piece, contours_[k], side_, page_)) return true;
+    return false;
+  }
+
+  /// [px] Along the side, with what overlaps counted once.
+  double lengthOf(const std::vector<bool>& parts) const {
+    std::vector<Extent> extents;
+    for (int k = 0; k < std::ssize(contours_); ++k)
+      if (parts[k]) extents.push_back(extentFrom(side_, contours_[k], page_));
+    std::ranges::sort(extents, {}, [](const Extent& extent) { return extent.least.x(); });
+    double length = 0.0, end = 0.0;
+    for (const Extent& extent : extents) {
+      length += std::max(0.0, extent.most.x() - std::max(end, extent.least.x()));
+      end = std::max(end, extent.most.x());
+    }
+    return length;
+  }
+
+  int side_;
+  const std::vector<Contour>& contours_;
+  Page page_;
+};
+
+/// Finds the edges of sheets that are lighter or darker than what lies beyond, along one side.
+void findSteps(int side, const std::vector<Contour>& contours, const GreyImage& grey, std::vector<bool>& isEdge) {
+  const Page page{static_cast<double>(grey.width), static_cast<double>(grey.height)};
+  const double along = side < 2 ? page.width : page.height;
+  std::vector<EdgePiece> brighter, darker;
+  for (int k = 0; k < std::ssize(contours); ++k) {
+    const Extent extent = extentFrom(side, contours[k], page);
+    const Vec2 size = extent.most - extent.least;
+    if (contours[k].traceMode || extent.most.y() > kInside * page.shorter() || size.x() < kPiece * along ||
+        size.x() < kLeastAlong * size.y() || !isStraightEdge(contours[k]))
+      continue;
+    const int step = stepAlong(contours[k], side, grey);
+    if (step != 0) (step > 0 ? brighter : darker).push_back(edgePieceOf(k, side, contours[k], page));
+  }
+  for (std::vector<EdgePiece>* pieces : {&brighter, &darker}) {
+    const std::vector<bool> parts = SheetEdge(side, contours, page).partsOf(std::move(*pieces));
+    for (std::size_t k = 0; k < parts.size(); ++k) isEdge[k] = isEdge[k] || parts[k];
+  }
+}
+
 }  // namespace
 
-void dropPageEdgeLines(ContourSet& set, int pageWidth, int pageHeight) {
-  const Page page{static_cast<double>(pageWidth), static_cast<double>(pageHeight)};
+void dropPageEdgeLines(ContourSet& set, const GreyImage& grey) {
+  const Page page{static_cast<double>(grey.width), static_cast<double>(grey.height)};
   std::vector<bool> isEdge(set.contours.size(), false);
-  for (int k = 0; k < std::ssize(set.contours); ++k)
-    for (int side = 0; side < 4 && !isEdge[k]; ++side) isEdge[k] = isSheetEdge(side, k, set.contours, page);
+  for (int side = 0; side < 4; ++side) {
+    for (int k = 0; k < std::ssize(set.contours); ++k)
+      isEdge[k] = isEdge[k] || isSheetEdge(side, k, set.contours, page);
+    findSteps(side, set.contours, grey, isEdge);
+  }
   if (std::find(isEdge.begin(), isEdge.end(), false) == isEdge.end()) return;
   std::size_t index = 0;
   set.report.droppedMargins +=

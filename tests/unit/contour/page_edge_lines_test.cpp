@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -28,10 +30,16 @@ Contour borderLine(const Vec2& from, const Vec2& to, double bow = 0.0) {
   return c;
 }
 
-int droppedOf(std::vector<Contour> lines) {
+GreyImage whole(double level) {
+  GreyImage page(kWholeWidth, kWholeHeight);
+  std::fill(page.pixels.begin(), page.pixels.end(), static_cast<std::uint16_t>(257.0 * level));
+  return page;
+}
+
+int droppedOf(std::vector<Contour> lines, const GreyImage& page = whole(230.0)) {
   ContourSet set;
   set.contours = std::move(lines);
-  dropPageEdgeLines(set, kWholeWidth, kWholeHeight);
+  dropPageEdgeLines(set, page);
   return set.report.droppedMargins;
 }
 
@@ -48,7 +56,7 @@ TEST(PageEdgeLines, TheDrawingStaysInOrder) {
   const Contour second = borderLine({200.0, 600.0}, {800.0, 650.0});
   ContourSet set;
   set.contours = {kDrawnBend, borderLine({12.0, 100.0}, {16.0, 700.0}), second};
-  dropPageEdgeLines(set, kWholeWidth, kWholeHeight);
+  dropPageEdgeLines(set, whole(230.0));
   ASSERT_EQ(set.contours.size(), 2u);
   EXPECT_EQ(set.contours[0].points, kDrawnBend.points);
   EXPECT_EQ(set.contours[1].points, second.points);
@@ -81,6 +89,36 @@ TEST(PageEdgeLines, LinesOfADrawingNearTheBorderStay) {
       << "a frame";
   EXPECT_EQ(droppedOf({borderLine({16.0, 100.0}, {16.0, 700.0}), borderLine({6.0, 300.0}, {6.0, 350.0})}), 0)
       << "something is drawn beyond";
+}
+
+/// Paper of 230 above y = 735 and a table of 210 below: the edge of the sheet, 65 px from the border.
+GreyImage sheetOnTable() {
+  GreyImage page = whole(230.0);
+  for (int y = 735; y < kWholeHeight; ++y) std::fill_n(page.row(y), kWholeWidth, static_cast<std::uint16_t>(257 * 210));
+  return page;
+}
+
+const std::vector<Contour> kEdgeInPieces = {borderLine({60.0, 734.0}, {200.0, 736.0}), kDrawnBend,
+                                            borderLine({240.0, 735.0}, {420.0, 735.0}),
+                                            borderLine({425.0, 733.0}, {435.0, 737.0})};
+
+TEST(PageEdgeLines, TheEdgeOfASheetFartherInsideIsDroppedWithItsPieces) {
+  EXPECT_EQ(droppedOf(kEdgeInPieces, sheetOnTable()), 3);
+  EXPECT_EQ(droppedOf(kEdgeInPieces), 0) << "a line on paper";
+}
+
+TEST(PageEdgeLines, WhatIsDrawnAlongAToneStays) {
+  std::vector<Contour> lines = kEdgeInPieces;
+  lines.push_back(borderLine({300.0, 760.0}, {360.0, 790.0}));
+  EXPECT_EQ(droppedOf(lines, sheetOnTable()), 0) << "a line beyond the longer piece; the other is short";
+  const Contour bowed = borderLine({60.0, 735.0}, {760.0, 735.0}, 14.0);
+  GreyImage page = whole(230.0);
+  for (const ContourPoint& p : bowed.points) {
+    for (int x = static_cast<int>(p.at.x()) - 8; x < static_cast<int>(p.at.x()) + 8; ++x)
+      for (int y = static_cast<int>(p.at.y()); y < kWholeHeight; ++y)
+        page.row(y)[x] = static_cast<std::uint16_t>(257 * 190);
+  }
+  EXPECT_EQ(droppedOf({bowed, kDrawnBend}, page), 0) << "a shaded form";
 }
 
 }  // namespace
