@@ -117,6 +117,7 @@ struct ContourReport {
 struct ContourSet {
   std::vector<Contour> contours;
   std::vector<StrokeJunction> junctions;  ///< Of the strokes; none where lines were made of several.
+  std::vector<Contour> sheetEdges;        ///< Lines that are the edge of a sheet in the picture: left out.
   ContourReport report;
 };
 

@@ -41,6 +41,7 @@ void scaleContour(Contour& c, double factor) {
 
 void scaleContours(ContourSet& set, double factor) {
   for (Contour& c : set.contours) scaleContour(c, factor);
+  for (Contour& c : set.sheetEdges) scaleContour(c, factor);
   for (StrokeJunction& junction : set.junctions) {
     junction.positionPx *= factor;
     junction.radiusPx *= factor;

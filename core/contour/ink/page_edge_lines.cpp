@@ -244,9 +244,11 @@ void dropPageEdgeLines(ContourSet& set, const GreyImage& grey) {
     findSteps(side, set.contours, grey, isEdge);
   }
   if (std::find(isEdge.begin(), isEdge.end(), false) == isEdge.end()) return;
-  std::size_t index = 0;
-  set.report.droppedMargins +=
-      static_cast<int>(std::erase_if(set.contours, [&](const Contour&) { return isEdge[index++]; }));
+  std::vector<Contour> drawn;
+  for (std::size_t k = 0; k < isEdge.size(); ++k)
+    (isEdge[k] ? set.sheetEdges : drawn).push_back(std::move(set.contours[k]));
+  set.contours = std::move(drawn);
+  set.report.droppedMargins += static_cast<int>(std::ssize(set.sheetEdges));
 }
 
 }  // namespace batten

@@ -54,6 +54,18 @@ Result<Reference> makeReference(const GreyImage& page, const Recipe& recipe, con
   return Reference{page, std::move(*ink), std::move(*thresholds)};
 }
 
+// The edge of a sheet in the picture is not drawn.
+BitImage withoutSheetEdges(BitImage ink, const std::vector<Contour>& edges) {
+  BitImage along(ink.width, ink.height);
+  for (const Contour& edge : edges) {
+    for (const ContourPoint& p : edge.points) {
+      const double halfWidthPx = 0.5 * static_cast<double>(p.widthPx.value_or(0.0f));
+      setDisc(along, p.at, halfWidthPx + explainingReach({p.at, halfWidthPx, false}));
+    }
+  }
+  return without(ink, along);
+}
+
 // [grey] By which the page is darker at a place of a line than at both its sides, where that is the least; of a border,
 // by which it is darker on the right.
 double depthAt(const RedrawnPoint& p, const Vec2& along, bool isBorder, const GreyImage& page) {
@@ -185,7 +197,8 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   Explanation result;
   const auto reference = makeReference(tracedGrey(scan, out), recipe, context);
   if (!reference) return fail(reference.error());
-  const BitImage drawn = withoutMargins(reference->ink, context);
+  BitImage drawn = withoutMargins(reference->ink, context);
+  if (out.contours) drawn = withoutSheetEdges(std::move(drawn), out.contours->sheetEdges);
   const std::vector<RedrawnCurve> curves = redrawCurves(out, context);
   result.referencePx = drawn.count();
   result.missedInk = without(drawn, redrawPage(curves, out, drawn, context));

@@ -27,7 +27,7 @@ inline constexpr double kLeastExplainedPen = 0.97, kLeastExplainedPencil = 0.92,
 /// How well the curves of a run explain the ink of the page.
 struct Explanation {
   /// Ink that the page holds at a low contrast which no setting of the drawing changes, in the regions traced, but for
-  /// margins along the border of the page. [px]
+  /// margins along the border of the page and edges of a sheet. [px]
   std::int64_t referencePx = 0;
   double explained = 1.0;  ///< Share of the reference ink within reach of the curves drawn anew. 0..1
   double missed = 0.0;     ///< The rest of it.

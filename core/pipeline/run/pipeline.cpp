@@ -38,7 +38,8 @@ std::size_t bytesOf(const std::optional<FinePage>& fine) {
 }
 std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
-  for (const Contour& c : set.contours) bytes += sizeof(c) + vectorBytes(c.points);
+  for (const auto* lines : {&set.contours, &set.sheetEdges})
+    for (const Contour& c : *lines) bytes += sizeof(c) + vectorBytes(c.points);
   for (const StrokeJunction& junction : set.junctions) {
     bytes += sizeof(junction) + vectorBytes(junction.branchesPx) + vectorBytes(junction.pairs) +
              vectorBytes(junction.pairings);

@@ -84,6 +84,19 @@ TEST(Explanation, TheMarginOfTheScannerIsNoInkToExplain) {
 }
 
 // A line that is too faint for the reference is seen along its length all the same.
+TEST(Explanation, TheEdgeOfASheetIsNoInkToExplain) {
+  Drawing drawing;
+  for (int y = 366; y < 400; ++y) {
+    for (int x = 0; x < 500; ++x) drawing.scan.grey.row(y)[x] = static_cast<std::uint16_t>(257 * (y < 369 ? 90 : 205));
+  }
+  StageCache cache;
+  drawing.out = runPipeline(drawing.scan, drawing.recipe, cache, {}, {});
+  ASSERT_TRUE(drawing.out.contours);
+  EXPECT_EQ(drawing.out.contours->contours.size(), 3u);
+  ASSERT_EQ(drawing.out.contours->sheetEdges.size(), 1u);
+  EXPECT_GT(drawing.explain().explained, 0.98);
+}
+
 TEST(Explanation, AFaintLineIsNotInvented) {
   Drawing drawing;
   drawing.shiftTopLine(35.0);
