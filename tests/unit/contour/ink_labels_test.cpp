@@ -70,6 +70,25 @@ TEST(InkLabels, BarsWiderThanAnyPenAreShapes) {
   }
 }
 
+/// Fine lines, and broad ones joined to them: as many px of these, beside 2 960 px of those.
+double shareOfShapesAmongFineLines(double broadPx) {
+  test::LabelPage page(800, 600);
+  page.begin(false);
+  page.line({{40, 40}, {760, 40}, {760, 560}, {40, 560}, {40, 40}}, 3.0);
+  page.line(segment({40, 300}, {760, 300}), 3.0);
+  for (double y = 100.0; broadPx > 0.0; y += 60.0, broadPx -= 300.0) {
+    page.line(segment({40, y}, {250, y}), 3.0);
+    page.line(segment({250, y}, {550, y}), 20.0);
+  }
+  return shareOfShapes(labelsOf(page.ink(2)));
+}
+
+// A filled band is as even as a stroke, but a second pen would have drawn more.
+TEST(InkLabels, AFilledBandAmongFineLinesIsAShape) {
+  EXPECT_NEAR(shareOfShapesAmongFineLines(300.0), 6000.0 / (6000.0 + 3.0 * (2960.0 + 240.0)), 0.05);
+  EXPECT_LT(shareOfShapesAmongFineLines(1500.0), 0.01);
+}
+
 TEST(InkLabels, ATaperedStrokeIsAStroke) {
   test::LabelPage page(400, 200);
   page.begin(false);
