@@ -72,8 +72,9 @@ void tellDropped(ContourSet& set, const EdgeParams& edges) {
     addNote(set, countedWere(report.droppedGrain, "short line", "short lines") +
                      " dropped, no darker than the grain of the tone around; contours.min_widths=2 keeps them.");
   if (report.droppedMargins > 0)
-    addNote(set, countedWere(report.droppedMargins, "line along the page border", "lines along the page border") +
-                     " dropped.");
+    addNote(set,
+            countedWere(report.droppedMargins, "line along the page border", "lines along the page border") +
+                (set.sheetEdges.empty() ? " dropped." : " dropped; edges.mode=centreline keeps the edge of a sheet."));
 }
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {

@@ -175,7 +175,9 @@ void EdgesPanel::refresh() {
                     tr("Where strokes might also be paired otherwise: rings on the drawing; click one for the next "
                        "way.")});
   if (report.droppedMargins > 0)
-    rows.push_back({tr("Scanner margins dropped"), {{grouped(report.droppedMargins)}}, {}});
+    rows.push_back({tr("Border lines dropped"),
+                    {{grouped(report.droppedMargins)}},
+                    tr("Lines along the border of the page: margins of the scanner and edges of a sheet.")});
   if (report.droppedFaint > 0)
     rows.push_back({tr("Faint specks dropped"),
                     {{grouped(report.droppedFaint)}},
