@@ -14,13 +14,15 @@
 namespace batten {
 namespace {
 
-constexpr int kLongestSidePx = 1750;       // of the copy that is searched, which has half of that at least
-constexpr double kAroundTone = 1.2;        // of the longest tone: the window in which its paper is seen
-constexpr double kDarkestTone = 190.0;     // [of 255] darkness on which nothing darker could be drawn
-constexpr double kMostOfLines = 0.85;      // of the darkness of the lines on it: what is as dark is a solid
-constexpr double kDarkLines = 0.75;        // quantile of the darkness of the lines on an area
-constexpr double kSharp = 0.6;             // of the tone's darkness, within a brush: more gradual is a fade
-constexpr double kMostBare = 0.7;          // of the border sharp and without a line: more is a shape
+constexpr int kLongestSidePx = 1750;    // of the copy that is searched, which has half of that at least
+constexpr double kAroundTone = 1.2;     // of the longest tone: the window in which its paper is seen
+constexpr double kDarkestTone = 190.0;  // [of 255] darkness on which nothing darker could be drawn
+constexpr double kMostOfLines = 0.85;   // of the darkness of the lines on it: what is as dark is a solid
+constexpr double kDarkLines = 0.75;     // quantile of the darkness of the lines on an area
+constexpr double kSharp = 0.6;          // of the tone's darkness, within a brush: more gradual is a fade
+constexpr double kMostBare = 0.7;       // of the border sharp and without a line: more is a shape
+constexpr double kUsualBare = 0.4;      // more needs lines that are half again as dark as the tone
+constexpr double kMostOfBareLines = 2.0 / 3.0;
 constexpr double kLeastBarePiece = 4.0;    // [brushes] of a bare border that becomes a line
 constexpr double kGrainQuantile = 0.9;     // of the depth below the ground beside the lines
 constexpr double kMostGrainDepth = 0.375;  // [darkness of lines] what the grain may become: below their half level
@@ -66,9 +68,12 @@ Area areaOf(const cv::Mat1b& area, const ToneLook& look) {
   if (cv::countNonZero(border & look.nearLine) < kLeastLined * borderPx) return {};
   Area found;
   found.bare = border & (look.nearLine == 0) & (look.range >= kSharp * darkness);
-  if (cv::countNonZero(found.bare) > kMostBare * borderPx) return {};
+  const int barePx = cv::countNonZero(found.bare);
+  if (barePx > kMostBare * borderPx) return {};
   const cv::Mat1b linesOn = look.lines & look.nearLine & grownMask(area, look.brush);
-  if (darkness > kMostOfLines * darknessQuantile(look.flat, linesOn, kDarkLines)) return {};
+  // The rim of a broad marker's stroke is darker than its inside, and is no line around a tone.
+  const double mostOfLines = barePx > kUsualBare * borderPx ? kMostOfBareLines : kMostOfLines;
+  if (darkness > mostOfLines * darknessQuantile(look.flat, linesOn, kDarkLines)) return {};
   if (cv::countNonZero(inner & look.lines) > kMostGrain * cv::countNonZero(inner)) return {};
   double radius = 0.0;
   cv::Mat1f distance;

@@ -119,6 +119,20 @@ TEST(ToneAreas, ABareSharpBorderBecomesALineWhereTheToneEnds) {
   }
 }
 
+// The rim of a broad marker's stroke is darker than its inside, but not as lines are.
+TEST(ToneAreas, AHalfBareAreaHardlyLighterThanItsRimIsAShape) {
+  const auto isTone = [](double toneGrey, double lastLine) {
+    Drawing d = drum();
+    d.toneGrey = toneGrey;
+    d.line = [=](double x, double y) {
+      return x < lastLine ? std::min(std::abs(insideDrum(x, y)), fromLid(x, y)) : 100.0;
+    };
+    return findToneAreas(pageOf(d).grey, {}).has_value();
+  };
+  EXPECT_TRUE(isTone(kToneGrey, 600.0)) << "with lines all around";
+  EXPECT_FALSE(isTone(kToneGrey, 340.0));
+}
+
 // On a page whose sides the pixels of the areas do not divide, with any number of threads.
 TEST(ToneAreas, ABareBorderIsALineWhereThePageHasIt) {
   constexpr int kColumns = 300, kRows = 170, kTimes = 2;
