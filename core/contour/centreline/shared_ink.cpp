@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contour/centreline/arc_through.h"
+#include "core/contour/merge/stroke_lines.h"
 
 namespace batten {
 namespace {
@@ -19,6 +20,9 @@ constexpr double kAlongPx = 0.6, kAlongWidths = 0.12;
 constexpr double kClearMiss = 2.0;       // the other pairing leaves more by this factor where one is clear
 constexpr double kClearedWidths = 10.0;  // [stroke widths] from which on an end can spare its beginning
 constexpr double kLeastWider = 1.1;      // [stroke widths] of the ink that two strokes share, in the mean
+// A stroke that turns by more, as a ring, may be two branches on one side of the other stroke, which by itself must
+// leave so many times more of the ink's widths.
+constexpr double kRingTurnDeg = 40.0, kClearRing = 1.3;
 
 struct OuterEnd {
   int end = 0;
@@ -53,6 +57,7 @@ class SharedEdge {
   };
   std::optional<Pairing> paired(int other) const;
   double clearPx() const;
+  double widthsLeftBy(double half) const;
 
   const SkeletonGraph& graph_;
   int edge_;
@@ -114,21 +119,33 @@ double SharedEdge::clearPx() const {
   return areLong ? 0.5 * width_ : 0.0;
 }
 
+// [px^2] Mean square of what a stroke of this half-width leaves of the ink's, by itself.
+double SharedEdge::widthsLeftBy(double half) const {
+  double sum = 0.0;
+  for (const StrokePathPoint& s : graph_.edge(edge_).points) {
+    const double wider = static_cast<double>(s.radius) - half;
+    sum += wider * wider;
+  }
+  return sum / std::max<double>(1.0, static_cast<double>(graph_.edge(edge_).points.size()));
+}
+
 // The first end of one side goes on to end `other` of the other.
 std::optional<SharedEdge::Pairing> SharedEdge::paired(int other) const {
   std::array<LocalArc, 2> arcs;
   std::array<double, 2> halves;  // [px] of the widths
   double left = 0.0;
+  std::array<double, 2> turns;  // [deg] from one end to the other
   for (const int k : {0, 1}) {
     const OuterEnd &p = ends_[0][k], &q = ends_[1][k == 0 ? other : 1 - other];
     const std::optional<LocalArc> arc = arcThrough(p.points, q.points);
     if (!arc) return std::nullopt;
     arcs[k] = *arc;
     halves[k] = 0.25 * (p.width + q.width);
+    turns[k] = turnDeg(p.points.front() - p.points.back(), q.points.back() - q.points.front());
     const double wider = 0.5 * (p.width - q.width);
     left += 0.25 * (squaresLeft(*arc, p.points) + squaresLeft(*arc, q.points) + 2.0 * wider * wider);
   }
-  double along = 0.0;
+  double along = 0.0, widths = 0.0;
   int count = 0;
   for (const StrokePathPoint& s : graph_.edge(edge_).points) {
     const Vec2 at = frame_.local(s.at);
@@ -137,12 +154,18 @@ std::optional<SharedEdge::Pairing> SharedEdge::paired(int other) const {
     const double low = std::min(a - halves[0], b - halves[1]), high = std::max(a + halves[0], b + halves[1]);
     const double aside = 0.5 * (low + high), wider = 0.5 * (high - low) - static_cast<double>(s.radius);
     along += aside * aside + wider * wider;
+    widths += wider * wider;
     ++count;
   }
   along /= std::max(1, count);
+  widths /= std::max(1, count);
   const double most = mostLeftPx(width_), mostAlong = kAlongPx + kAlongWidths * width_;
   Pairing found;
   found.fits = left <= most * most && along <= mostAlong * mostAlong;
+  for (const int k : {0, 1}) {
+    if (turns[k] > kRingTurnDeg && !(widthsLeftBy(halves[1 - k]) > kClearRing * kClearRing * widths))
+      found.fits = false;
+  }
   found.ink.missPx = std::sqrt(left + along);
   if (!std::isfinite(found.ink.missPx)) return std::nullopt;
   found.ink.strokes = {std::pair(ends_[0][0].end, ends_[1][other].end),

@@ -22,7 +22,8 @@ struct SharedInk {
 /// Whether an edge whose nodes each have two further ends is the common ink of two strokes. The ends at one node are
 /// paired with those at the other in the way in which two arcs of a circle, laid through the ends beyond the nodes,
 /// leave least of them; the arcs must then run along the edge, as far to both sides of it as its ink is wider than
-/// one stroke. Long edges between two branches of one stroke are no wider than the stroke: they are not shared.
+/// one stroke. Long edges between two branches of one stroke are no wider than the stroke: they are not shared; nor is
+/// one between two branches on one side of a stroke, which look like a ring on it but leave it as wide as it is.
 std::optional<SharedInk> findSharedInk(const SkeletonGraph& graph, int edge);
 
 }  // namespace batten

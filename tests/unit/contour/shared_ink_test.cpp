@@ -125,6 +125,23 @@ TEST(SharedInk, AStrokeWithABranchAtEitherEndIsWhole) {
   EXPECT_LT(best, 2.0);
 }
 
+// The teeth of a comb, and fingers at the edge of a hand.
+TEST(SharedInk, TwoBranchesOnOneSideOfALineAreNoRing) {
+  const SharedLine line = arcAt({240, 240}, 0.0, 0.0, 400.0);
+  for (const double widthPx : {4.0, 5.0}) {
+    for (const double apartWidths : {5.5, 6.5}) {
+      for (const double leanDeg : {0.0, 10.0, 20.0}) {
+        SharedLine left = arcAt({240 - 0.5 * apartWidths * widthPx, 240}, -90.0 - leanDeg, 0.0, 240.0);
+        SharedLine right = arcAt({240 + 0.5 * apartWidths * widthPx, 240}, -90.0 + leanDeg, 0.0, 240.0);
+        for (SharedLine* branch : {&left, &right}) branch->erase(branch->begin(), branch->begin() + 120);
+        const std::vector<SharedLine> lines = {line, left, right};
+        expectTheLines(lines, traced(lines, {widthPx, widthPx, widthPx}), 2.0,
+                       testing::Message() << widthPx << " px, " << apartWidths << " widths apart, " << leanDeg);
+      }
+    }
+  }
+}
+
 TEST(SharedInk, ACubicThatLeavesAndArrivesOnAnArcIsCloseToIt) {
   constexpr double kRadius = 50.0;
   for (const double turn : {0.3, 1.0, 1.6}) {
