@@ -151,6 +151,22 @@ TEST(InkSplit, ShortDoubledStrokesAreNoFillings) {
   }
 }
 
+// Two lines of a thicker pen that cross twice at a shallow angle, among thin lines: where they run together the ink is
+// far wider than most lines of the page, but it is a ribbon that lines run through.
+TEST(InkSplit, RibbonsOfStrokesHaveNoOutlinesWithin) {
+  for (const double width : {9.0, 10.0, 11.0}) {
+    for (const double sway : {14.0, 16.0, 18.0}) {
+      const double apart = width + 3.0;
+      test::LabelPage page(520, 420);
+      page.begin(false);
+      for (int i = 0; i < 8; ++i) page.line({Vec2(30, 200 + 25 * i), Vec2(480, 190 + 25 * i)}, kPen);
+      page.line({Vec2(40, 80), Vec2(240, 80 + sway), Vec2(480, 80)}, width);
+      page.line({Vec2(40, 80 + apart), Vec2(240, 80 + apart - sway), Vec2(480, 80 + apart)}, width);
+      EXPECT_TRUE(linesOf(traced(page), ContourKind::Outline).empty()) << width << ", " << sway;
+    }
+  }
+}
+
 // A dot of four pens where four lines meet stays one.
 TEST(InkSplit, DotsOnCrossingsStayShapes) {
   test::LabelPage page(420, 420);
