@@ -9,6 +9,7 @@
 
 #include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/chosen_ink.h"
+#include "core/contour/ink/ribbons.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/mark_rows.h"
@@ -64,8 +65,8 @@ BitImage leftBeside(const BitImage& ink, std::optional<double> penPx, const Cont
 }
 
 // What strokes of a pen enclose and fill. What is left beside a line that swells is none.
-BitImage penFillings(const BitImage& ink, const BitImage& swellings, std::optional<double> penPx,
-                     const ContourSet& lines, const RunContext& context) {
+BitImage penFillings(const BitImage& ink, const BitImage& shapes, const BitImage& swellings,
+                     std::optional<double> penPx, const ContourSet& lines, const RunContext& context) {
   constexpr double kLeastArea = 3.0;   // [squared pen widths] a dot of two pens across
   constexpr double kBodyWidths = 2.5;  // strokes that cross at any angle hold no larger disc, and a pixel
   BitImage fillings = leftBeside(ink, penPx, lines, context);
@@ -75,7 +76,9 @@ BitImage penFillings(const BitImage& ink, const BitImage& swellings, std::option
   const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * *penPx + 1.0))));
   const BitImage bodies = grown(shrunken(ink, body, context), body + 1, context);
   const int leastArea = static_cast<int>(std::lround(kLeastArea * *penPx * *penPx));
-  return withoutMargins(keepPieces(fillings, {.minArea = leastArea, .seeds = &bodies}, context), context);
+  fillings = keepPieces(fillings, {.minArea = leastArea, .seeds = &bodies}, context);
+  if (context.isCancelled()) return fillings;
+  return withoutMargins(fillingsOfRibbons(fillings, ink, shapes, lines, context), context);
 }
 
 }  // namespace
@@ -125,14 +128,15 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, const BitImag
 }
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
-  if (!split.pencil) return penFillings(split.strokes, split.swellings, split.penPx, lines, context);
+  if (!split.pencil) return penFillings(split.strokes, split.shapes, split.swellings, split.penPx, lines, context);
   // Tones of a pencil have no border; solids have, which lies where the strokes beside them do.
   const BitImage besideSolid = grown(split.shapes, 1, context);
   BitImage tones =
       mostlyInk(leftBeside(pencilStrokes(*split.pencil, split.shapes), split.pencil->widthPx, lines, context),
                 split.strokes, kInkShare, context);
   tones = withoutMargins(keepPieces(tones, {.seeds = &besideSolid}, context), context);
-  return either(penFillings(without(split.strokes, split.pencil->ink), split.swellings, split.penPx, lines, context),
+  return either(penFillings(without(split.strokes, split.pencil->ink), split.shapes, split.swellings, split.penPx,
+                            lines, context),
                 tones);
 }
 

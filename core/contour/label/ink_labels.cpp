@@ -214,6 +214,18 @@ bool isSwelling(const ShapeRegion& r, const InkGraph& graph, double widestPenPx)
   return covered >= kLine * static_cast<double>(r.areaPx);
 }
 
+// [px] On a page of several pens, that of the strokes that meet in a knot; no less than the page's.
+double penAt(const ShapeRegion& r, const InkGraph& graph, double penPx) {
+  constexpr double kKnotArea = 3.0;  // in squared widths; what is longer than a knot may be a filled band or bar
+  if (static_cast<double>(r.areaPx) >= kKnotArea * r.widthPx() * r.widthPx()) return penPx;
+  std::vector<std::pair<double, double>> widths;
+  for (const StrokeInto& s : r.strokesInto) {
+    const InkPath& path = graph.paths()[s.path];
+    if (path.elongation() >= kStrokeWidths) widths.emplace_back(*path.widthPx, path.elongation());
+  }
+  return std::max(penPx, weightedMedian(std::move(widths)).value_or(0.0));
+}
+
 // Where strokes lie over one another there is no solid: see labelInk.
 void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double mergeWidths, InkLabels& labels,
                     const RunContext& context) {
@@ -236,9 +248,10 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
     const double width = r.widthPx();
     if (r.mouths == 0 || width <= 0.0) return false;
     if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * penPx + 1.0) return true;
-    if (r.mouths < 2 || width > std::min(kBundlePens * penPx + 1.0, page.widestPenPx)) return false;
+    const double pen = penAt(r, graph, penPx);
+    if (r.mouths < 2 || width > std::min(kBundlePens * pen + 1.0, page.widestPenPx)) return false;
     const bool isKnot = static_cast<double>(r.mouthsPx) >= kMouthShare * static_cast<double>(r.borderPx);
-    if (isKnot && width <= kKnotPens * penPx + 1.0) return true;
+    if (isKnot && width <= kKnotPens * pen + 1.0) return true;
     return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
   };
   labels.swellings = BitImage(labels.shapes.width, labels.shapes.height);

@@ -24,8 +24,8 @@ struct InkLabels {
 /// Pieces that are alike in size and width (an alphabet) are voted on together, so that broad-nib letters are shapes as
 /// a whole. Nothing depends on the size of the page but what counts as a letter.
 /// Strokes drawn over one another are no solid where they lie close: what is long, narrow and joined to three strokes,
-/// or longer and joined to two, stays stroke. So does what lines run into without a step in width, if they cover far
-/// more than it does: a line that swells.
+/// or longer and joined to two, stays stroke; how narrow, the strokes that meet there say. So does what lines run into
+/// without a step in width, if they cover far more than it does: a line that swells.
 /// @param mergeWidths [stroke widths] how far apart the strokes of one line run that are to be merged; what is no wider
 /// than such a line and joined to strokes is not a shape. 0: no merging.
 /// @param pixelsPerPx of the ink, along a pixel of the page.

@@ -134,6 +134,23 @@ TEST(InkSplit, CrossingsOfManyStrokesAreNoShapes) {
   }
 }
 
+// The same fans of a thicker pen, on a page that is mostly thin lines.
+TEST(InkSplit, CrossingsOfThickStrokesAmongThinOnesAreNoShapes) {
+  for (const Fan& fan : {Fan{4, 36.0, 2.0}, Fan{4, 40.0, 3.0}, Fan{5, 70.0, 2.0}, Fan{5, 80.0, 2.0}, Fan{5, 100.0, 2.0},
+                         Fan{6, 110.0, 2.0}, Fan{6, 150.0, 2.0}}) {
+    test::LabelPage page(900, 800);
+    page.begin(false);
+    for (int i = 0; i < 12; ++i) page.line({Vec2(480, 20 + 60 * i), Vec2(880, 30 + 60 * i)}, 3.0);
+    for (int i = 0; i < fan.lines; ++i) {
+      const double angle = std::numbers::pi / 180.0 * (20.0 + fan.spreadDeg * i / (fan.lines - 1));
+      const Vec2 at = Vec2(200, 210) + 1.6 * fan.apartPx * Vec2(std::cos(3.0 * angle), std::sin(3.0 * angle));
+      const Vec2 half = 170.0 * Vec2(std::cos(angle), std::sin(angle));
+      page.line({at - half, at + half}, 9.0);
+    }
+    EXPECT_TRUE(linesOf(traced(page), ContourKind::Outline).empty()) << fan.lines << " lines over " << fan.spreadDeg;
+  }
+}
+
 // A stub that was drawn twice, hardly longer than it is wide, on a line and at its end.
 TEST(InkSplit, ShortDoubledStrokesAreNoFillings) {
   for (const double apart : {3.0, 4.0}) {
@@ -151,6 +168,22 @@ TEST(InkSplit, ShortDoubledStrokesAreNoFillings) {
   }
 }
 
+// Two lines of a thicker pen that cross twice at a shallow angle, among thin lines: where they run together the ink is
+// far wider than most lines of the page, but it is a ribbon that lines run through.
+TEST(InkSplit, RibbonsOfStrokesHaveNoOutlinesWithin) {
+  for (const double width : {9.0, 10.0, 11.0}) {
+    for (const double sway : {14.0, 16.0, 18.0}) {
+      const double apart = width + 3.0;
+      test::LabelPage page(520, 420);
+      page.begin(false);
+      for (int i = 0; i < 8; ++i) page.line({Vec2(30, 200 + 25 * i), Vec2(480, 190 + 25 * i)}, kPen);
+      page.line({Vec2(40, 80), Vec2(240, 80 + sway), Vec2(480, 80)}, width);
+      page.line({Vec2(40, 80 + apart), Vec2(240, 80 + apart - sway), Vec2(480, 80 + apart)}, width);
+      EXPECT_TRUE(linesOf(traced(page), ContourKind::Outline).empty()) << width << ", " << sway;
+    }
+  }
+}
+
 // A dot of four pens where four lines meet stays one.
 TEST(InkSplit, DotsOnCrossingsStayShapes) {
   test::LabelPage page(420, 420);
@@ -159,6 +192,18 @@ TEST(InkSplit, DotsOnCrossingsStayShapes) {
   page.line({Vec2(210, 60), Vec2(210, 360)}, kPen);
   page.begin(true);
   page.area({test::circle(Vec2(210, 210), 2.0 * kPen)});
+  EXPECT_EQ(linesOf(traced(page), ContourKind::Outline).size(), 1u);
+}
+
+// The same of thick lines, on a page that is mostly thin ones.
+TEST(InkSplit, DotsOnCrossingsOfThickStrokesStayShapes) {
+  test::LabelPage page(900, 800);
+  page.begin(false);
+  for (int i = 0; i < 12; ++i) page.line({Vec2(480, 20 + 60 * i), Vec2(880, 30 + 60 * i)}, 3.0);
+  page.line({Vec2(60, 210), Vec2(360, 210)}, 9.0);
+  page.line({Vec2(210, 60), Vec2(210, 360)}, 9.0);
+  page.begin(true);
+  page.area({test::circle(Vec2(210, 210), 18.0)});
   EXPECT_EQ(linesOf(traced(page), ContourKind::Outline).size(), 1u);
 }
 
