@@ -214,15 +214,17 @@ bool isSwelling(const ShapeRegion& r, const InkGraph& graph, double widestPenPx)
   return covered >= kLine * static_cast<double>(r.areaPx);
 }
 
-// [px] On a page of several pens, that of the strokes that meet in a knot; no less than the page's.
+// [px] On a page of several pens, that of the lines that meet in a knot; no less than the page's.
 double penAt(const ShapeRegion& r, const InkGraph& graph, double penPx) {
   constexpr double kKnotArea = 3.0;  // in squared widths; what is longer than a knot may be a filled band or bar
   if (static_cast<double>(r.areaPx) >= kKnotArea * r.widthPx() * r.widthPx()) return penPx;
+  constexpr double kLineWidths = 8.0;  // shorter ones may be lobes, bars and the grain of a tone
   std::vector<std::pair<double, double>> widths;
   for (const StrokeInto& s : r.strokesInto) {
     const InkPath& path = graph.paths()[s.path];
-    if (path.elongation() >= kStrokeWidths) widths.emplace_back(*path.widthPx, path.elongation());
+    if (path.elongation() >= kLineWidths) widths.emplace_back(*path.widthPx, path.elongation());
   }
+  if (widths.size() < 2) return penPx;
   return std::max(penPx, weightedMedian(std::move(widths)).value_or(0.0));
 }
 
