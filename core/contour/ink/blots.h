@@ -23,8 +23,9 @@ BitImage findBlots(const InkSplit&, const ContourSet& lines, const BitImage& row
 BitImage findRows(const InkSplit&, double minWidths, const RunContext&);
 
 /// Places of pen strokes that are wider than the pen, and that the lines with their widths leave out: what strokes
-/// enclose and fill, knots, scribbles. Ink that two strokes across each other could hold is none, nor is what lines that
-/// run through a ribbon of ink leave out of it in places. Up to the strokes, which stay strokes. Of what a pencil drew, only places where a solid goes on.
+/// enclose and fill, knots, scribbles. Ink that two strokes across each other could hold is none, nor is what lines
+/// that run through a ribbon of ink leave out of it in places. Up to the strokes, which stay strokes. Of what a pencil
+/// drew, only places where a solid goes on.
 BitImage findFillings(const InkSplit&, const ContourSet& lines, const RunContext&);
 
 /// Of blots, those in regions that the user chose for: where the page is followed along its middles, no others are.
