@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -143,6 +144,16 @@ std::vector<Hole> evenRow(const cv::Mat1b& dark, int side) {
   return isMarginEmpty(dark, holes, acrossPage, side >= 2) ? holes : std::vector<Hole>();
 }
 
+int darkRuns(const cv::Mat1b& line) {
+  int runs = 0;
+  bool wasDark = false;
+  for (const std::uint8_t cell : line) {
+    runs += cell != 0 && !wasDark ? 1 : 0;
+    wasDark = cell != 0;
+  }
+  return runs;
+}
+
 /// The row along one side of the page: 0 above, 1 on the left, 2 below, 3 on the right. Where the sheet ends in the
 /// picture, its edge or the shadow along it joins the wires of the binding: as much along the side is left out as shows
 /// the most of them.
@@ -153,10 +164,13 @@ HoleRow rowAlong(const cv::Mat1b& dark, int side) {
   HoleRow most;
   int left = 0;
   for (int outer = 0; outer < static_cast<int>(kDeepest * across); ++outer) {
-    if (std::vector<Hole> holes = evenRow(inside, side); holes.size() > most.holes.size())
-      most.holes = std::move(holes), left = outer;
-    const int line = side < 2 ? outer : across - 1 - outer;
-    (acrossPage ? inside.row(line) : inside.col(line)).setTo(0);
+    const int at = side < 2 ? outer : across - 1 - outer;
+    cv::Mat1b line = acrossPage ? inside.row(at) : inside.col(at);
+    if (outer == 0 || darkRuns(line) >= kFewestHoles) {
+      std::vector<Hole> holes = evenRow(inside, side);
+      if (holes.size() > most.holes.size()) most.holes = std::move(holes), left = outer;
+    }
+    line.setTo(0);
   }
   if (most.holes.empty()) return most;
   const int from = static_cast<int>(most.holes.front().along), to = static_cast<int>(most.holes.back().along);
