@@ -33,6 +33,9 @@ struct Hole {
   double along = 0.0, deep = 0.0;  ///< [cells] Its middle.
   double length = 0.0, depth = 0.0;
   cv::Rect box;
+  cv::Rect withRim() const {
+    return {box.tl() - cv::Point(kRimCells, kRimCells), box.size() + cv::Size(2 * kRimCells, 2 * kRimCells)};
+  }
 };
 
 /// Dark pieces along one side of the page. `acrossPage`: the side runs across it.
@@ -109,11 +112,7 @@ bool isEvenRow(const std::vector<Hole>& holes, int side) {
 /// the next. A row or column of letters or words has others there.
 bool isMarginEmpty(const cv::Mat1b& dark, const std::vector<Hole>& holes, bool acrossPage, bool isFar) {
   cv::Mat1b others = dark.clone();
-  for (const Hole& hole : holes) {
-    const cv::Size rim(2 * kRimCells, 2 * kRimCells);
-    const cv::Rect inside(0, 0, dark.cols, dark.rows);
-    others(cv::Rect(hole.box.tl() - cv::Point(kRimCells, kRimCells), hole.box.size() + rim) & inside).setTo(0);
-  }
+  for (const Hole& hole : holes) others(hole.withRim() & cv::Rect({}, dark.size())).setTo(0);
   int own = 0, beside = 0;
   for (std::size_t i = 0; i + 1 < holes.size(); ++i) {
     const Hole &a = holes[i], &b = holes[i + 1];
@@ -209,10 +208,7 @@ std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
   if (found.holes.empty()) return std::nullopt;
   BindingHoles binding{BitImage(cells.columns, cells.rows), static_cast<int>(found.holes.size())};
   mark(found.edge, binding.cells);
-  for (const Hole& hole : found.holes) {
-    const cv::Size rim(2 * kRimCells, 2 * kRimCells);
-    mark(cv::Rect(hole.box.tl() - cv::Point(kRimCells, kRimCells), hole.box.size() + rim), binding.cells);
-  }
+  for (const Hole& hole : found.holes) mark(hole.withRim(), binding.cells);
   return binding;
 }
 

@@ -32,6 +32,7 @@ constexpr double kEdgeSideWidths = 1.5;               // from the middle of a li
 constexpr double kEdgeSidePx[] = {3.0, 5.0, 7.0, 9.0, 11.0};  // and farther
 
 struct Page {
+  explicit Page(const GreyImage& grey) : width(grey.width), height(grey.height) {}
   double width, height;
   double shorter() const { return std::min(width, height); }
 };
@@ -62,30 +63,11 @@ Extent extentFrom(int side, const Contour& c, const Page& page) {
   return extent;
 }
 
-bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, const Page& page) {
-  const Contour& line = contours[index];
-  const Extent extent = extentFrom(side, line, page);
-  const double along = side < 2 ? page.width : page.height;
-  if (line.traceMode || extent.most.y() > kNearBorder * page.shorter() ||
-      extent.most.x() - extent.least.x() < kLong * along)
-    return false;
-  const double alone = kAlone * page.shorter();
-  for (int k = 0; k < std::ssize(contours); ++k) {
-    if (k == index) continue;
-    for (const ContourPoint& point : contours[k].points) {
-      const Vec2 p = seenFrom(side, point.at, page);
-      const bool isBeside = p.x() > extent.least.x() - alone && p.x() < extent.most.x() + alone;
-      if (isBeside && p.y() < extent.most.y() + alone) return false;
-    }
-  }
-  return true;
-}
-
 /// +1 where the page is clearly brighter on the side of its middle than on that of its border along most of a line, and
 /// hardly anywhere darker; -1 where it is the other way round; else 0.
 int stepAlong(const Contour& line, int side, const GreyImage& grey) {
   constexpr int kEvery = 4, kTangent = 4;  // points
-  const Page page{static_cast<double>(grey.width), static_cast<double>(grey.height)};
+  const Page page(grey);
   std::vector<float> widths = strokeWidthsOf(line.points);
   const double beside = widths.empty() ? 0.0 : kEdgeSideWidths * static_cast<double>(upperMedian(widths));
   int brighter = 0, darker = 0, all = 0;
@@ -119,7 +101,7 @@ bool isStraightEdge(const Contour& line) {
   });
 }
 
-/// A line along one side that may be a part of the edge of a sheet: the page steps there.
+/// A line along one side that may be the edge of a sheet, or a part of it.
 struct EdgePiece {
   int contour = 0;
   Extent extent;
@@ -148,6 +130,20 @@ bool isBeyond(const EdgePiece& piece, const Contour& other, int side, const Page
     return p.x() > -alone && p.x() < piece.extent.most.x() - piece.extent.least.x() + alone &&
            p.y() < piece.depths[static_cast<std::size_t>(at)] + alone;
   });
+}
+
+/// Whether a line is the edge of a sheet that fills the picture, seen or not as a step.
+bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, const Page& page) {
+  const Contour& line = contours[index];
+  const Extent extent = extentFrom(side, line, page);
+  const double along = side < 2 ? page.width : page.height;
+  if (line.traceMode || extent.most.y() > kNearBorder * page.shorter() ||
+      extent.most.x() - extent.least.x() < kLong * along)
+    return false;
+  const EdgePiece flat{index, extent, {extent.most.y()}};
+  for (int k = 0; k < std::ssize(contours); ++k)
+    if (k != index && isBeyond(flat, contours[k], side, page)) return false;
+  return true;
 }
 
 /// Whether a line lies along a piece of the edge, or goes on where it ends: a part of the edge too.
@@ -215,7 +211,7 @@ class SheetEdge {
 
 /// Finds the edges of sheets that are lighter or darker than what lies beyond, along one side.
 void findSteps(int side, const std::vector<Contour>& contours, const GreyImage& grey, std::vector<bool>& isEdge) {
-  const Page page{static_cast<double>(grey.width), static_cast<double>(grey.height)};
+  const Page page(grey);
   const double along = side < 2 ? page.width : page.height;
   std::vector<EdgePiece> brighter, darker;
   for (int k = 0; k < std::ssize(contours); ++k) {
@@ -236,7 +232,7 @@ void findSteps(int side, const std::vector<Contour>& contours, const GreyImage& 
 }  // namespace
 
 void dropPageEdgeLines(ContourSet& set, const GreyImage& grey) {
-  const Page page{static_cast<double>(grey.width), static_cast<double>(grey.height)};
+  const Page page(grey);
   std::vector<bool> isEdge(set.contours.size(), false);
   for (int side = 0; side < 4; ++side) {
     for (int k = 0; k < std::ssize(set.contours); ++k)

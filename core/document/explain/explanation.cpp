@@ -56,12 +56,11 @@ Result<Reference> makeReference(const GreyImage& page, const Recipe& recipe, con
 
 // The edge of a sheet in the picture is not drawn.
 BitImage withoutSheetEdges(BitImage ink, const std::vector<Contour>& edges) {
+  if (edges.empty()) return ink;
   BitImage along(ink.width, ink.height);
   for (const Contour& edge : edges) {
-    for (const ContourPoint& p : edge.points) {
-      const double halfWidthPx = 0.5 * static_cast<double>(p.widthPx.value_or(0.0f));
-      setDisc(along, p.at, halfWidthPx + explainingReach({p.at, halfWidthPx, false}));
-    }
+    for (const ContourPoint& p : edge.points)
+      setExplained(along, {p.at, 0.5 * static_cast<double>(p.widthPx.value_or(0.0f)), false});
   }
   return without(ink, along);
 }

@@ -125,6 +125,8 @@ BitImage onlyInked(const BitImage& areas, const BitImage& ink, const RunContext&
 
 double explainingReach(const RedrawnPoint& p) { return std::max(kLeastReachPx, p.halfWidthPx); }
 
+void setExplained(BitImage& page, const RedrawnPoint& p) { setDisc(page, p.at, p.halfWidthPx + explainingReach(p)); }
+
 std::vector<RedrawnCurve> redrawCurves(const PipelineOutput& out, const RunContext& context) {
   std::vector<RedrawnCurve> redrawn;
   if (!out.faired || !out.contours) return redrawn;
@@ -150,7 +152,7 @@ BitImage redrawPage(const std::vector<RedrawnCurve>& curves, const PipelineOutpu
   BitImage page = onlyInked(filled(closedBorders(curves, out), ink.width, ink.height, context), ink, context);
   for (const RedrawnCurve& c : curves) {
     if (context.isCancelled()) return page;
-    for (const RedrawnPoint& p : c.points) setDisc(page, p.at, p.halfWidthPx + explainingReach(p));
+    for (const RedrawnPoint& p : c.points) setExplained(page, p);
   }
   return page;
 }

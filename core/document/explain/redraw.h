@@ -28,6 +28,9 @@ std::vector<RedrawnCurve> redrawCurves(const PipelineOutput&, const RunContext&)
 /// [px] How far ink may lie from a place on a curve that explains it.
 double explainingReach(const RedrawnPoint&);
 
+/// Sets the ink that a place on a curve explains: the stroke there, and the reach around it.
+void setExplained(BitImage&, const RedrawnPoint&);
+
 /// The page that the curves explain: strokes as wide as they are, and the reach around them; borders, the reach around
 /// them, and what they enclose where at least two thirds of it are `ink`.
 BitImage redrawPage(const std::vector<RedrawnCurve>&, const PipelineOutput&, const BitImage& ink, const RunContext&);

@@ -83,7 +83,6 @@ TEST(Explanation, TheMarginOfTheScannerIsNoInkToExplain) {
   EXPECT_GT(e.explained, 0.99);
 }
 
-// A line that is too faint for the reference is seen along its length all the same.
 TEST(Explanation, TheEdgeOfASheetIsNoInkToExplain) {
   Drawing drawing;
   for (int y = 366; y < 400; ++y) {
@@ -97,6 +96,7 @@ TEST(Explanation, TheEdgeOfASheetIsNoInkToExplain) {
   EXPECT_GT(drawing.explain().explained, 0.98);
 }
 
+// A line that is too faint for the reference is seen along its length all the same.
 TEST(Explanation, AFaintLineIsNotInvented) {
   Drawing drawing;
   drawing.shiftTopLine(35.0);

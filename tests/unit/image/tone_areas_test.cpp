@@ -121,16 +121,15 @@ TEST(ToneAreas, ABareSharpBorderBecomesALineWhereTheToneEnds) {
 
 // The rim of a broad marker's stroke is darker than its inside, but not as lines are.
 TEST(ToneAreas, AHalfBareAreaHardlyLighterThanItsRimIsAShape) {
-  const auto isTone = [](double toneGrey, double lastLine) {
+  const auto isTone = [](double lastLine) {
     Drawing d = drum();
-    d.toneGrey = toneGrey;
     d.line = [=](double x, double y) {
       return x < lastLine ? std::min(std::abs(insideDrum(x, y)), fromLid(x, y)) : 100.0;
     };
     return findToneAreas(pageOf(d).grey, {}).has_value();
   };
-  EXPECT_TRUE(isTone(kToneGrey, 600.0)) << "with lines all around";
-  EXPECT_FALSE(isTone(kToneGrey, 340.0));
+  EXPECT_TRUE(isTone(600.0)) << "with lines all around";
+  EXPECT_FALSE(isTone(340.0));
 }
 
 // On a page whose sides the pixels of the areas do not divide, with any number of threads.
