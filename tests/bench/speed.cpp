@@ -55,6 +55,13 @@ void runChain(benchmark::State& state, const Recipe& recipe) {
 }
 
 void chainDefault(benchmark::State& state) { runChain(state, Recipe{}); }
+// What the default was before curves were made light and corners found: the same work as then.
+void chainDense(benchmark::State& state) {
+  Recipe recipe;
+  recipe.construct.light = false;
+  recipe.corners.automatic = false;
+  runChain(state, recipe);
+}
 void chainOutlineNurbs(benchmark::State& state) {
   Recipe recipe;
   recipe.edges.mode = EdgeMode::Outline;
@@ -75,15 +82,21 @@ NurbsCurve fortyPoints() {
   return *NurbsCurve::make(5, knots, points);
 }
 
-void sixTargets(benchmark::State& state) {
+void fairSix(benchmark::State& state, TargetSpans spans) {
   const NurbsCurve curve = fortyPoints();
   FairingParams params;
   params.mode = FairingMode::Target;
+  params.targets.spans = spans;
   for (auto _ : state) benchmark::DoNotOptimize(fairAllTargets(curve, false, params, {}));
 }
+void sixTargets(benchmark::State& state) { fairSix(state, TargetSpans::Natural); }
+// What it was before targets were laid on natural spans: one polynomial from end to end.
+void sixWholeTargets(benchmark::State& state) { fairSix(state, TargetSpans::Whole); }
 
 BENCHMARK(chainDefault)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(chainDense)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(chainOutlineNurbs)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(sixWholeTargets)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(sixTargets)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
