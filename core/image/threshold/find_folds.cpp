@@ -25,6 +25,8 @@ constexpr double kLeastRowPx = 4.0;      // … and no closer than this
 constexpr double kOppositeCos = -0.9;    // of the normals: opposite but for 26 degrees
 constexpr double kUsualSidePx = 1000.0;  // of the shrunk page; softness goes with the size of the scan, …
 constexpr double kLeastScale = 0.5, kMostScale = 3.0;  // … within limits
+constexpr double kAboveWhite = 0.5;  // of the step: paper that would be so much brighter than white is in no shade, …
+constexpr double kMostLit = 0.25;    // … and of the darker side so much at most
 
 float sample(const Plane& u, const Vec2& p) {
   const int x = std::clamp(static_cast<int>(p.x()), 0, u.width - 1);
@@ -219,6 +221,25 @@ class FoldMaker {
   FoldStrip strip_;
 };
 
+/// Whether the darker side is in shade as far as the page goes. Beside a gutter the paper brightens again within some
+/// widths of it: what the step is there would wash out all lines farther on.
+bool staysDark(const PaperFold& fold, const Plane& smoothed, int shrink) {
+  constexpr int kStep = 4;  // [px] of the plane
+  constexpr double kWhite = 255.0;
+  int dark = 0, lit = 0;
+  for (int y = 0; y < smoothed.height; y += kStep) {
+    for (int x = 0; x < smoothed.width; x += kStep) {
+      const double px = (x + 0.5) * shrink, py = (y + 0.5) * shrink;
+      const Vec2 p = Vec2(px, py) - fold.course.origin;
+      if (p.dot(fold.course.normal) - fold.course.bendAt(p.dot(fold.course.along)) > -fold.reach) continue;
+      const double depth = -fold.at(px, py);
+      ++dark;
+      if (static_cast<double>(smoothed.row(y)[x]) + (1.0 - kAboveWhite) * depth > kWhite) ++lit;
+    }
+  }
+  return lit <= kMostLit * dark;
+}
+
 /// The course on the picture that the plane was shrunk from.
 FoldCourse enlarged(FoldCourse c, int shrink) {
   c.origin *= shrink;
@@ -245,7 +266,8 @@ std::vector<PaperFold> findFolds(const GreyImage& image, const Plane& smoothed, 
     if (!mayStep(smoothed, line)) continue;
     const double side = std::sqrt(static_cast<double>(image.width) * image.height);
     const double scale = std::clamp(side / kUsualSidePx, kLeastScale, kMostScale);
-    if (auto fold = FoldMaker(image, enlarged(line, shrink), scale).make()) found.push_back(std::move(*fold));
+    if (auto fold = FoldMaker(image, enlarged(line, shrink), scale).make(); fold && staysDark(*fold, smoothed, shrink))
+      found.push_back(std::move(*fold));
   }
   const double nearPx = kBarShare * std::min(image.width, image.height);
   std::vector<PaperFold> folds;

@@ -237,6 +237,27 @@ TEST(Folds, AWallRightAcrossThePageIsInk) {
   }
 }
 
+// The page beside a gutter darkens towards it and steps to the next page there. Farther on it is as bright as that.
+TEST(Folds, TheGutterOfABookIsNone) {
+  const auto gutter = [](double x, double y) {
+    const double beyond = x - 520.0 - 0.2 * (y - 240.0);
+    return beyond > 0.0 ? 225.0 : 225.0 - 105.0 * std::exp(beyond / 30.0);
+  };
+  const auto onThePage = [](double x, double y) { return std::fabs(std::hypot(x - 220.0, y - 240.0) - 150.0) - 1.5; };
+  const Scan scan = renderStress(coverageOf(onThePage), kFoldWidth, kFoldHeight, gutter, {60.0, 2.0, 0.8}, 5);
+  const Traced traced = traceOn(scan.grey);
+  EXPECT_TRUE(traced.thresholds.paper.folds.empty());
+  int seen = 0, ink = 0;
+  for (int y = 0; y < kFoldHeight; ++y) {
+    for (int x = 0; x < 400; ++x) {
+      if (onThePage(x + 0.5, y + 0.5) > -0.75) continue;
+      ++ink;
+      seen += traced.ink.at(x, y) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(seen, 99 * ink / 100);
+}
+
 TEST(Folds, RowsAndPlacesAgree) {
   PaperFold fold;
   fold.reach = 6;
