@@ -12,6 +12,7 @@
 #include "core/image/facing_pages.h"
 #include "core/image/push_pull.h"
 #include "core/image/shaded_paper.h"
+#include "core/image/sheet_behind_lines.h"
 #include "core/image/sheet_cells.h"
 #include "core/image/sheet_drawn_edge.h"
 #include "core/image/sheet_edges.h"
@@ -90,6 +91,13 @@ bool isBeside(const BorderPatch& patch, const cv::Size& size) {
   return std::max(across, down) >= kLeastAlongSide;
 }
 
+/// A corner of the picture that a small patch fills: of the table, where the table shows elsewhere, too.
+bool isInCorner(const BorderPatch& patch) {
+  constexpr int kFewestAlong = 8;  // cells, of both sides that meet there
+  const auto sides = std::ranges::count_if(patch.along, [](int along) { return along >= kFewestAlong; });
+  return patch.corners > 0 && sides >= 2;
+}
+
 /// Cells beside the sheet: patches outside it that reach a corner of the picture and run along its border. The rest
 /// outside it is ink that runs off the page, and stays.
 cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
@@ -110,12 +118,13 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
       patch.corners += (j == 0 || j == bottom) && (i == 0 || i == right);
     }
   }
-  cv::Mat1b beside(sheet.size(), 0);
+  cv::Mat1b beside(sheet.size(), 0), inCorners(sheet.size(), 0);
   const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
   const double level = sheetMean[0];
   const double grain = std::max(kMostRoughness, kSameGrain * cv::mean(cells.rough, sheet)[0]);
   for (int k = 1; k < count; ++k) {
-    if (!isBeside(patches[k], sheet.size())) continue;
+    const bool isLarge = isBeside(patches[k], sheet.size());
+    if (!isLarge && !isInCorner(patches[k])) continue;
     const cv::Mat1b patch = labels == k;
     cv::Scalar mean, spread;
     cv::meanStdDev(cells.colour, mean, spread, patch);
@@ -128,8 +137,9 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     const double apart =
         std::max({std::fabs(mean[0] - level), std::fabs(mean[1] - sheetMean[1]), std::fabs(mean[2] - sheetMean[2])});
     if (apart < kSheetContrast && roughness <= kMostRoughness) continue;
-    if (isStepBetween(sheet, patch, cells)) beside.setTo(255, patch);
+    if (isStepBetween(sheet, patch, cells)) (isLarge ? beside : inCorners).setTo(255, patch);
   }
+  if (cv::countNonZero(beside) > 0) beside |= inCorners;
   return beside;
 }
 
@@ -248,6 +258,11 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
   if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;
   if (area < kMostSheet * static_cast<double>(even.total())) even = withSlowChanges(even, cells);
   std::optional<cv::Mat1b> beside = cellsBeside(even, cells, context);
+  if (!beside && area < kMostSheet * static_cast<double>(even.total())) {
+    // Lines that run off the sheet part it: what lies between them and the table is no part of the table.
+    even = filledSheet(sheetBehindLines(even, labels, cells));
+    beside = cellsBeside(even, cells, context);
+  }
   if (!beside) return std::nullopt;
   for (int label = 0; label < std::ssize(areas); ++label) {
     if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;

@@ -323,6 +323,36 @@ TEST(PaperSheet, IsNotLookedForInADrawing) {
   }
 }
 
+// A table fills the upper left of the picture and a corner at the right; from the sheet's edge two lines run down to
+// the border and part the sheet in three. All three are the sheet.
+TEST(PaperSheet, LinesThatPartItLeaveItWhole) {
+  const auto isTable = [](double x, double y) { return x + 0.9 * y < 260.0 || (x - 820.0) - 1.5 * y > -60.0; };
+  const auto isLine = [](double x, double y) {
+    return std::fabs(x - 90.0 - 0.05 * y) < 2.0 || std::fabs(x - 180.0 - 0.1 * y) < 2.0;
+  };
+  const Scan scan = photo([&](double x, double y) -> PhotoPixel {
+    if (isTable(x, y)) return {70.0, 6.0};
+    return {isLine(x, y) ? 60.0 : 225.0, 1.5};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  const GreyImage page = onlyTheSheet(scan.grey, *sheet, {});
+  int table = 0, changed = 0, darkTable = 0;
+  for (int y = 0; y < kPhotoHeight; ++y) {
+    for (int x = 0; x < kPhotoWidth; ++x) {
+      if (isTable(x, y)) {
+        ++table;
+        darkTable += page.level(x, y) < 150.0 ? 1 : 0;
+      } else if (x + 0.9 * y > 300.0 && (x - 820.0) - 1.5 * y < -100.0) {
+        changed += page.row(y)[x] != scan.grey.row(y)[x] ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(table, 30000);
+  EXPECT_EQ(darkTable, 0);
+  EXPECT_EQ(changed, 0);
+}
+
 TEST(PaperSheet, IsCutOnlyWhenAsked) {
   const Scan scan = photo([](double x, double y) -> PhotoPixel {
     if (depthInSheet(x, y) < 0.0) return {110.0, 2.0};
