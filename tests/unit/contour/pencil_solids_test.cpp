@@ -7,6 +7,7 @@
 
 #include "core/contour/ink/blots.h"
 #include "core/contour/ink/ink_split.h"
+#include "core/contour/ink/pencil_solids.h"
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/dense_page.h"
 #include "tests/unit/contour/traced_page.h"
@@ -164,6 +165,37 @@ TEST(PencilSolids, GoOnWhereNoLineExplainsTheInkBesideThem) {
   fill(beside, 60, 36, 86, 66);  // but its corners, which are round
   EXPECT_EQ(without(beside, found).count(), 0) << "all of the tone but what the line reaches";
   for (int x = 140; x < 170; ++x) EXPECT_FALSE(found.at(x, 50)) << "a tone has no border";
+}
+
+// A square with lines of 6 px: from the middle of one side, and along another.
+TEST(PencilSolids, KeepTheirCorners) {
+  BitImage square(200, 140), body(200, 140);
+  fill(square, 60, 30, 130, 100);
+  fill(body, 0, 60, 60, 66);
+  fill(body, 130, 94, 200, 100);
+  body = either(std::move(body), square);
+  for (int x = 62; x < 128; x += 7) body.set(x, 29, true);  // a ragged border
+  const BitImage solids = pencilSolids(body, square, 6.0, {});
+  constexpr double kLost = 0.01;
+  EXPECT_LT(without(BitImage(square), solids).count(), kLost * square.count());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(solids.at(61 + i, 31)) << i;
+    EXPECT_TRUE(solids.at(61 + i, 98)) << i;
+    EXPECT_TRUE(solids.at(128 - i, 31)) << i;
+  }
+  for (int x = 0; x < 50; ++x) EXPECT_FALSE(solids.at(x, 63)) << "a line, " << x;
+  for (int x = 150; x < 200; ++x) EXPECT_FALSE(solids.at(x, 97)) << "a line, " << x;
+}
+
+// A bar, which is no more than a broad stroke, leaves a solid with a step in width: that stays a solid.
+TEST(PencilSolids, DoNotSwellFromTheBarsBesideThem) {
+  BitImage solid(320, 140), body(320, 140);
+  fill(solid, 30, 30, 100, 100);
+  fill(body, 100, 83, 320, 100);
+  body = either(std::move(body), solid);
+  const BitImage solids = pencilSolids(body, solid, 6.0, {});
+  constexpr double kLost = 0.01;
+  EXPECT_LT(without(BitImage(solid), solids).count(), kLost * solid.count());
 }
 
 TEST(PencilSolids, TheMarginOfThePageIsNoMark) {
