@@ -79,11 +79,12 @@ void tellDropped(ContourSet& set, const EdgeParams& edges) {
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
-  const int most = params.maxCount;
-  if (most == 0 || std::ssize(set.contours) <= most) return;
+  constexpr int kMostUnasked = 20000;  // bounds time and memory, on halftones and dirt; no drawing has so many
+  const int most = params.maxCount > 0 ? params.maxCount : kMostUnasked;
+  if (std::ssize(set.contours) <= most) return;
   addNote(set, "Only the " + (most == 1 ? std::string() : std::to_string(most) + ' ') + "longest of " +
                    std::to_string(set.contours.size()) + (most == 1 ? " lines is" : " lines are") +
-                   " kept: raise contours.max_count to keep more.");
+                   " kept: " + (params.maxCount > 0 ? "raise" : "set") + " contours.max_count to keep more.");
   set.contours.resize(most);
 }
 

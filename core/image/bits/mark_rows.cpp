@@ -164,6 +164,71 @@ class RowSearch {
   const BitImage& ink_;
 };
 
+// Marks by squares of the page.
+class MarkGrid {
+ public:
+  MarkGrid(const Marks& marks, int width) : marks_(marks), columns_(width / kCellPx + 1) {
+    for (int i = 0; i < std::ssize(marks.all); ++i) {
+      const auto cell = static_cast<std::size_t>(cellOf(marks.all[i].middle));
+      if (cell >= cells_.size()) cells_.resize(cell + 1);
+      cells_[cell].push_back(i);
+    }
+  }
+  // Looks at the marks around a place until `isEnough` says so.
+  template <class IsEnough>
+  void around(const Vec2& at, double reachPx, const IsEnough& isEnough) const {
+    const int reach = static_cast<int>(reachPx) / kCellPx + 1, x = static_cast<int>(at.x()) / kCellPx;
+    for (int dy = -reach; dy <= reach; ++dy) {
+      for (int i = std::max(0, x - reach); i <= std::min(columns_ - 1, x + reach); ++i) {
+        const int cell = (static_cast<int>(at.y()) / kCellPx + dy) * columns_ + i;
+        if (cell < 0 || cell >= std::ssize(cells_)) continue;
+        for (const int mark : cells_[cell]) {
+          if ((marks_.all[mark].middle - at).norm() <= reachPx && isEnough(mark)) return;
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr int kCellPx = 16;
+  int cellOf(const Vec2& p) const {
+    return static_cast<int>(p.y()) / kCellPx * columns_ + static_cast<int>(p.x()) / kCellPx;
+  }
+  const Marks& marks_;
+  int columns_;
+  std::vector<std::vector<int>> cells_;
+};
+
+// The dots of a halftone, a chequer, a woven ground: as many lie around as only a lattice of them has, or beside one.
+std::vector<bool> findLattices(const Marks& marks, const std::vector<std::optional<Member>>& members, int width) {
+  constexpr double kPitches = 2.1;   // within so many a square lattice has 12, and one of triangles 18
+  constexpr int kFewestAround = 12;  // three rows side by side, and they end nowhere near
+  const MarkGrid grid(marks, width);
+  const int count = static_cast<int>(members.size());
+  std::vector<double> pitch(count, 0.0);
+  std::vector<bool> isWithin(count, false);
+  for (int i = 0; i < count; ++i) {
+    if (!members[i] || !members[i]->hasBoth()) continue;
+    for (const auto& side : members[i]->side) {
+      if (!side->mark) continue;
+      const double apart = (marks.all[*side->mark].middle - marks.all[i].middle).norm();
+      pitch[i] = pitch[i] > 0.0 ? std::min(pitch[i], apart) : apart;
+    }
+    int around = -1;  // itself
+    grid.around(marks.all[i].middle, kPitches * pitch[i], [&](int) { return ++around >= kFewestAround; });
+    isWithin[i] = pitch[i] > 0.0 && around >= kFewestAround;
+  }
+  std::vector<bool> isOne = isWithin;
+  for (int i = 0; i < count; ++i) {
+    if (!isWithin[i]) continue;
+    grid.around(marks.all[i].middle, kPitches * pitch[i], [&](int mark) {
+      isOne[mark] = true;
+      return false;
+    });
+  }
+  return isOne;
+}
+
 bool areAlike(int a, int b) {
   const int step = std::abs(a - b);
   return std::min(step, kDirections - step) <= kDirectionsAlike;
@@ -182,6 +247,9 @@ BitImage marksInRows(const BitImage& marks, const BitImage& ink, const RunContex
   parallelFor(context, count, kMarksPerLook, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) members[i] = search.memberOf(i);
   });
+  const std::vector<bool> isLattice = findLattices(found, members, ink.width);
+  for (int i = 0; i < count; ++i)
+    if (isLattice[i]) members[i].reset();
   // Neighbours that lie in one direction are of one row; the last of it has been met by the one before it.
   DisjointSets rows(count);
   std::vector<int> ends(count, 0);

@@ -96,7 +96,7 @@ void appendLinesKept(std::vector<Parameter>& table) {
   Parameter most = integer(
       kContours,
       {"contours.max_count", "Maximum lines", "",
-       "Keeps at most this many lines, the longest first; all (0) keeps every line.", true},
+       "Keeps at most this many lines, the longest first; all (0) keeps every line, up to 20000.", true},
       {0, 100000, 1}, [](auto& r) -> auto& { return r.contours.maxCount; });
   most.minimumWord = "all";
   table.push_back(std::move(most));

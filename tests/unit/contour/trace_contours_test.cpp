@@ -241,6 +241,26 @@ TEST(TraceContours, LongestFirstShortOnesDroppedAndTheCutIsSaid) {
   EXPECT_NE(cut->report.note.find("2 longest of 3"), std::string::npos);
 }
 
+// A halftone has more dots than any drawing lines: time and memory are bounded, and it is said.
+TEST(TraceContours, WithoutALimitThereIsOneAllTheSame) {
+  constexpr int kAcross = 161, kDown = 130, kPitchPx = 8;
+  BitImage ink(kAcross * kPitchPx + 20, kDown * kPitchPx + 20);
+  GreyImage grey(ink.width, ink.height, 235 * 257);
+  for (int y = 0; y < kDown * kPitchPx; ++y) {
+    for (int x = 0; x < kAcross * kPitchPx; ++x) {
+      if (x % kPitchPx >= 5 || y % kPitchPx >= 5) continue;
+      ink.set(x + 10, y + 10, true);
+      grey.row(y + 10)[x + 10] = 20 * 257;
+    }
+  }
+  EdgeParams edges;
+  edges.mode = EdgeMode::Outline;
+  const auto set = traceContours(ink, grey, edges, {}, {});
+  ASSERT_TRUE(set.has_value());
+  EXPECT_EQ(set->contours.size(), 20000u);
+  EXPECT_NE(set->report.note.find("20000 longest of 20930"), std::string::npos) << set->report.note;
+}
+
 TEST(TraceContours, MarginsOfTheScannerAreNoLines) {
   const OutlinePage page = render([](double x, double y) {
     return x < 4 + 0.5 * std::sin(y * 0.1) || y > 297 || (std::abs(y - 150 - 0.2 * x) < 2.0 && x < 399);

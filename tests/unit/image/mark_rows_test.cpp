@@ -65,6 +65,38 @@ TEST(MarkRows, ADotBetweenTwoParallelLinesIsDirt) {
   EXPECT_EQ(marksInRows(marks, either(lines, marks), {}).count(), 0);
 }
 
+BitImage latticeOf(double pitchPx, double sizePx, int count, double angle) {
+  BitImage marks(kSide, kSide);
+  const Vec2 u(std::cos(angle), std::sin(angle)), v(-u.y(), u.x());
+  for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < count; ++k) {
+      const double half = 0.5 * (count - 1);
+      drawDash(marks, kMiddle + pitchPx * ((i - half) * u + (k - half) * v), angle, sizePx, sizePx);
+    }
+  }
+  return marks;
+}
+
+TEST(MarkRows, AHalftoneIsNoRow) {
+  for (const double angle : {0.0, 0.3, 0.785}) {
+    const BitImage marks = latticeOf(9.0, 4.0, 20, angle);
+    EXPECT_EQ(marksInRows(marks, marks, {}).count(), 0) << angle;
+  }
+  BitImage chequer(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = y % 2; x < kSide; x += 2) chequer.set(x, y, true);
+  EXPECT_EQ(marksInRows(chequer, chequer, {}).count(), 0);
+}
+
+TEST(MarkRows, RowsThatCrossOrRunBesideEachOtherStay) {
+  const BitImage cross = either(dashedLine(0.2, 11), dashedLine(1.7, 11));
+  EXPECT_GT(marksInRows(cross, cross, {}).count(), 0.9 * cross.count());
+  BitImage pair(kSide, kSide);
+  for (const double y : {150.0, 165.0})
+    for (int i = 0; i < 12; ++i) drawDash(pair, Vec2(40.0 + 15.0 * i, y), 0.0, 9.0, 3.0);
+  EXPECT_EQ(marksInRows(pair, pair, {}), pair);
+}
+
 TEST(MarkRows, ScatteredDirtIsDropped) {
   std::mt19937 random(5);
   BitImage marks(1000, 1000);
