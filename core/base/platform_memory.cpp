@@ -120,7 +120,8 @@ void* allocateBuffer(std::size_t bytes) {
   if (bytes >= kLeast) {
     const std::size_t whole = (bytes - 1) / kHugePage * kHugePage + kHugePage;
     void* const buffer = whole < bytes ? nullptr : std::aligned_alloc(kHugePage, whole);
-    if (buffer != nullptr) madvise(buffer, whole, MADV_HUGEPAGE);  // a wish: where it fails, small pages are as good
+    if (buffer != nullptr)
+      madvise(buffer, whole, MADV_HUGEPAGE);  // on request only: where it fails, small pages are as good
     return buffer;
   }
 #endif

@@ -164,14 +164,19 @@ struct FoundLines {
 };
 
 // Drops marks much fainter than the strokes around them. @return how many.
-int dropFaint(FoundLines& found, InkSplit& split, const ContourSet& lines, const BitImage& ink, const GreyImage& grey,
-              const EdgeParams& edges, const RunContext& context) {
-  const BitImage marks = notChosen(either(found.blots, split.shapes), found.regions, split.painted, edges);
-  const FaintMarks dropped = faintMarks(marks, ink, lines, grey, split.penPx, context);
-  found.blots = without(std::move(found.blots), dropped.ink);
-  split.shapes = without(std::move(split.shapes), dropped.ink);
-  split.strokes = without(std::move(split.strokes), dropped.ink);
-  return dropped.count;
+int dropFaint(FoundLines& found, InkSplit& split, const FaintMarks& faint) {
+  found.blots = without(std::move(found.blots), faint.ink);
+  split.shapes = without(std::move(split.shapes), faint.ink);
+  split.strokes = without(std::move(split.strokes), faint.ink);
+  return faint.count;
+}
+
+// Fills what holes of the shapes are texture of the ink. @return how many.
+int fillTexture(InkSplit& split, const EdgeParams& edges, const GreyImage& grey, const RunContext& context) {
+  if (edges.internal != InnerBorders::Automatic || split.shapes.count() == 0) return 0;
+  EvenInk even = fillTextureHoles(std::move(split.shapes), grey, context);
+  split.shapes = without(std::move(even.ink), split.strokes);
+  return even.filled;
 }
 
 // `page`: what an enlarged `grey` was made of, else absent.
@@ -197,8 +202,11 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   split->known.reset();
   context.report(0.3);
   found.blots = findBlots(*split, *lines, rows, params.minWidths, context);
-  const bool dropsFaint = edges.mode == EdgeMode::Automatic && !hasOwnLengths(params);
-  const int faint = dropsFaint ? dropFaint(found, *split, *lines, ink, grey, edges, context) : 0;
+  int faint = 0;
+  if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
+    const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
+    faint = dropFaint(found, *split, faintMarks(marks, ink, *lines, grey, split->penPx, context));
+  }
   if (edges.mode == EdgeMode::Centreline) {
     found.blots = chosenOf(found.blots, found.regions, edges);
   } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {
@@ -211,12 +219,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   split->strokes = without(std::move(split->strokes), found.blots);
   const auto grainy =
       split->pencil ? std::optional(without(without(BitImage(split->pencil->ink), found.blots), rows)) : std::nullopt;
-  int texture = 0;
-  if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
-    EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);
-    split->shapes = without(std::move(even.ink), split->strokes);
-    texture = even.filled;
-  }
+  const int texture = fillTexture(*split, edges, grey, context);
   Result<ContourSet> borders =
       bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, grainy ? &*grainy : nullptr, context);
   if (!borders) return fail(borders.error());

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -70,6 +72,12 @@ class UniformQuintic {
   double perUnit_ = 1.0;                       ///< Spans per unit of the parameter.
   std::vector<std::array<double, 4>> speeds_;  ///< Per span, powers of the place: the cubic through the Gauss nodes.
 };
+
+/// The lambda of fitUniformQuintic() that halves waves of this length, for points of this density along the curve, each
+/// of weight 1. Both in the unit of the parameter.
+inline double cutoffPenalty(double density, double cutoff) {
+  return density * std::pow(cutoff / (2.0 * std::numbers::pi), 6);
+}
 
 /// Least squares curve through points with parameters and weights plus lambda * integral |P'''|^2. Absent when
 /// singular.

@@ -29,13 +29,13 @@ bool mayBeShaded(const ToneCells&);
 
 /// A page as its search sees it.
 struct ToneLook {
-  cv::Mat1b flat, ink;      ///< Brightness of the paper's; ink not 0.
-  cv::Mat1b ground, lines;  ///< Without what is narrower than the brush; what is clearly darker, not 0.
-  cv::Mat1b nearLine;       ///< Not 0 on long lines and beside them.
-  cv::Mat1b wide;           ///< Ink that holds the brush.
-  cv::Mat1b range;          ///< Of the ground, within a brush.
-  int brush = 0;            ///< [px] Its radius.
-  double lineWidthPx = 0.0;
+  cv::Mat1b flat, ink;        ///< Brightness of the paper's; ink not 0.
+  cv::Mat1b ground, lines;    ///< Without what is narrower than the brush; what is clearly darker, not 0.
+  cv::Mat1b nearLine;         ///< Not 0 on long lines and beside them.
+  cv::Mat1b wide;             ///< Ink that holds the brush.
+  cv::Mat1b range;            ///< Of the ground, within a brush.
+  int brush = 0;              ///< [px] Its radius.
+  double lineWidthPx = 0.0;   ///< Of the long lines.
   double lineDarkness = 0.0;  ///< [of 255]
 };
 

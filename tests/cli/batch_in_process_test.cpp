@@ -7,6 +7,8 @@ namespace {
 
 using namespace test;
 
+constexpr double kTracedSeconds = 0.3;  // of the processors: the page is being traced, and far from its end
+
 class BatchInProcess : public Batch {
  protected:
   Outcome runHere(const std::string& words) const {
@@ -78,9 +80,10 @@ TEST_F(BatchInProcess, ASecondSignalEndsTheRunningPage) {
       return Running({"batch", file("pages.jsonl"), "--jobs", "1", "--results", file("r.jsonl")});
     }();
     ASSERT_TRUE(waitUntil([&] { return fs::exists(file("a.svg.batch.json")); }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until it is traced
+    const double begun = program.processorSeconds();
+    ASSERT_TRUE(waitUntil([&] { return program.processorSeconds() > begun + kTracedSeconds; }));
     program.send(signal);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ASSERT_TRUE(waitUntil([&] { return !program.isPending(signal); })) << "two that wait would be one";
     program.send(signal);
     const int status = program.wait();
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7) << status;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -85,8 +88,28 @@ class Running {
     waitpid(id_, &status, 0);
     return status;
   }
+  /// Of the processors, in all its threads.
+  double processorSeconds() const {
+    std::istringstream stat(readFile("/proc/" + std::to_string(id_) + "/stat"));
+    std::string word;
+    for (int field = 1; field < kUserTicksField; ++field) stat >> word;
+    double user = 0.0, system = 0.0;
+    stat >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+  /// Whether it has not taken the signal yet.
+  bool isPending(int signal) const {
+    std::istringstream status(readFile("/proc/" + std::to_string(id_) + "/status"));
+    std::string word;
+    while (status >> word && word != "ShdPnd:") {
+    }
+    std::uint64_t pending = 0;
+    status >> std::hex >> pending;
+    return ((pending >> (signal - 1)) & 1) != 0;
+  }
 
  private:
+  static constexpr int kUserTicksField = 14;  // of proc(5), from 1
   std::vector<std::string> words_;
   pid_t id_ = -1;
 };

@@ -191,16 +191,16 @@ TEST(EditorSession, ClosesWhileItWorks) {
   ASSERT_TRUE(waitUntil([&] { return session->hasScan(); }));
   EXPECT_TRUE(session->isBusy());
   // Another session, opened afterwards, gets all its stages while the abandoned run ends: nothing of the first one is
-  // posted to an object that is gone (address sanitizer too), and no job of it keeps its scan.
+  // posted to an object that is gone (address sanitizer too), nor told while it goes, and no job of it keeps its scan.
   int delivered = 0;
   QObject::connect(session.get(), &EditorSession::stageReady, qApp, [&delivered] { ++delivered; });
   QObject::connect(session.get(), &EditorSession::runFinished, qApp, [&delivered] { ++delivered; });
   const std::weak_ptr<const Scan> scan = session->scan();
+  const int beforeItsDeath = delivered;
   QElapsedTimer closing;
   closing.start();
   session.reset();
   EXPECT_LT(closing.elapsed(), 2000) << "closing waits at most for the step that runs";
-  const int beforeItsDeath = delivered;
   OpenSession next(test::zigzagPage());
   ASSERT_TRUE(next.isReady);
   EXPECT_FALSE(next.session.isStale(StageId::Faired));

@@ -23,6 +23,7 @@ namespace {
 constexpr int kFitRounds = 6;              // of fits of a contour; stretches are cut where a round has failed
 constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
 constexpr double kLeastReachPx = 8.0;      // of a curve from the points of a border with grain
+constexpr int kFewestLooks = 8;            // at a curve, for places far from all points
 constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
 /// The rest of the frame, which is most of what a piece holds, is of no use after the noise is known.
@@ -32,26 +33,49 @@ void keepBaseOnly(FairPiece& piece) {
   piece.frame = std::move(bare);
 }
 
+/// What the pieces of a contour tell together of their noise.
+struct PooledNoise {
+  CutoffChoice choice;
+  double density = 0.0;  ///< [px^2 px] As measured, or the usual one.
+  double s0 = 0.0;       ///< [px^2 px] Not less than the floor.
+};
+
+PooledNoise pooledNoise(const std::vector<FairPiece>& pieces, const ConstructContour& contour,
+                        const FairFitOptions& options) {
+  std::vector<std::optional<CutoffTable>> tables;
+  std::vector<double> leastVariance;
+  for (const FairPiece& piece : pieces) tables.push_back(piece.table);
+  for (const ConstructPiece& piece : contour.pieces) leastVariance.push_back(piece.grain.density / options.blockPx);
+  PooledNoise pooled{chooseCutoffs(tables, leastVariance, options.effectiveDofWeight)};
+  const auto& k = pooled.choice.k;
+  const bool measured = std::any_of(k.begin(), k.end(), [](const auto& of) { return of.has_value(); });
+  pooled.density = measured ? options.blockPx * pooled.choice.blockVariance : kWhiteDensity;
+  pooled.s0 = std::max(pooled.density, options.noiseDensityFloor);
+  return pooled;
+}
+
 /// Smooths every piece by its own cut-off and weighs its points by the noise that this leaves.
-void followNoise(std::vector<FairPiece>& pieces, const ConstructContour& contour, const CutoffChoice& choice,
-                 double density, double s0, const FairFitOptions& options, const RunContext& context) {
+void followNoise(std::vector<FairPiece>& pieces, const ConstructContour& contour, const PooledNoise& pooled,
+                 const FairFitOptions& options, const RunContext& context) {
   std::vector<NoiseTrace> traces(pieces.size());
   parallelFor(context, static_cast<int>(pieces.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       FairPiece& piece = pieces[i];
       if (!piece.frame || context.isCancelled()) continue;
-      const std::vector<double> prior = uniformPrior(*piece.frame, s0, CutoffTable::cutoffPx(*choice.k[i]));
-      const auto smooth = localPosterior(*piece.frame, s0, prior, 0, options.emWidthPx, context);
+      const std::vector<double> prior =
+          uniformPrior(*piece.frame, pooled.s0, CutoffTable::cutoffPx(*pooled.choice.k[i]));
+      const auto smooth = localPosterior(*piece.frame, pooled.s0, prior, 0, options.emWidthPx, context);
       if (!smooth) continue;
       piece.rough = smooth->mean;
-      traces[i] = noiseTrace(*piece.frame, smooth->mean, s0);
+      traces[i] = noiseTrace(*piece.frame, smooth->mean, pooled.s0);
       keepBaseOnly(piece);
     }
   });
   const std::vector<LocalNoise> noise = localNoise(traces);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].frame)
-      weighByNoise(pieces[i].data, noise[i], density, options.noiseDensityFloor, contour.pieces[i].grain.density);
+      weighByNoise(pieces[i].data, noise[i], pooled.density, options.noiseDensityFloor,
+                   contour.pieces[i].grain.density);
   }
 }
 
@@ -66,22 +90,16 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
     }
   });
   if (context.isCancelled()) return cancelled();
-  std::vector<std::optional<CutoffTable>> tables;
-  std::vector<double> leastVariance;
-  for (const FairPiece& piece : pieces) tables.push_back(piece.table);
-  for (const ConstructPiece& piece : contour.pieces) leastVariance.push_back(piece.grain.density / options.blockPx);
-  const CutoffChoice choice = chooseCutoffs(tables, leastVariance, options.effectiveDofWeight);
-  const bool measured = std::any_of(choice.k.begin(), choice.k.end(), [](const auto& k) { return k.has_value(); });
-  const double density = measured ? options.blockPx * choice.blockVariance : kWhiteDensity;
-  const double s0 = std::max(density, options.noiseDensityFloor);
+  const PooledNoise pooled = pooledNoise(pieces, contour, options);
+  const std::vector<std::optional<int>>& cutoffs = pooled.choice.k;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (!choice.k[i]) pieces[i].frame.reset();
+    if (!cutoffs[i]) pieces[i].frame.reset();
   }
-  followNoise(pieces, contour, choice, density, s0, options, context);
+  followNoise(pieces, contour, pooled, options, context);
   if (context.isCancelled()) return cancelled();
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      const FairNoise noise{s0, CutoffTable::cutoffPx(choice.k[i].value_or(0)), willBeCut};
+      const FairNoise noise{pooled.s0, CutoffTable::cutoffPx(cutoffs[i].value_or(0)), willBeCut};
       finishFairPiece(pieces[i], contour.pieces[i], noise, options, context);
       pieces[i].frame.reset();
       pieces[i].data = {};
@@ -153,7 +171,7 @@ bool keepsToPoints(const std::vector<ConstructedPiece>& fitted, const ConstructC
     length += static_cast<double>(piece.points.size());
   }
   for (const ConstructedPiece& piece : fitted) {
-    const int count = std::max(8, static_cast<int>(2.0 * length / reachPx / std::ssize(fitted)));
+    const int count = std::max(kFewestLooks, static_cast<int>(2.0 * length / reachPx / std::ssize(fitted)));
     for (const CurveSample& sample : sampleByArcLength(piece.curve, count, context)) {
       bool isNear = false;
       points.around(sample.point, [&](const Vec2& at) { isNear = isNear || (at - sample.point).norm() <= reachPx; });

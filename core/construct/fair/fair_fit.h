@@ -11,16 +11,16 @@ namespace batten {
 
 /// Expert constants of the true and fair fit; lengths in px of the scan. Defaults as tuned on rendered scans.
 struct FairFitOptions {
-  double knotSpacingPx = 16.0;
-  double blockPx = 8.0;
-  double effectiveDofWeight = 3.0;    ///< gamma in RSS/sigma^2 + gamma tr.
-  double noiseDensityFloor = 0.0006;  ///< [px^2 px] what pixel models leave on perfect pages: .006 px over 16 px
-  int emRounds = 5;
-  double emWidthPx = 40.0;
+  double knotSpacingPx = 16.0;         ///< [px] > 0. Of the knots of the dense curve, or more where points are sparse.
+  double blockPx = 8.0;                ///< [px] > 0. Length over which points are averaged: their noise is correlated.
+  double effectiveDofWeight = 3.0;     ///< gamma in RSS/sigma^2 + gamma tr.
+  double noiseDensityFloor = 0.0006;   ///< [px^2 px] what pixel models leave on perfect pages: .006 px over 16 px
+  int emRounds = 5;                    ///< Of the local prior, by expectation and maximisation.
+  double emWidthPx = 40.0;             ///< [px] > 0. Standard deviation of its averages along the piece.
   double extremumSignificance = 20.0;  ///< T: an extremum whose removal costs less is dropped (see costAsked).
   double knotRemovalTolerance =
       0.25;  ///< Of the noise of an edge point: how far fewer control points may move the curve.
-  double gateOutlinePx = 1.5, gateStrokePx = 2.5;
+  double gateOutlinePx = 1.5, gateStrokePx = 2.5;  ///< [px] Farther from its neighbours' medians a point is an outlier.
 };
 
 /// [chi2] What the removal of an extremum of this line must cost for it to be kept: T, and 2 ln (length / 2000 px) more

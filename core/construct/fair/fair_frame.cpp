@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
 
 #include "core/base/statistics.h"
@@ -16,13 +15,17 @@ namespace {
 constexpr double kPilotCutoffPx = 50.0;  // wavelength: the pilot follows the course of the line, its frame the rest
 // standard deviation of the smoothing that the first parameters are measured along
 constexpr double kSmoothingSamples = 3.0;
+constexpr double kSmoothingReach = 3.0;  // standard deviations: beyond, the weights are below 1 %
 constexpr double kGateSigmas = 6.0,
                  kLeastSigmaPx = 0.02;   // points farther off than as many robust sigmas are no points of the line
 constexpr double kPointsPerBlock = 1.5;  // at least, where points are sparse
+constexpr double kPointsPerKnot = 3.0;   // the same, from knot to knot
 constexpr double kFewestInBlock = 2.0, kFewestShare = 0.5,
                  kSparseShare = 0.3;  // points, and of those expected: else no block
 constexpr double kFullShare = 0.6;    // of the points expected: from here on a block has its whole weight
 constexpr auto kTwoPoints = gaussLegendre<2>(-1.0, 0.0);  // of an interval that ends at 0
+constexpr int kSamplesPerSpan = 8;   // of a curve that is fitted anew: an offset is far smoother than its spans
+constexpr int kCellsPerSpan = 3;     // in which the penalty is taken
 constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
 
 /// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place. As
@@ -30,7 +33,7 @@ constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverse
 /// far as long ones, and the sums are taken in the order of the points.
 std::vector<Vec2> smoothedByOrder(std::span<const Vec2> p, bool closed) {
   const int n = static_cast<int>(p.size());
-  const int radius = static_cast<int>(3.0 * kSmoothingSamples);
+  const int radius = static_cast<int>(kSmoothingReach * kSmoothingSamples);
   std::vector<double> kernel;
   double sum = 0.0;
   for (int k = -radius; k <= radius; ++k) {
@@ -151,13 +154,13 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
   std::vector<double> t(smooth.size(), 0.0);
   for (int i = 1; i < n; ++i) t[i] = t[i - 1] + (smooth[i] - smooth[i - 1]).norm();
   double length = t.back() + (data.closed ? (smooth.front() - smooth.back()).norm() : 0.0);
-  const double spacing = std::max(options.knotSpacingPx, 3.0 / data.density);
+  const double spacing = std::max(options.knotSpacingPx, kPointsPerKnot / data.density);
   std::vector<double> weights, e(smooth.size());
   for (const FairPoint& p : data.points) weights.push_back(p.use ? p.weight : 0.0);
   std::optional<UniformQuintic> curve;
   for (int pass = 0; pass < 4; ++pass) {
     if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
-    const double lambda = data.density * std::pow(kPilotCutoffPx / (2.0 * std::numbers::pi), 6);
+    const double lambda = cutoffPenalty(data.density, kPilotCutoffPx);
     curve = fitUniformQuintic(fairKnots(length, spacing, data.closed), t, points, weights, lambda);
     if (!curve) return std::nullopt;
     std::vector<double> used;
@@ -213,8 +216,8 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
     frame.h.addOuter(block.row, frame.blockLength * block.weight);
     addTo(frame.g, block.row, frame.blockLength * block.weight * block.offset);
   }
-  frame.cell = knots.spacing() / 3.0;
-  for (int j = 0; j < 3 * knots.spans && !check.isCancelled(); ++j)
+  frame.cell = knots.spacing() / kCellsPerSpan;
+  for (int j = 0; j < kCellsPerSpan * knots.spans && !check.isCancelled(); ++j)
     frame.penalty.push_back(makeStation(base, (j + 0.5) * frame.cell, true));
   if (checksPerSpan > 0) frame.checks = checkStations(base, checksPerSpan, check);
   return frame;
@@ -252,7 +255,7 @@ double parameterAfter(const std::vector<ParameterPair>& places, double before) {
 std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to,
                                 CancelCheck check) {
   const UniformKnots& knots = base.knots();
-  const int intervals = 8 * knots.spans;
+  const int intervals = kSamplesPerSpan * knots.spans;
   Reframed out;
   std::vector<double> parameters, arcLengths;
   std::vector<Vec2> points;
@@ -261,7 +264,7 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
   for (int j = 0; j <= intervals; ++j) {
     if (check.isCancelled()) return std::nullopt;
     if (j > 0) {
-      // Two nodes: an interval is an eighth of a span.
+      // Two nodes: an interval is a small part of a span.
       for (std::size_t g = 0; g < 2; ++g)
         length +=
             kTwoPoints.weight[g] * step * offsetPoint(base, d, from + (j + kTwoPoints.node[g]) * step).velocity.norm();
@@ -287,12 +290,12 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
 
 std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eigen::VectorXd& d, CancelCheck check) {
   const UniformKnots& knots = base.knots();
-  const int samples = 8 * knots.spans + (knots.closed ? 0 : 1);
+  const int samples = kSamplesPerSpan * knots.spans + (knots.closed ? 0 : 1);
   std::vector<double> parameters;
   std::vector<Vec2> points;
   for (int j = 0; j < samples; ++j) {
     if (check.isCancelled()) return std::nullopt;
-    parameters.push_back(j * knots.length / (8.0 * knots.spans));
+    parameters.push_back(j * knots.length / (static_cast<double>(kSamplesPerSpan) * knots.spans));
     points.push_back(offsetPoint(base, d, parameters.back()).point);
   }
   return fitUniformQuintic(knots, parameters, points, {}, 0.0);

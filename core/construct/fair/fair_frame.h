@@ -32,8 +32,8 @@ struct FairData {
 /// Curvature of the frame curve and how an offset d along its left normal changes it, to first order:
 /// kappa(d) = kp + d'' + kp^2 d and its two derivatives with respect to arc length.
 struct FrameStation {
-  double u = 0.0;
-  double kappa = 0.0, slope = 0.0, bend = 0.0;  ///< kp, kp', kp''.
+  double u = 0.0;                               ///< [px] Parameter of the frame curve.
+  double kappa = 0.0, slope = 0.0, bend = 0.0;  ///< [1/px, 1/px^2, 1/px^3] kp, kp', kp''.
   BandRow kappaRow, slopeRow, bendRow;
 };
 
@@ -44,8 +44,8 @@ double frameCurvature(const PlaneDerivatives&);
 
 /// The mean of the points over some px of the line.
 struct FairBlock {
-  double u = 0.0, offset = 0.0;
-  double weight = 0.0;  ///< Of the mean: 1 for a block full of ordinary points.
+  double u = 0.0, offset = 0.0;  ///< [px] Parameter of the frame curve, distance to its left.
+  double weight = 0.0;           ///< Of the mean: 1 for a block full of ordinary points.
   BandRow row;
 };
 
@@ -81,7 +81,7 @@ std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan,
 
 /// One place by the parameters of two curves.
 struct ParameterPair {
-  double before = 0.0, after = 0.0;
+  double before = 0.0, after = 0.0;  ///< [px]
 };
 
 /// The curve base + d N from parameter `from` to `to` as a spline of its own arc length, with as many spans.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -23,8 +22,6 @@ constexpr double kCutoffsPx[] = {30.0, 22.0, 16.0, 12.0, 9.0};  // smoothest fir
 constexpr double kAwayPx = 0.7;       // a smoother curve that leaves the points by more is not taken
 constexpr double kLoopAwayPx = 0.35;  // small loops would shrink
 constexpr double kHold = 1e8;         // weight of what is set exactly afterwards
-
-double penalty(double cutoffPx, double density) { return density * std::pow(cutoffPx / (2.0 * std::numbers::pi), 6); }
 
 double knotSpacing(double cutoffPx) { return std::max(kKnotPx, kKnotShare * cutoffPx); }
 
@@ -177,7 +174,7 @@ Result<NurbsCurve> cornerFill(std::span<const Vec2> points, const std::optional<
     even.insert(even.end(), 6, length);
     const std::vector<Fixed> fixed = fixedControls(p, even, spans + 5, first, last);
     const TightProblem problem(p, t, even, spans + 5, fixed);
-    auto solved = problem.solve(penalty(cutoffPx, density));
+    auto solved = problem.solve(cutoffPenalty(density, cutoffPx));
     if (!solved) continue;
     controls = std::move(*solved);
     knots = std::move(even);
@@ -202,7 +199,7 @@ Result<NurbsCurve> tightLoop(std::span<const Vec2> points) {
   std::optional<UniformQuintic> loop;
   for (const double cutoffPx : kCutoffsPx) {
     const UniformKnots knots = fairKnots(length, knotSpacing(cutoffPx) / density, true);
-    auto fit = fitUniformQuintic(knots, t, p, {}, penalty(cutoffPx, density));
+    auto fit = fitUniformQuintic(knots, t, p, {}, cutoffPenalty(density, cutoffPx));
     if (!fit) continue;
     loop = std::move(*fit);
     int away = 0;

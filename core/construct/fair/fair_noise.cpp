@@ -13,6 +13,7 @@ constexpr double kNoiseAlongPx = 80.0;  // Gaussian: as much as 280 px of equal 
 constexpr double kNoiseSurprise = 6.0;  // times the local mean; beyond, no noise
 constexpr double kAdjacent = 1.6;       // block lengths between the means of neighbours
 constexpr double kBlockFreedom = 0.51;  // of a block: second differences of neighbours are correlated
+constexpr double kNoiseReach = 3.0;     // standard deviations of the mean along a line: beyond, weights are below 1 %
 constexpr double kPriorWindows = 2.0;   // of equal noise
 constexpr double kMostFactor = 36.0;    // of the usual variance, and its inverse: 6 times the standard deviation
 constexpr double kLeastMean = 1e-6;     // of what is usual: blocks without any noise have a logarithm too
@@ -27,7 +28,7 @@ struct NoiseBlock {
 /// Sets the local means: Gaussian, at open ends over what there is. No smoothing of core/polyline also says of how many
 /// blocks a mean is.
 void averageLocally(const NoiseTrace& trace, std::vector<NoiseBlock>& values) {
-  const double reach = std::min(3.0 * kNoiseAlongPx, trace.closed ? 0.5 * trace.length : trace.length);
+  const double reach = std::min(kNoiseReach * kNoiseAlongPx, trace.closed ? 0.5 * trace.length : trace.length);
   const int steps = static_cast<int>(reach / trace.blockLength);
   std::vector<double> kernel;
   for (int k = 0; k <= steps; ++k) {

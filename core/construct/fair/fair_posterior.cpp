@@ -16,7 +16,9 @@ namespace {
 constexpr double kShortestCutoffPx = 24.0, kCutoffStep = 1.15;  // the first candidate, and each over the one before
 constexpr double kLongestCutoffPx = 1400.0;                     // what the local prior smooths at most
 constexpr double kOrdinaryBlocks = 4.0, kOrdinaryVariance = 1.25e-3;  // [px^2] of a mean over 8 px: .01 px^2 px
-constexpr int kMeasuredStep = 3;                                      // of the candidates for the cut-off
+constexpr double kAverageReach = 3.0;  // standard deviations: beyond, the weights are below 1 %
+constexpr double kJitter = 1e-13;      // of the diagonal: makes a matrix definite that is so but for rounding
+constexpr int kMeasuredStep = 3;       // of the candidates for the cut-off
 
 double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::numbers::pi), 8); }
 
@@ -45,7 +47,7 @@ BATTEN_HOT_LOOP void averageInside(const double* v, int count, const double* ker
 /// the stations next to an end twice in their own prior.
 std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bool closed) {
   const int n = static_cast<int>(v.size());
-  const int radius = std::min(static_cast<int>(std::ceil(3.0 * sigma)), closed ? (n - 1) / 2 : n - 1);
+  const int radius = std::min(static_cast<int>(std::ceil(kAverageReach * sigma)), closed ? (n - 1) / 2 : n - 1);
   std::vector<double> kernel(radius + 1);
   for (int k = 0; k <= radius; ++k) kernel[k] = std::exp(-0.5 * k * k / (sigma * sigma));
   std::vector<double> out(v.size());
@@ -85,7 +87,7 @@ bool assemble(FairPosterior& p, BandedCholesky& cholesky, const FairFrame& frame
     p.constant += w * station.bend * station.bend;
   }
   if (!cholesky.factor(p.a)) {
-    for (int i = 0; i < p.a.size(); ++i) p.a.entry(i, 0) *= 1.0 + 1e-13;
+    for (int i = 0; i < p.a.size(); ++i) p.a.entry(i, 0) *= 1.0 + kJitter;
     if (!cholesky.factor(p.a)) return false;
   }
   p.mean = cholesky.solve(p.b);

@@ -16,7 +16,7 @@ namespace batten {
 struct FairPosterior {
   BandedMatrix a;
   Eigen::VectorXd b;
-  double constant = 0.0;
+  double constant = 0.0;     ///< [chi2]
   double s0 = 1.0;           ///< [px^2 px] noise density of weight 1.
   BandedMatrix covariance;   ///< A^-1 within the band.
   Eigen::VectorXd mean;      ///< Unconstrained minimum.
@@ -39,7 +39,7 @@ CutoffTable cutoffTable(const FairFrame&, CancelCheck);
 /// The variance counts four blocks of an ordinary scan besides, so that a short contour cannot be quiet by luck.
 struct CutoffChoice {
   std::vector<std::optional<int>> k;  ///< Per table; absent: no table, or no candidate in it.
-  double blockVariance = 0.0;
+  double blockVariance = 0.0;         ///< [px^2] Of the mean of a full block.
 };
 /// @param leastVariance [px^2] per table: what the variance of its blocks is at least: density of the noise per block.
 CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>&, std::span<const double> leastVariance,

@@ -19,9 +19,13 @@ namespace {
 
 // length of a piece that shows no bend, and one that shows no change of it
 constexpr double kStraightBelowPx = 12.0, kQuadraticBelowPx = 25.0;
-constexpr double kLoopCutoffShare = 0.25;  // of the length of a small closed line: shorter waves are noise
-constexpr double kLoopSpacingPx = 16.0;    // of its knots
-constexpr double kPinWeight = 1e8;         // of an exact end, in weights of a point; openCurve() sets the last digits
+constexpr int kFewestCurved = 4, kFewestCubic = 8;  // points: fewer show no bend, no change of it
+constexpr double kSolved = 1e-6;                    // of the right side: a solution that misses it by more is none
+constexpr int kCircleRounds = 8;                    // of Gauss and Newton, from a good start
+constexpr double kCircleSettled = 1e-10;            // of the radius: a smaller step changes nothing
+constexpr double kLoopCutoffShare = 0.25;           // of the length of a small closed line: shorter waves are noise
+constexpr double kLoopSpacingPx = 16.0;             // of its knots
+constexpr double kPinWeight = 1e8;  // of an exact end, in weights of a point; openCurve() sets the last digits
 
 /// A piece of 2, 3 or 4 Bezier points.
 Result<NurbsCurve> bezier(const std::vector<Vec2>& p, double length) {
@@ -36,8 +40,8 @@ Result<NurbsCurve> bezier(const std::vector<Vec2>& p, double length) {
 Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const std::vector<double>& t) {
   const double length = t.back();
   const int used = static_cast<int>(std::ranges::count(data.points, true, &FairPoint::use));
-  const bool straight = length < kStraightBelowPx || used < 4;
-  const int degree = straight ? 1 : length < kQuadraticBelowPx || used < 8 ? 2 : 3;
+  const bool straight = length < kStraightBelowPx || used < kFewestCurved;
+  const int degree = straight ? 1 : length < kQuadraticBelowPx || used < kFewestCubic ? 2 : 3;
   const int n = degree + 1;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n), right = Eigen::MatrixXd::Zero(n, 2);
   const auto add = [&](double u, const Vec2& p, double w) {
@@ -51,12 +55,12 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const s
   }
   // A straight piece of few points joins its ends; otherwise only corners are exact.
   const Vec2 first = pins.start.value_or(data.points.front().at), last = pins.end.value_or(data.points.back().at);
-  if (pins.start || used < 4) add(0.0, first, kPinWeight);
-  if (pins.end || used < 4) add(1.0, last, kPinWeight);
+  if (pins.start || used < kFewestCurved) add(0.0, first, kPinWeight);
+  if (pins.end || used < kFewestCurved) add(1.0, last, kPinWeight);
   const Eigen::MatrixXd solution = solveSymmetric(normal, right);
   std::vector<Vec2> points;
   for (int i = 0; i < n; ++i) points.emplace_back(solution(i, 0), solution(i, 1));
-  const bool sound = solution.allFinite() && (normal * solution - right).norm() <= 1e-6 * (1.0 + right.norm());
+  const bool sound = solution.allFinite() && (normal * solution - right).norm() <= kSolved * (1.0 + right.norm());
   if (!sound) points = {first, last};
   if (pins.start) points.front() = first;
   if (pins.end) points.back() = last;
@@ -87,7 +91,7 @@ std::optional<CircleFit> fitCircle(std::span<const WeightedPoint> data) {
   CircleFit fit{start->centre, start->radius, 0.0};
   Eigen::Matrix3d normal;
   Eigen::Vector3d right;
-  for (int round = 0; round < 8; ++round) {
+  for (int round = 0; round < kCircleRounds; ++round) {
     normal.setZero();
     right.setZero();
     fit.squares = 0.0;
@@ -105,7 +109,7 @@ std::optional<CircleFit> fitCircle(std::span<const WeightedPoint> data) {
     if (!step.allFinite()) return std::nullopt;
     fit.centre += step.head<2>();
     fit.radius += step[2];
-    if (step.norm() < 1e-10 * std::abs(fit.radius)) break;
+    if (step.norm() < kCircleSettled * std::abs(fit.radius)) break;
   }
   if (!(fit.radius > 0.0) || !std::isfinite(fit.squares) || !fit.centre.allFinite()) return std::nullopt;
   return fit;
@@ -175,7 +179,7 @@ Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins) {
   if (!(t.back() > 0.0) || !std::isfinite(t.back())) return nothing();
   if (!data.closed) return openCurve(data, pins, t);
   const double length = t.back() + (points.front() - points.back()).norm();
-  const double lambda = data.density * std::pow(kLoopCutoffShare * length / (2.0 * std::numbers::pi), 6);
+  const double lambda = cutoffPenalty(data.density, kLoopCutoffShare * length);
   const auto loop = fitUniformQuintic(fairKnots(length, kLoopSpacingPx, true), t, points, weights, lambda);
   if (!loop) return nothing();
   return loop->toNurbs();

@@ -19,16 +19,16 @@ struct FairPins {
 };
 
 struct WeightedPoint {
-  Vec2 at = Vec2::Zero();
-  double weight = 1.0;
+  Vec2 at = Vec2::Zero();  ///< [px]
+  double weight = 1.0;     ///< 1: a block full of ordinary points.
 };
 /// Block means.
 std::vector<WeightedPoint> blockMeans(const FairFrame&);
 
 struct CircleFit {
   Vec2 centre = Vec2::Zero();
-  double radius = 0.0;
-  double squares = 0.0;  ///< Weighted sum of squared distances.
+  double radius = 0.0;   ///< [px]
+  double squares = 0.0;  ///< [px^2] Weighted sum of squared distances.
 };
 /// Geometric least squares circle (Gauss-Newton from the algebraic one). Absent for points on a line.
 std::optional<CircleFit> fitCircle(std::span<const WeightedPoint>);
@@ -38,7 +38,7 @@ UniformQuintic circleCurve(const CircleFit&, const Vec2& first, bool left);
 
 struct LineFit {
   Vec2 point = Vec2::Zero(), direction = Vec2::UnitX();
-  double squares = 0.0;
+  double squares = 0.0;  ///< [px^2] The same.
 };
 /// Total least squares line. Absent when all points are one.
 std::optional<LineFit> fitLine(std::span<const WeightedPoint>);

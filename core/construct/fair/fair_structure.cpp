@@ -18,8 +18,10 @@ constexpr double kWindowsApart = 0.45;  // of the distance of neighbouring extre
 constexpr double kRecentre = 0.7;       // of the half width
 constexpr double kLocalReachPx = 640;   // far beyond any correlation that matters
 constexpr double kMostStretches =
-    4.0;                    // widest windows: a slope of the curvature is followed no farther to either side
-constexpr int kRounds = 4;  // one solution and three recentrings
+    4.0;                         // widest windows: a slope of the curvature is followed no farther to either side
+constexpr int kOwnColumns = 6;   // coefficients of a quintic at one place
+constexpr int kWholeFifths = 4;  // fifths of a line: to solve for a larger part is no faster than for all
+constexpr int kRounds = 4;       // one solution and three recentrings
 
 double slopeAt(const FrameStation& s, const Eigen::VectorXd& c) { return s.slope + dot(s.slopeRow, c); }
 double bendAt(const FrameStation& s, const Eigen::VectorXd& c) { return s.bend + dot(s.bendRow, c); }
@@ -89,7 +91,7 @@ void addConstraint(BandedProgram& qp, const FrameStation& station, const FairStr
   if (columns < knots.coefficients()) {
     const int n = knots.coefficients();
     firstOwn = ((firstOwn - firstColumn) % n + n) % n;
-    if (firstOwn + 6 > columns) return;
+    if (firstOwn + kOwnColumns > columns) return;
   }
   const FairExtremum* window = nullptr;
   bool rising = structure.rising;
@@ -144,12 +146,12 @@ Part choosePart(const UniformKnots& knots, const std::optional<StructureStretch>
   Part part{0, n, true};
   if (!stretch) return part;
   int first = static_cast<int>(std::floor((stretch->from - kLocalReachPx) / knots.spacing()));
-  int last = static_cast<int>(std::ceil((stretch->to + kLocalReachPx) / knots.spacing())) + 6;
+  int last = static_cast<int>(std::ceil((stretch->to + kLocalReachPx) / knots.spacing())) + kOwnColumns;
   if (!knots.closed) {
     first = std::max(first, 0);
     last = std::min(last, n);
   }
-  if (last - first > (4 * n) / 5 || last - first < 12) return part;
+  if (last - first > kWholeFifths * n / 5 || last - first < 2 * kOwnColumns) return part;
   return {((first % n) + n) % n, last - first, false};
 }
 

@@ -238,11 +238,27 @@ bool PointDeviation::good() const {
   return veryFar == 0 && far <= share && lengthRatio < kLongestRatio;
 }
 
+namespace {
+
+/// [px] Along the points of a piece, over chords of several: the noise of single points makes no length.
+double lengthAlongPoints(const ConstructPiece& piece) {
+  constexpr int kStride = 4;
+  const auto& points = piece.points;
+  const int n = static_cast<int>(points.size());
+  if (n == 0) return 0.0;
+  double length = 0.0;
+  for (int i = kStride; i < n; i += kStride) length += (points[i].at - points[i - kStride].at).norm();
+  length += (points[n - 1].at - points[(n - 1) / kStride * kStride].at).norm();
+  return piece.closed ? length + (points.front().at - points.back().at).norm() : length;
+}
+
+}  // namespace
+
 PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& piece, CancelCheck check) {
   PointDeviation result;
   std::vector<Vec2> polygon;
   std::vector<double> parameter;
-  double length = 0.0, pointLength = 0.0;
+  double length = 0.0;
   const auto breaks = curve.breaks();
   for (std::size_t j = 0; j + 1 < breaks.size(); ++j) {
     const double width = breaks[j + 1] - breaks[j];
@@ -253,13 +269,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   for (const double u : parameter) polygon.push_back(curve.point(u));
   for (std::size_t i = 1; i < polygon.size(); ++i) length += (polygon[i] - polygon[i - 1]).norm();
   const int n = static_cast<int>(piece.points.size());
-  constexpr int kStride = 4;  // noise of single points makes no length
-  for (int i = kStride; i < n; i += kStride) {
-    pointLength += (piece.points[i].at - piece.points[i - kStride].at).norm();
-  }
-  if (n > 0) pointLength += (piece.points[n - 1].at - piece.points[(n - 1) / kStride * kStride].at).norm();
-  if (piece.closed && n > 0) pointLength += (piece.points.front().at - piece.points.back().at).norm();
-  result.lengthRatio = length / (pointLength + kLoosePx);
+  result.lengthRatio = length / (lengthAlongPoints(piece) + kLoosePx);
   std::size_t at = 0;
   if (piece.closed && n > 0) {
     follow(polygon, piece.points.front().at, at, 2 * polygon.size());

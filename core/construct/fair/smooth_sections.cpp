@@ -22,6 +22,9 @@ namespace {
 
 constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, it has a loop of its own
 constexpr double kLeastSmoothPx = 24.0;    // between two sharp features; shorter stretches have no fairness to keep
+constexpr int kVeryFarCounts = 10;         // points that lie far: as bad as one that lies very far
+constexpr int kLoopCounts = 1000;          // the same: as bad as a loop of the curve's own
+constexpr double kNoLength = 1e-9;         // of a curve's parameters: what is left beside a cut is rounding
 constexpr double kSeamShare = 1e-3;        // of a closed curve: what is nearer to its seam begins or ends there
 /// Of a piece that is taken apart at them: nobody draws a line that turns sharply so often from corner to corner.
 constexpr int kMostSharpFeatures = 1000;
@@ -32,7 +35,7 @@ constexpr int kMostDrawnTurns = 10'000;
 /// What lies between two parameters of a fit; of a closed one through its seam where `to` comes before `from`.
 Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, double to, bool closed) {
   const NurbsCurve& c = fit.curve;
-  const double start = c.start(), end = c.end(), least = 1e-9 * (end - start);
+  const double start = c.start(), end = c.end(), least = kNoLength * (end - start);
   const auto between = [&](double a, double b) -> Result<NurbsCurve> {
     auto rest = a > start + least ? split(c, a).map([](SplitCurve s) { return s.right; }) : Result<NurbsCurve>(c);
     if (!rest || b > end - least) return rest;
@@ -232,7 +235,7 @@ Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) 
     return whole;
   }
   const auto farness = [&](const PointDeviation& c) {
-    return c.far + 10 * c.veryFar + (c.lengthRatio > kMostLengthRatio ? 1000 : 0);
+    return c.far + kVeryFarCounts * c.veryFar + (c.lengthRatio > kMostLengthRatio ? kLoopCounts : 0);
   };
   std::optional<int> far;
   if (whole) {

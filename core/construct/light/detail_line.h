@@ -21,7 +21,7 @@ struct ScaleCorner {
 struct EvenLine {
   std::vector<Vec2> points;  ///< Closed: the first is not repeated.
   bool closed = false;
-  double step = 0.0;
+  double step = 0.0;  ///< [unit of the line]
 
   int size() const { return static_cast<int>(points.size()); }
 };

@@ -11,6 +11,7 @@ namespace batten {
 namespace {
 
 constexpr double kLeastSpeed = 0.1;  // of the mean
+constexpr double kFootOff = 2.0;     // samples of the dense curve by which a foot may be off
 constexpr double kJump = 3.0;        // steps of the curve that its foot may run on at once, and two samples
 
 struct CheckedPlace {
@@ -71,11 +72,11 @@ std::optional<double> worstOffset(const std::vector<CheckedPlace>& places, const
     if (worst > tolerance) return worst;
     const double moved = advance(reference, last, foot.index);
     const double step = k == 0 ? 0.0 : (place.point - places[k - 1].point).norm();
-    if (moved < -2.0 * spacing || moved > kJump * step + 2.0 * spacing + tolerance) return std::nullopt;
+    if (moved < -kFootOff * spacing || moved > kJump * step + kFootOff * spacing + tolerance) return std::nullopt;
     run += moved;
     last = foot.index;
   }
-  const bool all = reference.isClosed() ? std::abs(run - reference.length()) < 4.0 * spacing
+  const bool all = reference.isClosed() ? std::abs(run - reference.length()) < 2.0 * kFootOff * spacing
                                         : first.index <= 1 && last >= reference.size() - 2;
   return all ? std::optional(worst) : std::nullopt;
 }

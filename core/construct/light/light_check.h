@@ -8,9 +8,9 @@ namespace batten {
 
 /// What a light curve must hold, looked at densely: at least 400 places, and every curvature extremum wherever it lies.
 struct LightBounds {
-  double tolerance = 0.0;
-  int extrema = 0;      ///< At the most, of prominence kExtremumProminence / extent.
-  int inflections = 0;  ///< At the most.
+  double tolerance = 0.0;  ///< [unit of the curve] Farthest that it lies from the dense one.
+  int extrema = 0;         ///< At the most, of prominence kExtremumProminence / extent.
+  int inflections = 0;     ///< At the most.
 };
 struct LightVerdict {
   bool holds = false;

@@ -14,7 +14,7 @@ enum class LightHold { Position, Tangent, Curvature };
 
 /// Curvatures that an end may have.
 struct CurvatureRange {
-  double low = 0.0, high = 0.0;
+  double low = 0.0, high = 0.0;  ///< [1/unit of the curve]
 
   /// By how much a curvature lies above the range, or below it (negative).
   double beyond(double kappa) const { return kappa > high ? kappa - high : kappa < low ? kappa - low : 0.0; }

@@ -16,7 +16,10 @@ constexpr double kRidge = 1e-4;           // of the logarithms of the span lengt
 constexpr double kHeldEnds = 3.0;         // of held ends in the second phase
 constexpr double kDifferenceStep = 1e-6;  // of a span length, for the derivative of the Bezier points
 
-int placesPerSpan(int spans) { return spans == 1 ? 28 : spans == 2 ? 16 : 10; }
+// Places of a span at which a fit looks: of few spans each carries more of the curve's shape.
+constexpr int kPlacesOfOneSpan = 28, kPlacesOfTwoSpans = 16, kPlacesOfMore = 10;
+
+int placesPerSpan(int spans) { return spans == 1 ? kPlacesOfOneSpan : spans == 2 ? kPlacesOfTwoSpans : kPlacesOfMore; }
 
 }  // namespace
 

@@ -28,7 +28,7 @@ void sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::arr
 /// A row of a system with its weight (squared) and its weighted residual.
 struct WeighedRow {
   std::array<double, kRowWidth> row;
-  double weight, residual;
+  double weight, residual;  ///< [-] `residual` is multiplied by the weight already.
 };
 /// squares[c][r] = sum of weight row[c] row[r] and gradient[r] = sum of residual row[r], over all rows in their order;
 /// c < columns, all r.

@@ -19,6 +19,8 @@ namespace batten {
 namespace {
 
 constexpr int kQuintic = 5;  // degree
+/// Of the distances, of which 000 takes a third.
+constexpr double kPaperDivisor = 3.0;
 /// Weight of a pinned end against the other equations: what is left of the misfit is its square smaller, 1e-14.
 constexpr double kPinnedWeight = 1e7;
 /// Stations whose distances differ by more than this get knots at their distances instead of uniform ones.
@@ -224,7 +226,7 @@ std::vector<double> derivativeMagnitudes(std::span<const Station> stations, bool
     for (std::size_t i = 0; i < distances.size(); ++i) {
       distances[i] = (stations[(i + 1) % m].point - stations[i].point).norm();
     }
-    factor /= 3.0;
+    factor /= kPaperDivisor;
   }
   std::vector<double> magnitudes;
   for (std::size_t i = 0; i < m; ++i) {

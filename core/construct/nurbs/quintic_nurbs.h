@@ -20,8 +20,8 @@ std::vector<double> derivativeMagnitudes(std::span<const Station> stations, bool
 struct QuinticSystemResult {
   std::vector<Vec2> controlPoints;  ///< m + 4 (open) or m (closed).
   Termination why = Termination::Exact;
-  double residualRmsPosition = 0.0;
-  double residualRmsDerivative = 0.0;
+  double residualRmsPosition = 0.0;    ///< [unit of the points]
+  double residualRmsDerivative = 0.0;  ///< [the same per knot spacing]
 };
 /// Uniform quintic B-spline (knot spacing 1) from m points and derivative vectors (000 Eq 10, 11; 003 section 3).
 /// m = 4 exact, m > 4 least squares by QR with unit weights, m < 4 smallest integral of |R'''|^2 subject to the

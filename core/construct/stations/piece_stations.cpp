@@ -14,6 +14,7 @@ namespace {
 /// Of the spacing: a first station farther from the start of the piece is not the start, if the start lies behind it
 /// (the cosine of the angle between the gap and its direction is more than kAhead).
 constexpr double kStandsAway = 0.25, kAhead = 0.5;
+constexpr int kFewestMeasured = 8;  ///< Stations measured round a closed line that has too few of its own.
 
 double diagonal(std::span<const Vec2> points) {
   if (points.empty()) return 0.0;
@@ -107,7 +108,7 @@ std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClose
   if (piece.closed) {
     if (stations.size() > 1 && (stations.front().point - stations.back().point).norm() <= tooNear) stations.pop_back();
     if (static_cast<int>(stations.size()) < fewestClosed && piece.points.size() >= 3 && size > 0.0) {
-      stations = cleaned(measuredAround(positionsOf(piece.points), std::max(8, fewestClosed)), tooNear);
+      stations = cleaned(measuredAround(positionsOf(piece.points), std::max(kFewestMeasured, fewestClosed)), tooNear);
     }
     return stations;
   }

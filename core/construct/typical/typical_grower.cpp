@@ -26,7 +26,9 @@ constexpr double kMostSeedTurnRad = 1.2;   // of a curve that goes on from one b
 constexpr double kLostPx = 0.25;
 /// Half of the stretch [px] from whose points a normal is taken.
 constexpr double kNormalReachPx = 16.0;
-constexpr int kMostSteps = 400;  // curves of a stretch: ends what does not come to its end
+constexpr std::size_t kBesideNearest = 3;  // points to either side at least, where they are sparse
+constexpr std::size_t kFewestNear = 8;     // points of a first curve that can tell its direction and curvature too
+constexpr int kMostSteps = 400;            // curves of a stretch: ends what does not come to its end
 /// Points behind a curve's start that are looked at, and the line [of the curve's size, and px] in which its own lie.
 constexpr std::size_t kBehind = 2;
 constexpr double kReachOfSize = 1.5, kReachPx = 10.0;  // the line
@@ -209,7 +211,7 @@ class Grower {
   /// @return whether the fit came to rest.
   bool refitWhole(TypicalCurve& c) const {
     const auto near = pointsOn(c);
-    if (near.size() < 8) return true;
+    if (near.size() < kFewestNear) return true;
     const double size = sizeOf(c), kappa = c.startCurvature();
     const auto curveOf = [&](std::span<const double> x) {
       return typicalFromForm(c.start, c.angleRad + x[0], kappa * std::exp(x[1]), size,
@@ -323,8 +325,8 @@ class Grower {
     std::size_t first = nearest, last = nearest;
     while (first > 0 && (points_[first - 1] - place).norm() < kNormalReachPx) --first;
     while (last + 1 < points_.size() && (points_[last + 1] - place).norm() < kNormalReachPx) ++last;
-    first = last - first < 6 ? (first > 3 ? first - 3 : 0) : first;
-    last = last - first < 6 ? std::min(points_.size() - 1, last + 3) : last;
+    first = last - first < 2 * kBesideNearest ? (first > kBesideNearest ? first - kBesideNearest : 0) : first;
+    last = last - first < 2 * kBesideNearest ? std::min(points_.size() - 1, last + kBesideNearest) : last;
     const Vec2 chord = points_[last] - points_[first];
     const Vec2 along = chord.norm() > 0.0 ? Vec2(chord.normalized()) : Vec2::UnitX();
     const Vec2 normal = leftNormal(along);

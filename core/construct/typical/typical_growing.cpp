@@ -82,7 +82,8 @@ bool isDrawable(const TypicalCurve& curve) {
 /// The last joint of a stretch that grown curves have passed: near their end, and about as far along the line as they
 /// are long, for a closed line comes near its start again.
 std::size_t passedJoint(const TypicalLine& line, const GrowingStretch& stretch, std::span<const TypicalCurve> grown) {
-  constexpr double kLengthShare = 0.25;  // by which the line to a joint and the curves may differ
+  constexpr double kLengthShare = 0.25;  // by which the line to a joint and the curves may differ …
+  constexpr double kJointsOff = 3.0;     // … and so many joints more
   const auto chord = [&](std::size_t i) { return (line.joints[i + 1].point - line.joints[i].point).norm(); };
   double length = 0.0;
   for (const TypicalCurve& c : grown) length += c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio);
@@ -92,7 +93,7 @@ std::size_t passedJoint(const TypicalLine& line, const GrowingStretch& stretch, 
   for (std::size_t i = stretch.firstJoint; i <= stretch.lastJoint; ++i) {
     if (i > stretch.firstJoint) s += chord(i - 1);
     const double step = i < stretch.lastJoint ? chord(i) : chord(i - 1), away = (line.joints[i].point - end).norm();
-    if (std::abs(s - length) > kLengthShare * length + 3.0 * step || away >= least) continue;
+    if (std::abs(s - length) > kLengthShare * length + kJointsOff * step || away >= least) continue;
     least = away;
     nearest = i;
   }

@@ -28,10 +28,11 @@ inline constexpr double kMostStartLogRatio = 1.2;   ///< Of the edges: the curva
 /// h >= 1 / cos(phi) whatever the unknowns are.
 enum class Trend { Free, Rising, Falling };
 
+/// What a path is where two of its elements meet, or at an end.
 struct PathState {
-  Vec2 point = Vec2::Zero();
-  double angleRad = 0.0;
-  double kappa = 0.0;
+  Vec2 point = Vec2::Zero();  ///< [px]
+  double angleRad = 0.0;      ///< Direction of travel.
+  double kappa = 0.0;         ///< [1/px] Signed curvature.
 
   Joint joint() const;
 };
@@ -85,7 +86,7 @@ std::optional<std::size_t> firstSliver(const TypicalPath&);
 /// Length of the first derivative of a Hermite piece between two states: the arc length of a flat cubic over their
 /// chord.
 struct HermiteLength {
-  double length = 0.0;
+  double length = 0.0;                           ///< [px]
   std::array<double, 4> fromStart{}, fromEnd{};  ///< Derivatives by x, y, angle and curvature.
 };
 HermiteLength hermiteLength(const PathState& a, const PathState& b);

@@ -11,8 +11,8 @@ namespace batten {
 /// Where on a path a point lies.
 struct PathFoot {
   std::size_t element = 0;
-  double t = 0.0;
-  double distance = 0.0;  ///< Signed, positive to the left of the path.
+  double t = 0.0;         ///< Parameter of the element, 0..1.
+  double distance = 0.0;  ///< [px] Signed, positive to the left of the path.
 };
 
 /// Feet of points in order, each searched from where it was, or at first from the one before.

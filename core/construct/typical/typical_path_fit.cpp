@@ -73,7 +73,7 @@ class PathSquares {
 
   /// @param feet warm start and result. Infinity where there is no path.
   double cost(TypicalPath& path, std::vector<PathFoot>& feet, System* system) const {
-    constexpr double kImpossible = std::numeric_limits<double>::infinity();
+    constexpr double kImpossible = std::numeric_limits<double>::infinity();  // the cost of what is no path
     if (!path.update()) return kImpossible;
     const auto geometry = geometryOf(path);
     followFeet(geometry, data_.points, feet);
@@ -196,8 +196,8 @@ class PathSquares {
     double sum = 0.0;
     for (std::size_t e = 0; e < path.elements.size(); ++e) {
       const PathElement& one = path.elements[e];
-      const int column = unknowns_.shape(e);
       if (!one.typical) continue;
+      const int column = unknowns_.shape(e);
       Row row = Row::Zero(p);
       row(column) = kTurnWeight;
       sum += add(system, row, kTurnWeight * (one.logTurn - before_.elements[e].logTurn));

@@ -38,12 +38,13 @@ class PathUnknowns {
       }
       states_.push_back(c);
     }
-    for (const PathElement& e : path.elements) shapes_.push_back(e.typical ? take(2) : -1);
+    for (const PathElement& e : path.elements) shapes_.push_back(e.typical ? std::optional(take(2)) : std::nullopt);
   }
   int count() const { return count_; }
   /// Whether a state has unknowns of its own.
   bool isUnknown(std::size_t s) const { return states_[s].kappa.has_value(); }
-  int shape(std::size_t e) const { return shapes_[e]; }
+  /// Where the two unknowns of a typical element begin. @pre it is one.
+  int shape(std::size_t e) const { return shapes_[e].value(); }
 
   TypicalPath moved(const TypicalPath& path, const Eigen::VectorXd& step) const {
     TypicalPath result = path;
@@ -58,9 +59,9 @@ class PathUnknowns {
               : path.states[s].kappa + step(*c.kappa);
     }
     for (std::size_t e = 0; e < shapes_.size(); ++e) {
-      if (shapes_[e] < 0) continue;
-      result.elements[e].logTurn += step(shapes_[e]);
-      result.elements[e].shape += step(shapes_[e] + 1);
+      if (!shapes_[e]) continue;
+      result.elements[e].logTurn += step(shape(e));
+      result.elements[e].shape += step(shape(e) + 1);
     }
     return result;
   }
@@ -119,8 +120,8 @@ class PathUnknowns {
     const ShapeSlopes s = slopes(path.elements[e]);
     const double byRatio = along(v + u),
                  byPhi = along(v) / std::tan(path.elements[e].side * path.elements[e].turn()) + along(i * u);
-    row(shapes_[e]) += byRatio * s.ratioByTurn + byPhi * s.phiByTurn;
-    row(shapes_[e] + 1) += byRatio * s.ratioByShape;
+    row(shape(e)) += byRatio * s.ratioByTurn + byPhi * s.phiByTurn;
+    row(shape(e) + 1) += byRatio * s.ratioByShape;
   }
 
   /// The same for a Hermite element.
@@ -182,16 +183,16 @@ class PathUnknowns {
       rows.row(k) = row;
     }
     const ShapeSlopes s = slopes(path.elements[e]);
-    rows(2, shapes_[e]) += 2.0 * s.phiByTurn;
+    rows(2, shape(e)) += 2.0 * s.phiByTurn;
     const double kappa = path.states[e + 1].kappa;
     rows.row(3) *= kappa / path.states[e].kappa;
-    rows(3, shapes_[e]) -= 4.0 * kappa * s.ratioByTurn;
-    rows(3, shapes_[e] + 1) -= 4.0 * kappa * s.ratioByShape;
+    rows(3, shape(e)) -= 4.0 * kappa * s.ratioByTurn;
+    rows(3, shape(e) + 1) -= 4.0 * kappa * s.ratioByShape;
     return rows;
   }
 
   std::vector<Columns> states_;
-  std::vector<int> shapes_;
+  std::vector<std::optional<int>> shapes_;
   int count_ = 0;
 };
 

@@ -34,7 +34,7 @@ std::optional<LocalArc> arcThrough(const std::vector<Vec2>& a, const std::vector
 /// [px] What a skeleton leaves of the true course of a stroke beyond its forks: its pixels, and a part of the width. On
 /// drawings and pages of lines that share ink it is .3 to .8 px, of those that do not 1.4 and more, at 5 px.
 inline double mostLeftPx(double widthPx) {
-  constexpr double kMissPx = 0.5, kMissWidths = 0.08;
+  constexpr double kMissPx = 0.5, kMissWidths = 0.08;  // by its pixels, by the width
   return kMissPx + kMissWidths * widthPx;
 }
 

@@ -36,7 +36,7 @@ struct BorderSums {
 /// Further sums, of which the uncertainty is told.
 struct SquareSums {
   double ll = 0.0, lh = 0.0, hh = 0.0;  ///< By weight squared.
-  double squares = 0.0, weights = 0.0;
+  double squares = 0.0, weights = 0.0;  ///< Of the residuals [grey^2], by weight; of the weights.
 };
 
 /// All versions give the same bits: sums are made in the order of the pixels, multiplied and added apart.

@@ -15,19 +15,17 @@
 #include "core/contour/centreline/grey_across.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/on_ink.h"
-#include "core/contour/centreline/oriented_line_filter.h"
 #include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/paper_faces.h"
+#include "core/contour/centreline/pencil_bodies.h"
 #include "core/contour/centreline/refinement.h"
 #include "core/contour/centreline/skeleton.h"
-#include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/intent/intended_lines.h"
 #include "core/contour/merge/stroke_merge.h"
 #include "core/contour/merge/turn_cuts.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
-#include "core/image/bits/run_pieces.h"
 #include "core/image/fine_page.h"
 
 namespace batten {
@@ -102,67 +100,10 @@ bool isMargin(const Contour& c, const GreyImage& grey, double pixelsPerPx) {
   return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
 }
 
-// Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
-BitImage coverOf(const BitImage& like, const std::vector<StrokePath>& paths, const GraininessMap& grain, bool pencil,
-                 double margin, const RunContext& context) {
-  constexpr int kDiscsPerLook = 64;        // between two looks at the cancel token
-  constexpr double kDiscsPerRadius = 6.0;  // discs nearer to each other cover nothing new
-  BitImage cover(like.width, like.height);
-  for (int i = 0; i < std::ssize(paths); ++i) {
-    if (grain.isPencil(i) != pencil) continue;
-    const std::vector<StrokePathPoint>& points = paths[i].points;
-    const int n = static_cast<int>(points.size());
-    int painted = 0;
-    for (int k = 0; k < n;) {
-      if (painted++ % kDiscsPerLook == 0 && context.isCancelled()) return cover;
-      const double radius = static_cast<double>(points[k].radius) + margin;
-      setDisc(cover, points[k].at, radius);
-      // The last one is always painted.
-      k = k + 1 < n ? std::min(k + static_cast<int>(std::max(1.0, radius / kDiscsPerRadius)), n - 1) : n;
-    }
-  }
-  return cover;
-}
-
-// Of what was taken out of bodies, the holes of their grain: ink that the rest encloses, and shorter than paper between
-// two lines runs. What was paper before the bodies were closed is the inside of a loop.
-BitImage grainHoles(const BitImage& taken, const BitImage& rest, const BitImage& strokes, double widthPx,
-                    const RunContext& context) {
-  constexpr double kLeastInkShare = 0.25;  // of a hole of grain; that of a loop has none but at its rim
-  // The means that tell lines from paper are as long: half of it at either side.
-  constexpr double kLeastGapWidths = 4.0;
-  const BitImage body = either(taken, rest);
-  const BitImage brief = without(taken, keepPieces(taken, {.minDiagonal = kLeastGapWidths * widthPx}, context));
-  const BitImage besidePaper = grown(without(grown(body, 1, context), body), 1, context);
-  const BitImage enclosed = without(brief, keepPieces(brief, {.seeds = &besidePaper}, context));
-  return mostlyInk(enclosed, strokes, kLeastInkShare, context);
-}
-
 // How grainy the strokes are is a matter of the scan, whatever page they are followed on.
 GraininessMap grainOf(const std::vector<StrokePath>& paths, const GreyImage& grey, const CentrelineOptions& options,
                       const RunContext& context) {
   return options.page != nullptr ? grainOnFinePage(paths, *options.page, context) : GraininessMap(paths, grey, context);
-}
-
-// The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
-// paper, beside pens too: there a threshold closes it as well.
-BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
-                  const GraininessMap& grain, int pixelsPerPx, const RunContext& context) {
-  const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
-  const double closing = grainClosing(width);
-  BitImage body = closeInk(strokes, closing, context);
-  bool anyPen = false;
-  for (int i = 0; i < std::ssize(paths); ++i) anyPen = anyPen || !grain.isPencil(i);
-  BitImage ownPens(strokes.width, strokes.height);
-  if (anyPen) {
-    ownPens = without(coverOf(strokes, paths, grain, false, closing, context),
-                      coverOf(strokes, paths, grain, true, closing, context));
-    body = either(without(std::move(body), ownPens), strokes);
-  }
-  if (context.isCancelled()) return strokes;
-  const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context, pixelsPerPx);
-  const BitImage carved = either(without(body, found.gaps), without(found.lines, ownPens));
-  return either(carved, grainHoles(without(std::move(body), carved), carved, strokes, width, context));
 }
 
 // Every stroke path is placed by the rule that suits it.
@@ -345,7 +286,7 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || isPencil(i);
   std::vector<bool> pencil;
   if (anyPencil) {
-    found.bodies = bodiesOf(strokes, grey, paths, grain, pixelsPerPx, context);
+    found.bodies = pencilBodies(strokes, grey, paths, grain, pixelsPerPx, context);
     if (context.isCancelled()) return found;
     found.strokes = centrelinesOf(*found.bodies, options, params, context);
     const GraininessMap ofBodies = addFaintEnds(found, grey, params, options, context);
@@ -357,8 +298,9 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   const BitImage& ink = found.bodies ? *found.bodies : strokes;
   // Merging sees bundles as a whole.
   const bool isMerged = params.mergeWidths > 0.0 || params.intent;
-  if (!isMerged) joinThroughInk(paths, pencil, found.strokes.junctions, ink, grey, params, context);
-  bridgeGaps(paths, pencil, ink, grey, params, context);
+  const FollowedInk followed{ink, grey, pencil};
+  if (!isMerged) joinThroughInk(paths, followed, found.strokes.junctions, params, context);
+  bridgeGaps(paths, followed, params, context);
   return found;
 }
 
@@ -413,7 +355,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (!set.contours.empty()) set.report.widthPx = found.widthPx;
   joinStrokes(set, params, found.widthPx, options.minWidths, context);
   if (params.intent && !set.report.isGrouped && !context.isCancelled()) {
-    // Without lines drawn over more than once the page is what it is without the wish.
+    // Without lines drawn over more than once the page is traced as if nobody had asked for grouping.
     EdgeParams plain = params;
     plain.intent = false;
     return traceStrokes(strokes, grey, plain, context, options);

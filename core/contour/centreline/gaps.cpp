@@ -113,22 +113,21 @@ double levelAt(const StrokePath& s, int side, double width, const GreyImage& gre
 // Free ends of the ink, or those that end in the ink of another stroke.
 enum class EndKind { Free, InInk };
 
-std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
-                              const BitImage& ink, const GreyImage& grey, EndKind kind) {
+std::vector<OpenEnd> openEnds(const std::vector<StrokePath>& paths, const FollowedInk& followed, EndKind kind) {
   std::vector<OpenEnd> ends;
   for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
     const StrokePath& s = paths[i];
     if (s.closed || s.points.size() < 3) continue;
     const double width = s.widthPx();
-    const bool isPencil = pencil[i];
+    const bool isPencil = followed.pencil[i];
     if (!isPencil && s.length() < kLeastStrokeWidths * width) continue;
     const auto isAsked = [&](int side) { return s.tip[side] == (kind == EndKind::Free); };
-    const double inkWidth = isAsked(0) || isAsked(1) ? inkWidthOf(s, ink) : width;
+    const double inkWidth = isAsked(0) || isAsked(1) ? inkWidthOf(s, followed.ink) : width;
     for (int side = 0; side < 2; ++side) {
       if (!isAsked(side)) continue;
       const Vec2 at = side == 0 ? s.points.front().at : s.points.back().at;
-      ends.push_back(
-          {i, side, at, endDirection(s, side, width), width, inkWidth, levelAt(s, side, width, grey), isPencil});
+      const double level = levelAt(s, side, width, followed.grey);
+      ends.push_back({i, side, at, endDirection(s, side, width), width, inkWidth, level, isPencil});
     }
   }
   std::sort(ends.begin(), ends.end(), [](const OpenEnd& a, const OpenEnd& b) {
@@ -266,9 +265,8 @@ void joinCheapest(std::vector<StrokePath>& paths, StrokePart part, const EndsOf&
 
 }  // namespace
 
-void joinThroughInk(std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
-                    std::span<const StrokeJunction> junctions, const BitImage& ink, const GreyImage& grey,
-                    const EdgeParams& params, const RunContext& context) {
+void joinThroughInk(std::vector<StrokePath>& paths, const FollowedInk& followed,
+                    std::span<const StrokeJunction> junctions, const EdgeParams& params, const RunContext& context) {
   std::vector<StrokeJunction> chosen;
   std::ranges::copy_if(junctions, std::back_inserter(chosen),
                        [](const StrokeJunction& j) { return j.choice.has_value(); });
@@ -278,23 +276,23 @@ void joinThroughInk(std::vector<StrokePath>& paths, const std::vector<bool>& pen
     });
   };
   const auto endsOf = [&] {
-    std::vector<OpenEnd> ends = openEnds(paths, pencil, ink, grey, EndKind::InInk);
+    std::vector<OpenEnd> ends = openEnds(paths, followed, EndKind::InInk);
     std::erase_if(ends,
                   [&](const OpenEnd& e) { return paths[e.path].length() < kSharedLength * e.inkWidth || isChosen(e); });
     return ends;
   };
   joinCheapest(
       paths, StrokePart::Junction, endsOf, [](double widest) { return kSharedWidths * widest; },
-      [&](const OpenEnd& a, const OpenEnd& b) { return sharedCost(a, b, ink, params.maxBendDeg); }, context);
+      [&](const OpenEnd& a, const OpenEnd& b) { return sharedCost(a, b, followed.ink, params.maxBendDeg); }, context);
 }
 
-void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil, const BitImage& ink,
-                const GreyImage& grey, const EdgeParams& params, const RunContext& context) {
+void bridgeGaps(std::vector<StrokePath>& paths, const FollowedInk& followed, const EdgeParams& params,
+                const RunContext& context) {
   if (params.gapFactor > 0.0) {
     joinCheapest(
-        paths, StrokePart::Bridge, [&] { return openEnds(paths, pencil, ink, grey, EndKind::Free); },
+        paths, StrokePart::Bridge, [&] { return openEnds(paths, followed, EndKind::Free); },
         [&](double widest) { return (params.gapFactor + kSkeletonShort) * widest + kSkeletonShortPx; },
-        [&](const OpenEnd& a, const OpenEnd& b) { return joinCost(a, b, ink, params.gapFactor); }, context);
+        [&](const OpenEnd& a, const OpenEnd& b) { return joinCost(a, b, followed.ink, params.gapFactor); }, context);
   }
   std::erase_if(paths, [](const StrokePath& s) { return s.points.empty(); });
 }

@@ -72,7 +72,8 @@ class NearLines {
   // [px] to the first line that the end meets across.
   std::optional<double> wayToLine(const NearEnd& end) const {
     std::optional<double> least;
-    const double most = 1.5 * end.widthPx + end.paperPx;
+    constexpr double kInkWidths = 1.5;  // half a width from the end to the border, and a stroke to be crossed
+    const double most = kInkWidths * end.widthPx + end.paperPx;
     for (double s = 0.0; s <= most && !least; s += kAimStepPx) {
       grid_.around(end.at + s * end.out, [&](const PointOfLine& place) {
         if (const std::optional<double> way = crossing(end, place); way && (!least || *way < *least)) least = way;

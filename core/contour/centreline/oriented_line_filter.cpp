@@ -11,6 +11,7 @@
 #include "core/base/avx2.h"
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 
@@ -167,9 +168,8 @@ class Tile {
   // Nothing counts as darker than `depth` [grey] below the paper, which most of a tile is.
   void limitDarkness(float depth) {
     std::vector<float> sorted = grey_;
-    const auto paper = sorted.begin() + static_cast<std::ptrdiff_t>(kPaperRank * static_cast<double>(sorted.size()));
-    std::nth_element(sorted.begin(), paper, sorted.end());
-    const float darkest = *paper - depth;
+    const auto paper = static_cast<std::ptrdiff_t>(kPaperRank * static_cast<double>(sorted.size()));
+    const float darkest = elementOfRank(sorted, paper) - depth;
     for (float& grey : grey_) grey = std::max(grey, darkest);
   }
 

@@ -15,7 +15,7 @@ namespace batten {
 struct SkeletonEdge {
   std::vector<StrokePathPoint> points;
   std::array<std::optional<int>, 2> node;  ///< At the start and the end; none on rings.
-  double length = 0.0;
+  double length = 0.0;                     ///< [px]
   bool alive = true;
   bool ring = false;  ///< A closed loop without a node.
 };
@@ -94,7 +94,7 @@ class SkeletonGraph {
 
   std::vector<SkeletonEdge> edges_;
   std::vector<SkeletonNode> nodes_;
-  double medianRadius_ = 0.5;
+  double medianRadius_ = 0.5;  ///< [px]
 };
 
 }  // namespace batten

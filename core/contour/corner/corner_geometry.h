@@ -47,9 +47,9 @@ inline constexpr double kFarthestTipPx = 60.0;
 /// @param grey if given, the pixels around the corner of an outline are fitted, too (corner_pixels.h).
 struct CornerFix {
   Vec2 position = Vec2::Zero();
-  double angleRad = 0.0;
-  double zonePx = 4.0;  ///< [px] nearer points are unreliable: rounded by blur, or shifted by the other side.
-  bool exact = false;   ///< False: the sides do not meet well; position is the contour point.
+  double angleRad = 0.0;  ///< By which the direction of travel turns.
+  double zonePx = 4.0;    ///< [px] nearer points are unreliable: rounded by blur, or shifted by the other side.
+  bool exact = false;     ///< False: the sides do not meet well; position is the contour point.
 };
 CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
                        const GreyImage* grey = nullptr);

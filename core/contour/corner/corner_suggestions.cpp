@@ -293,7 +293,7 @@ std::vector<CornerEvidence> evidenceAt(const Contour& contour, const std::vector
 // a border shows its own.
 void judgeAlike(const Contour& stroke, const std::vector<CornerEvidence>& evidence,
                 std::vector<CornerSuggestion>& all) {
-  constexpr int kFewestCertain = 3;
+  constexpr int kFewestCertain = 3;   // of a line: two may be alike by chance
   constexpr int kManyCertain = 5;     // among so many a place counts though its sides do not tell where they meet
   constexpr double kTipWidths = 0.6;  // from the line: the ink of a corner and what its filling takes
   constexpr double kLikely = 0.5, kLeastTurnShare = 0.6;  // of the certain ones' in the middle

@@ -107,7 +107,7 @@ struct EdgePiece {
   Extent extent;
   std::vector<double> depths;  ///< [px] How far it lies from the border, at equal steps along the side.
 };
-constexpr double kDepthStepPx = 8.0;
+constexpr double kDepthStepPx = 8.0;  // along a side: an edge of a sheet does not change faster
 
 EdgePiece edgePieceOf(int contour, int side, const Contour& line, const Page& page) {
   EdgePiece piece{contour, extentFrom(side, line, page), {}};

@@ -113,7 +113,7 @@ struct GroundCell {
 
 // The light on a ground: a plane below its bright side, where no ink is. [grey: at 0, by x, by y]
 std::array<double, 3> lightOn(const std::vector<GroundCell>& ground) {
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 3;      // of weights from the plane before: one settles most of it
   constexpr double kBelow = 0.1;  // weight of what is darker than the plane, which may be ink
   cv::Vec3d plane(0.0, 0.0, 0.0);
   for (int round = 0; round < kRounds; ++round) {

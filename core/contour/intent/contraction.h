@@ -10,7 +10,7 @@ namespace batten {
 /// That two nodes belong together (positive) or do not (negative).
 struct WeightedPair {
   int a = 0, b = 0;
-  double weight = 0.0;
+  double weight = 0.0;  ///< [-] Logarithm of odds.
 };
 
 /// Correlation clustering by greedy additive contraction (Keuper et al., ICCV 2015): joins the pair with the largest

@@ -29,7 +29,7 @@ struct ParallelStretch {
   double stepPx = 1.0;          ///< Between the places where it was measured.
   int firstStep = 0;            ///< Where it begins, in steps from the line's start; on a ring it may run past that.
   std::vector<double> apartPx;  ///< Between the middles, there.
-  double widestPx = 0.0;
+  double widestPx = 0.0;        ///< Of `apartPx`.
   double lengthPx() const { return stepPx * static_cast<double>(apartPx.size()); }
 };
 

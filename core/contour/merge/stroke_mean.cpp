@@ -21,7 +21,8 @@ constexpr double kLeastWeight = 0.02;   // at the very end of a stroke: alone it
 
 constexpr double kBesidePx = 0.8;      // along a line, whose points are about 1 px apart: so near lies on the normal
 constexpr double kFadingShare = 0.3;   // of the distance, in which the weight of a stroke falls to nothing
-constexpr double kEndDistances = 2.0;  // distances before the end of a stroke from which on its weight falls
+constexpr double kEndDistances = 2.0;  // distances before the end of a stroke from which on its weight falls …
+constexpr double kEndParts = 3.0;      // … or a stroke's length over this, so that the middle of a short one keeps it
 constexpr double kOwnWayDistances = 4.0, kOwnWayPoints = 10.0;  // along a line before it can lie beside itself
 constexpr int kMeanTangentReach = 3;                            // points to either side
 constexpr double kMeanSmoothing = 0.5;                          // of the distance: a mean changes over about as much
@@ -129,14 +130,14 @@ class MeanRound {
                        [&](const NearContact& k) { return k.other == other && index >= k.from && index <= k.to; });
   }
 
-  // 0 at an open end, 1 from two distances (or a third of the stroke) on.
+  // 0 at an open end, 1 from kEndDistances (or a third of the stroke) on.
   double endWeight(const MeanLine& line, int index) const {
     if (line.closed) return 1.0;
     const int n = line.count();
     int toEnd = n;
     if (!line.continues[0]) toEnd = std::min(toEnd, index);
     if (!line.continues[1]) toEnd = std::min(toEnd, n - 1 - index);
-    return smoothStep(toEnd / std::max(1.0, std::min(kEndDistances * distance_, n / 3.0)));
+    return smoothStep(toEnd / std::max(1.0, std::min(kEndDistances * distance_, n / kEndParts)));
   }
 
   const std::vector<MeanLine>& lines_;

@@ -37,7 +37,7 @@ Contrast contrastOf(const Contour& c, double pencilPx, const GreyImage& grey, co
 
 /// [grey] Of the outer borders of pencilled areas, in the middle, each as often as it is long. 0: there are none.
 double usualContrast(const ContourSet& set, const GreyImage& grey, const RunContext& context) {
-  constexpr std::size_t kPointsOfVote = 50;
+  constexpr std::size_t kPointsOfVote = 50;  // along a border, about 1 px apart
   std::vector<double> votes;
   for (const Contour& c : set.contours) {
     if (c.kind != ContourKind::Outline || c.hole || !c.pencilPx || context.isCancelled()) continue;

@@ -11,8 +11,8 @@ namespace batten {
 /// and the stretch between the extreme projections. Population covariance. @pre at least 2 points that differ.
 struct PcaLine {
   Vec2 centroid, direction, from, to;
-  double residualRms = 0.0;
-  double eigenvalueMajor = 0.0, eigenvalueMinor = 0.0;
+  double residualRms = 0.0;                             ///< [unit of the points] From the axis.
+  double eigenvalueMajor = 0.0, eigenvalueMinor = 0.0;  ///< [its square] Variances along the axis and across it.
 };
 
 PcaLine pcaLine(std::span<const Vec2> points);

@@ -35,7 +35,7 @@ class MeasuredPiece {
 struct FittedStation {
   Station station;
   LocalQuadratic fit;
-  double s = 0.0;
+  double s = 0.0;  ///< [px] Arc length from the start of the piece.
 };
 
 /// The station at arc length `s` among others `spacing` apart: from the local parabola over 1.5 spacings, one-sided at

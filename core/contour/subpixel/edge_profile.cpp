@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/contour/subpixel/cubic_weights.h"
 #include "core/contour/subpixel/profile_samples.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -23,13 +24,6 @@ constexpr int kSearchSamples = 4;            // to either side of the chain, 2 p
 constexpr double kFartherWorse = 0.15;       // [1/px] of the steepness: a nearer edge wins over a slightly steeper one
 constexpr double kFarthestCrossingPx = 1.5;  // of the half level from where the grey falls steepest
 constexpr int kDirectionReach = 3;           // points to either side
-
-void catmullRom(double f, double w[4]) {
-  w[0] = f * (-0.5 + f * (1.0 - 0.5 * f));
-  w[1] = 1.0 + f * f * (-2.5 + 1.5 * f);
-  w[2] = f * (0.5 + f * (2.0 - 1.5 * f));
-  w[3] = f * f * (-0.5 + 0.5 * f);
-}
 
 // Position of an extremum between samples by the parabola through three of them.
 double parabolicOffset(double left, double mid, double right) {
@@ -60,9 +54,9 @@ double sampleCubic(const GreyImage& grey, const Vec2& at) {
   const double x = at.x() - 0.5, y = at.y() - 0.5;
   const double fx = std::floor(x), fy = std::floor(y);
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-  double wx[4], wy[4];
-  catmullRom(x - fx, wx);
-  catmullRom(y - fy, wy);
+  const CubicWeights across = cubicWeights(x - fx), down = cubicWeights(y - fy);
+  const double wx[] = {across.before, across.here, across.next, across.after};
+  const double wy[] = {down.before, down.here, down.next, down.after};
   double sum = 0.0;
   if (ix >= 1 && iy >= 1 && ix + 2 < grey.width && iy + 2 < grey.height) {
     for (int j = 0; j < 4; ++j) {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/base/hot_loop.h"
+#include "core/contour/subpixel/cubic_weights.h"
 #include "core/contour/subpixel/edge_profile.h"
 
 namespace batten {
@@ -39,15 +40,6 @@ BATTEN_HOT_LOOP void placeProfile(const ProfileLine& line, SamplePlaces& places)
     places.right[k] = x - ix;
     places.down[k] = y - iy;
   }
-}
-
-// Catmull-Rom, as in sampleCubic().
-struct CubicWeights {
-  double before, here, next, after;
-};
-inline CubicWeights cubicWeights(double f) {
-  return {f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (-2.5 + 1.5 * f), f * (0.5 + f * (2.0 - 1.5 * f)),
-          f * f * (-0.5 + 0.5 * f)};
 }
 
 BATTEN_HOT_LOOP void blendCubic(const SamplePlaces& places, const PixelRows<kCubicTaps>& rows, float* __restrict out) {

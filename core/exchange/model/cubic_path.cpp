@@ -240,9 +240,10 @@ class Approximation {
       c[1] = rounded(c[1]);
       c[2] = rounded(c[2]);
       const bool isKept = curvatureError(c, exact) <= kMaxCurvatureError || isTooShortForGrid(c, exact) || !mayHalve;
-      const double measured = isKept ? error(c, from, to, mayHalve ? tolerance_ : kAnyDistance) : -1.0;
-      if ((measured >= 0.0 && measured <= tolerance_) || !mayHalve) {
-        take(c, exact[0], measured);
+      const std::optional<double> measured =
+          isKept ? std::optional(error(c, from, to, mayHalve ? tolerance_ : kAnyDistance)) : std::nullopt;
+      if (measured && (*measured <= tolerance_ || !mayHalve)) {
+        take(c, exact[0], *measured);
         return;
       }
     }

@@ -17,7 +17,8 @@ LocalRow curvatureSlopeRow(const Jet& jet, const SpanRow& basis, int degree);
 
 /// Signed curvature of a jet and its first and second derivatives with respect to arc length. @pre |R'| > 0.
 struct CurvatureJet {
-  double kappa = 0.0, slope = 0.0, bend = 0.0, speed = 0.0;
+  double kappa = 0.0, slope = 0.0, bend = 0.0;  ///< [1/mm, 1/mm^2, 1/mm^3]
+  double speed = 0.0;                           ///< [mm] |R'|, per unit of the parameter.
 };
 CurvatureJet curvatureJet(const Jet& jet);
 

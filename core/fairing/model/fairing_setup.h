@@ -36,7 +36,7 @@ struct FairingSetup {
   Unknowns unknowns;
   EndHold startHold, endHold;
   bool isPart = false;  ///< Only a span of the curve moves.
-  double extent = 0.0;
+  double extent = 0.0;  ///< [mm] Of the curve.
   /// Signed distance of the line's own points from the sketched curve, at its samples (in the mean of those nearby);
   /// empty when the line is not known: the sketched curve then stands for it.
   std::vector<double> offsets;

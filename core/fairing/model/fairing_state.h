@@ -18,7 +18,7 @@ inline constexpr double kCuspShare = 1e-6;
 struct FairingObjective {
   /// Not empty: residuals (kappa_i - (L0/L) wanted_i) / reference / sqrt(M). Empty: d kappa/ds sqrt(L/M) / reference.
   std::vector<double> wanted;
-  double reference = 1.0;
+  double reference = 1.0;  ///< [1/mm; mm^-3/2 where `wanted` is empty] Makes residuals plain numbers.
 };
 /// What keeps the curve near the sketch, a function of the signed distance e of each sample.
 struct FairingCorridor {

@@ -12,12 +12,12 @@ struct FairingRun {
   FairingState state;
   Termination why = Termination::IterationLimit;
   int iterations = 0;
-  double damping = 1e-3;
+  double damping = 1e-3;  ///< As FairingLimits::damping: for a later run from here.
 };
 struct FairingLimits {
   int iterations = 40;
-  double relativeDecrease = 1e-4;
-  double damping = 1e-3;  ///< [stiffness of the longest wave] to begin with.
+  double relativeDecrease = 1e-4;  ///< [-] LevenbergOptions::smallDecrease.
+  double damping = 1e-3;           ///< [stiffness of the longest wave] to begin with.
 };
 /// Levenberg-Marquardt from a state.
 FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,

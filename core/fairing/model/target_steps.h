@@ -27,7 +27,7 @@ struct TargetStep {
   double weight = 0.0;  ///< [1/mm] Of the distance from the sketch.
   std::vector<Vec2> points;
   std::vector<SpanPlace> feet;
-  double damping = 1e-3;
+  double damping = 1e-3;     ///< As FairingLimits::damping.
   double misfit = 0.0;       ///< Of the profile, squared.
   double deviationMm = 0.0;  ///< From the sketch, both ways.
   int extrema = 0;           ///< Of the usual prominence.

@@ -13,7 +13,7 @@ struct ProfileData {
   // By sample. Not one struct a sample: fits and similarities are of whole vectors.
   std::vector<double> perimeter, kappa, radius;
   std::vector<double> values;  ///< Of the quantity that is fitted.
-  double largestRadius = 0.0;
+  double largestRadius = 0.0;  ///< [mm]
   bool bendsBothWays = false;  ///< Somewhere the radius has no end.
   std::string problem;         ///< Why no profile can be fitted; empty: it can.
 };

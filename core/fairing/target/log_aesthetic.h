@@ -17,7 +17,7 @@ namespace batten {
 /// and its self-affinity, CAD & A 3 (2006).
 struct LogAesthetic {
   double startKappa = 0.0, endKappa = 0.0;  ///< [1/mm] Of one sign unless alpha is -1.
-  double alpha = -1.0;
+  double alpha = -1.0;                      ///< [-]
 
   /// Curvature at x in 0..1 of its length, and its slope with respect to x.
   double kappa(double x) const;

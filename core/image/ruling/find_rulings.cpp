@@ -280,12 +280,12 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
     return count;
   };
   int first = lattice.first, last = lattice.last;
-  const auto goesOn = [&](int k, int beyond) {
+  const auto continues = [&](int k, int beyond) {
     const int places = first < last ? placesOnPage(k) : 0;  // a margin has no neighbours
     return places > 0 && (beyond <= kHidden || 2 * places <= kPlacesAcross);
   };
-  while (goesOn(first - 1, lattice.first - first + 1)) --first;
-  while (goesOn(last + 1, last + 1 - lattice.last)) ++last;
+  while (continues(first - 1, lattice.first - first + 1)) --first;
+  while (continues(last + 1, last + 1 - lattice.last)) ++last;
   const double from = static_cast<double>(found.fromX) * shrink,
                length = static_cast<double>(found.toX) * shrink - from;
   const int stations = static_cast<int>(std::ceil(length / kStationPx)) + 1;

@@ -12,7 +12,7 @@ namespace batten {
 
 /// Equally spaced lines across a plane: line k runs along y = at(k, x). Slightly turned, bent and in perspective.
 struct RulingLattice {
-  double slope = 0.0;
+  double slope = 0.0;                   ///< [-] dy/dx that most of its lines share.
   double fromX = 0.0, halfWidth = 1.0;  ///< [grid] It runs from there on, twice as far; x is divided by it.
   double middle = 0.0, reach = 1.0;     ///< k is centred and divided by these.
   static constexpr int kTerms = 18;

@@ -18,8 +18,8 @@ inline constexpr double kLeastFoldStep = 4.0;  ///< [grey]
 /// Grey along normals of a course: rows of 2 * half + 1 values, one row every `stepPx`.
 struct FoldStrip {
   int half = 0, rows = 0;
-  double stepPx = 2.0;
-  std::vector<float> grey;
+  double stepPx = 2.0;      ///< Between rows.
+  std::vector<float> grey;  ///< [grey] Row by row.
   const float* row(int i) const { return grey.data() + std::ptrdiff_t{i} * (2 * half + 1); }
   /// Mean over d in [from, to] of row i.
   double mean(int i, int from, int to) const {

@@ -97,6 +97,35 @@ ContentHash preparedKey(const ContentHash& scan, const PreparationParams& params
   return h.finish();
 }
 
+/// What of the recipe the contours are made of but for its parameters; the pen strokes come on top, see stageKeys.
+void addContourChoices(HashBuilder& h, const Recipe& r) {
+  addCount(h, r.regions);
+  for (const RegionOfInterest& region : r.regions) {
+    addCount(h, region.cornersPx);
+    for (const Vec2& p : region.cornersPx) add(h, p);
+  }
+  addCount(h, r.edges.choices);
+  for (const EdgeChoice& choice : r.edges.choices) {
+    add(h, choice.positionPx);
+    h.integer(static_cast<int>(choice.mode));
+  }
+  addCount(h, r.edges.painted);
+  for (const PaintedInk& painted : r.edges.painted) {
+    addCount(h, painted.coursePx);
+    for (const Vec2& p : painted.coursePx) add(h, p);
+    h.number(painted.radiusPx).integer(static_cast<int>(painted.mode));
+  }
+  addCount(h, r.edges.junctions);
+  for (const JunctionChoice& choice : r.edges.junctions) {
+    add(h, choice.positionPx);
+    addCount(h, choice.pairs);
+    for (const BranchPair& pair : choice.pairs) {
+      add(h, pair.firstPx);
+      add(h, pair.secondPx);
+    }
+  }
+}
+
 /// Adds to the digest what of the recipe a stage reads itself: its parameters, so that none can be forgotten, and the
 /// choices that no table lists.
 void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& frame) {
@@ -111,32 +140,8 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
     case StageId::Segments:
       break;
     case StageId::Contours:
-      addCount(h, r.regions);
-      for (const RegionOfInterest& region : r.regions) {
-        addCount(h, region.cornersPx);
-        for (const Vec2& p : region.cornersPx) add(h, p);
-      }
-      addCount(h, r.edges.choices);
-      for (const EdgeChoice& choice : r.edges.choices) {
-        add(h, choice.positionPx);
-        h.integer(static_cast<int>(choice.mode));
-      }
-      addCount(h, r.edges.painted);
-      for (const PaintedInk& painted : r.edges.painted) {
-        addCount(h, painted.coursePx);
-        for (const Vec2& p : painted.coursePx) add(h, p);
-        h.number(painted.radiusPx).integer(static_cast<int>(painted.mode));
-      }
-      addCount(h, r.edges.junctions);
-      for (const JunctionChoice& choice : r.edges.junctions) {
-        add(h, choice.positionPx);
-        addCount(h, choice.pairs);
-        for (const BranchPair& pair : choice.pairs) {
-          add(h, pair.firstPx);
-          add(h, pair.secondPx);
-        }
-      }
-      break;  // the pen strokes come on top, see stageKeys
+      addContourChoices(h, r);
+      break;
     case StageId::Pieces:
       addCount(h, r.cornerMarks);
       for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);

@@ -33,10 +33,10 @@ ConstructPiece pieceThrough(const std::vector<Vec2>& points, bool closed,
 }
 
 Result<std::vector<ConstructedPiece>> constructed(const ConstructPiece& piece, ConstructMethod method,
-                                                  double closeness) {
+                                                  double maxDeviation) {
   ConstructParams params;
   params.method = method;
-  params.maxDeviationPx = closeness;
+  params.maxDeviationPx = maxDeviation;
   ConstructContour contour;
   contour.pieces = {piece};
   return construct(contour, params, {});
@@ -54,10 +54,10 @@ TEST(StayWithin, KeepsAFreeEndThatTurns) {
       if (backwards) std::reverse(points.begin(), points.end());
       const auto piece = pieceThrough(points, false);
       for (const auto method : kMethods) {
-        for (const double closeness : {0.5, 2.0}) {
-          const NurbsCurve curve = constructed(piece, method, closeness).value()[0].curve;
-          EXPECT_LT((curve.point(curve.start()) - points.front()).norm(), 1.5 * closeness) << radius;
-          EXPECT_LT((curve.point(curve.end()) - points.back()).norm(), 1.5 * closeness) << radius;
+        for (const double maxDeviation : {0.5, 2.0}) {
+          const NurbsCurve curve = constructed(piece, method, maxDeviation).value()[0].curve;
+          EXPECT_LT((curve.point(curve.start()) - points.front()).norm(), 1.5 * maxDeviation) << radius;
+          EXPECT_LT((curve.point(curve.end()) - points.back()).norm(), 1.5 * maxDeviation) << radius;
         }
       }
     }
@@ -165,9 +165,9 @@ TEST(StayWithin, NoiseAddsNothing) {
   std::vector<Vec2> points;
   for (int i = 0; i <= 1600; ++i) points.emplace_back(i, 150.0 * std::sin(i / 400.0) + noise(random));
   const auto piece = pieceThrough(points, false);
-  for (const double closeness : {0.1, 0.2, 0.3}) {
+  for (const double maxDeviation : {0.1, 0.2, 0.3}) {
     for (const auto method : kMethods) {
-      EXPECT_LE(constructed(piece, method, closeness).value()[0].report.stationsAdded, 8) << closeness;
+      EXPECT_LE(constructed(piece, method, maxDeviation).value()[0].report.stationsAdded, 8) << maxDeviation;
     }
   }
 }

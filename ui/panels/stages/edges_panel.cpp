@@ -20,6 +20,17 @@
 #include "ui/session/edits/region_edits.h"
 
 namespace batten {
+namespace {
+
+qint64 unlocatedCount(const ContourSet& set) {
+  qint64 count = 0;
+  for (const Contour& contour : set.contours)
+    count +=
+        std::count_if(contour.points.begin(), contour.points.end(), [](const ContourPoint& p) { return !p.refined; });
+  return count;
+}
+
+}  // namespace
 
 EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
@@ -187,12 +198,8 @@ void EdgesPanel::refresh() {
                     {{grouped(report.droppedGrain)}},
                     tr("Short lines no darker than the grain of the shading around them.")});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines dropped"), {{grouped(report.droppedHoles)}}, {}});
-  qint64 fallback = 0;
-  for (const Contour& contour : set->contours)
-    fallback +=
-        std::count_if(contour.points.begin(), contour.points.end(), [](const ContourPoint& p) { return !p.refined; });
   rows.push_back({tr("Points not located"),
-                  {{grouped(fallback)}},
+                  {{grouped(unlocatedCount(*set))}},
                   tr("Points without a clear edge in the grey values, shown as amber dots. There an outline "
                      "follows the pixel borders and a centre line the skeleton of the ink, mostly where "
                      "strokes meet.")});

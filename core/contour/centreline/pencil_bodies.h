@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/stroke_paths.h"
+#include "core/image/bits/bit_image.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
+/// paper, beside pens too: there a threshold closes it as well.
+/// @param pixelsPerPx 1, or more on an enlarged page. @return the strokes as they were when cancelled.
+BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
+                      const GraininessMap& grain, int pixelsPerPx, const RunContext& context);
+
+}  // namespace batten
