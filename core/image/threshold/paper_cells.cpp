@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -124,12 +125,24 @@ std::vector<float> integrateSteps(const Cells& cells, const std::vector<float>& 
 }
 
 /// Per region, the half level at its edges: mean of grey less paper over the crests, weighted by their strength.
-std::vector<float> halfLevels(const Plane& grey, const PageEdges& edges, const PaperBackground& paper, int shrink) {
+struct HalfLevels {
+  std::vector<float> ofRegion;
+  bool areMixed = false;  ///< Ink and highlights: see SignedDepths.
+};
+HalfLevels halfLevels(const Plane& grey, const PageEdges& edges, const PaperBackground& paper, int shrink) {
+  const auto depthAt = [&](const EdgePoint& p) {
+    return static_cast<double>(grey.row(p.y)[p.x]) - paper.at((p.x + 0.5) * shrink, (p.y + 0.5) * shrink);
+  };
+  SignedDepths depths;
+  for (const EdgePoint& p : edges.crests) depths.add(static_cast<double>(p.strength), depthAt(p));
+  HalfLevels found;
+  found.areMixed = depths.areMixed();
   std::array<double, kRegions> sum{}, weight{};
   std::array<int, kRegions> votes{};
   for (const EdgePoint& p : edges.crests) {
     const int r = regionOf(p.x, p.y, grey.width, grey.height);
-    const double depth = static_cast<double>(grey.row(p.y)[p.x]) - paper.at((p.x + 0.5) * shrink, (p.y + 0.5) * shrink);
+    const double depth = depthAt(p);
+    if (found.areMixed && depth > 0.0) continue;
     sum[r] += static_cast<double>(p.strength) * depth;
     weight[r] += static_cast<double>(p.strength);
     ++votes[r];
@@ -140,7 +153,65 @@ std::vector<float> halfLevels(const Plane& grey, const PageEdges& edges, const P
     value[r] = static_cast<float>(sum[r] / weight[r]);
     confidence[r] = static_cast<float>(votes[r]) / (static_cast<float>(votes[r]) + kVotesOfConfidence);
   }
-  return pushPull(value, confidence, kRegionsPerSide, kRegionsPerSide);
+  found.ofRegion = pushPull(value, confidence, kRegionsPerSide, kRegionsPerSide);
+  return found;
+}
+
+std::vector<float> levelsOf(const RegionSurface& surface, const Cells& cells) {
+  std::vector<float> levels(cells.mean.size());
+  for (int y = 0; y < cells.rows; ++y) surface.fillRow(y, levels.data() + cells.at(0, y));
+  return levels;
+}
+
+/// Free cells that are brighter than the paper by more than ink is darker: white chalk on toned paper, paint. None
+/// where there are so many that they may be the paper themselves.
+std::vector<std::uint8_t> findHighlights(const Cells& cells, const PaperBackground& paper,
+                                         const std::vector<float>& halfLevels) {
+  constexpr double kMostHighlights = 0.15;  // of the free cells
+  constexpr float kBrighterHalves = 2.0f;   // of the half level: the whole contrast
+  std::vector<std::uint8_t> isHighlight(cells.mean.size(), 0);
+  for (std::size_t i = 0; i < isHighlight.size(); ++i) {
+    const bool isBrighter = cells.mean[i] - paper.grey[i] >= -kBrighterHalves * halfLevels[i];
+    isHighlight[i] = cells.isFree[i] != 0 && isBrighter ? 1 : 0;
+  }
+  const auto countOf = [](const std::vector<std::uint8_t>& cell) {
+    return static_cast<double>(std::count(cell.begin(), cell.end(), std::uint8_t{1}));
+  };
+  if (countOf(isHighlight) > kMostHighlights * countOf(cells.isFree)) isHighlight.assign(cells.mean.size(), 0);
+  return isHighlight;
+}
+
+/// Brings the paper to the cells that turn out to be paper. Absent highlights are looked for.
+void correctPaper(const Plane& grey, const PageEdges& edges, int shrink, const Cells& cells,
+                  std::optional<std::vector<std::uint8_t>>& isHighlight, PaperEstimate& estimate) {
+  PaperBackground& paper = estimate.paper;
+  const auto [half, areMixed] = halfLevels(grey, edges, paper, shrink);
+  RegionValues values{};
+  std::copy(half.begin(), half.end(), values.begin());
+  const bool noEdges = std::all_of(half.begin(), half.end(), [](float v) { return v == 0.0f; });
+  const std::vector<float> limits = levelsOf(RegionSurface(values, cells.columns, cells.rows, true), cells);
+  const std::size_t count = cells.mean.size();
+  if (!isHighlight) isHighlight = areMixed ? findHighlights(cells, paper, limits) : std::vector<std::uint8_t>(count, 0);
+  std::vector<float> offset(count), weight(count);
+  std::vector<std::size_t> darker;  // free cells
+  for (std::size_t i = 0; i < count; ++i) {
+    offset[i] = cells.mean[i] - paper.grey[i];
+    const bool isFree = cells.isFree[i] != 0 && (*isHighlight)[i] == 0, isBright = noEdges || offset[i] > limits[i];
+    if (isFree && !isBright) darker.push_back(i);
+    estimate.isPaper[i] = isFree && isBright ? 1 : 0;
+    weight[i] = isFree && isBright ? 1.0f : 0.0f;
+  }
+  // Where highlights led the sum of the slopes astray: what is as bright as the paper around it is paper.
+  if (areMixed && !darker.empty()) {
+    const std::vector<float> around = pushPull(cells.mean, weight, cells.columns, cells.rows);
+    for (const std::size_t i : darker) {
+      if (cells.mean[i] - around[i] <= limits[i]) continue;
+      estimate.isPaper[i] = 1;
+      weight[i] = 1.0f;
+    }
+  }
+  const std::vector<float> correction = pushPull(offset, weight, cells.columns, cells.rows);
+  for (std::size_t i = 0; i < count; ++i) paper.grey[i] += correction[i];
 }
 
 }  // namespace
@@ -171,27 +242,9 @@ PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrin
   }
   for (float& value : paper.grey) value += height;
 
-  std::vector<float> offset(cells.mean.size()), weight(cells.mean.size());
-  std::vector<float> limits(cells.columns);
-  for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
-    const std::vector<float> half = halfLevels(grey, edges, paper, shrink);
-    RegionValues values{};
-    std::copy(half.begin(), half.end(), values.begin());
-    const bool noEdges = std::all_of(half.begin(), half.end(), [](float v) { return v == 0.0f; });
-    const RegionSurface surface(values, cells.columns, cells.rows, true);
-    for (int y = 0; y < cells.rows; ++y) {
-      surface.fillRow(y, limits.data());
-      for (int x = 0; x < cells.columns; ++x) {
-        const std::size_t i = cells.at(x, y);
-        offset[i] = cells.mean[i] - paper.grey[i];
-        const bool bright = noEdges || offset[i] > limits[x];
-        estimate.isPaper[i] = cells.isFree[i] != 0 && bright ? 1 : 0;
-        weight[i] = estimate.isPaper[i] != 0 ? 1.0f : 0.0f;
-      }
-    }
-    const std::vector<float> correction = pushPull(offset, weight, cells.columns, cells.rows);
-    for (std::size_t i = 0; i < correction.size(); ++i) paper.grey[i] += correction[i];
-  }
+  std::optional<std::vector<std::uint8_t>> isHighlight;
+  for (int round = 0; round < kRounds && !context.isCancelled(); ++round)
+    correctPaper(grey, edges, shrink, cells, isHighlight, estimate);
   return estimate;
 }
 

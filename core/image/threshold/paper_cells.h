@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +16,17 @@ namespace batten {
 /// Edge pixels that an estimate needs at least, and those that make it half certain.
 inline constexpr int kMinVotes = 15;
 inline constexpr float kVotesOfConfidence = 60.0f;  // make it half certain
+
+/// Depths at the crests of edges, by their signs.
+struct SignedDepths {
+  double darker = 0.0, brighter = 0.0;  ///< Sums, weighted by the strength of the crests; neither is negative.
+  void add(double strength, double depth) { (depth > 0.0 ? brighter : darker) += strength * std::fabs(depth); }
+  /// Ink and highlights, as white chalk on toned paper: the edges of the highlights tell nothing of the ink.
+  bool areMixed() const {
+    constexpr double kLeastOfBoth = 0.2;  // of the greater; on white paper the lesser is noise
+    return std::min(darker, brighter) > kLeastOfBoth * std::max(darker, brighter);
+  }
+};
 
 struct PaperEstimate {
   PaperBackground paper;

@@ -81,6 +81,8 @@ struct Depths {
   std::vector<float> atCrests;  ///< Smoothed grey less paper at every crest.
   double noise = 0.0;           ///< Of the smoothed paper.
   double mean = 0.0;            ///< Over the crests, weighted by their strength.
+  bool onlyDarker = false;      ///< Crests brighter than the paper are those of highlights and do not count.
+  bool counts(std::size_t crest) const { return !onlyDarker || atCrests[crest] <= 0.0f; }
 };
 
 Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstimate& estimate, int shrink,
@@ -98,8 +100,13 @@ Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstim
   };
   measure(static_cast<int>(edges.crests.size()), depths.atCrests,
           [&](int i) { return std::pair(edges.crests[i].x, edges.crests[i].y); });
+  SignedDepths bySign;
+  for (std::size_t i = 0; i < edges.crests.size(); ++i)
+    bySign.add(static_cast<double>(edges.crests[i].strength), static_cast<double>(depths.atCrests[i]));
+  depths.onlyDarker = bySign.areMixed();
   double sum = 0.0, weight = 0.0;
   for (std::size_t i = 0; i < edges.crests.size(); ++i) {
+    if (!depths.counts(i)) continue;
     sum += static_cast<double>(edges.crests[i].strength * depths.atCrests[i]);
     weight += static_cast<double>(edges.crests[i].strength);
   }
@@ -132,6 +139,7 @@ Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& d
   std::array<double, kRegions> sum{}, weight{};
   std::array<int, kRegions> votes{};
   for (std::size_t i = 0; i < edges.crests.size(); ++i) {
+    if (!depths.counts(i)) continue;
     const EdgePoint& p = edges.crests[i];
     const int r = regionOf(p.x, p.y, grey.width, grey.height);
     sum[r] += static_cast<double>(p.strength * depths.atCrests[i]);

@@ -9,6 +9,7 @@
 #include "core/image/push_pull.h"
 #include "core/image/threshold/region_values.h"
 #include "tests/support/hatching_page.h"
+#include "tests/support/stress_page.h"
 
 namespace batten {
 namespace {
@@ -87,6 +88,41 @@ TEST(Thresholds, PaperFollowsTheGradation) {
       EXPECT_NEAR(found->paper.at(x + 0.5, y + 0.5), 80.0 + 120.0 * (1.0 - u * u) * (0.4 + 0.6 * v), 4.0);
     }
   }
+}
+
+// Toned paper with lines of a pencil and white chalk, which is brighter than the paper by more than the lines are
+// darker: the chalk is no paper, and the paper around it no ink.
+TEST(Thresholds, ChalkOnTonedPaperIsNoPaper) {
+  constexpr int kTonedWidth = 640, kTonedHeight = 480;
+  const auto distance = [](double x, double y) {
+    const double bulb = std::fabs(std::hypot(x - 420.0, y - 200.0) - 110.0);
+    return std::min(bulb, std::fabs(std::hypot(x - 150.0, y - 260.0) - 90.0)) - 2.0;
+  };
+  const auto isChalk = [](double x, double y) { return std::hypot(x - 420.0, y - 200.0) < 104.0; };
+  const auto paper = [&](double x, double y) {
+    const double strokes = std::sin(0.21 * x + 0.4 * std::sin(0.13 * y)) + std::sin(0.17 * y - 0.1 * x);
+    const double chalk = isChalk(x, y) ? 55.0 * std::clamp(0.6 + 0.8 * strokes, 0.0, 1.0) : 0.0;
+    return 145.0 - 0.03 * x - 0.02 * y + chalk;
+  };
+  std::vector<float> coverage;
+  for (int y = 0; y < kTonedHeight; ++y)
+    for (int x = 0; x < kTonedWidth; ++x)
+      coverage.push_back(static_cast<float>(std::clamp(0.5 - distance(x + 0.5, y + 0.5), 0.0, 1.0)));
+  const Scan scan = test::renderStress(coverage, kTonedWidth, kTonedHeight, paper, {35.0, 2.0, 0.8}, 5);
+  const auto thresholds = findThresholds(scan.grey, {}, {}, {});
+  ASSERT_TRUE(thresholds && thresholds->foundLine);
+  const BitImage ink = *binarize(scan.grey, *thresholds, {}, {});
+  int seen = 0, drawn = 0, astray = 0;
+  for (int y = 0; y < kTonedHeight; ++y) {
+    for (int x = 0; x < kTonedWidth; ++x) {
+      const double d = distance(x + 0.5, y + 0.5);
+      if (d < -1.0) ++drawn;
+      if (d < -1.0 && ink.at(x, y)) ++seen;
+      if (d > 2.0 && !isChalk(x + 0.5, y + 0.5) && ink.at(x, y)) ++astray;
+    }
+  }
+  EXPECT_GT(seen, 0.95 * drawn);
+  EXPECT_LE(astray, 12);
 }
 
 TEST(Thresholds, FlatPagesHoldNothing) {
