@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/label/label_vote.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +21,11 @@ constexpr double kLetterHeight = 5.0;
 constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexplained in an alphabet
 constexpr double kHairWidths = 0.5;         // of the pen of a piece: thinner paths are hairs
 constexpr double kLeastBroadPx = 4.5;  // of the page: below it the grid of pixels is as large as the contrast of a nib
-constexpr int kLeastVoters = 5;        // pieces: fewer are no lettering
+// The widths of a narrow pen also vary by its raster, the paper and the photograph, those of a nib by direction: by .6
+// to .9 of their variance on rendered alphabets, .2 at most in handwriting with felt pens and pencils.
+constexpr double kNarrowPens = 3.0;  // [least broad pens]
+constexpr double kLeastByDirection = 0.4;
+constexpr int kLeastVoters = 5;  // pieces: fewer are no lettering
 // Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
 // them.
 constexpr double kOneLineShare = 0.75;
@@ -27,12 +33,47 @@ constexpr double kOneLineShare = 0.75;
 // Of the area of the letters: from here to a half, neither strokes nor shapes have it, and every piece keeps its label.
 constexpr double kFewShapes = 0.4;
 
+// Widths along strokes against their directions: those of a nib or a brush go with the direction, as a + b cos 2t +
+// c sin 2t, and what a felt pen or the grain varies by does not.
+class WidthByDirection {
+ public:
+  void add(const Vec2& tangent, double widthPx) {
+    const double c = tangent.x() * tangent.x() - tangent.y() * tangent.y(), s = 2.0 * tangent.x() * tangent.y();
+    const Eigen::Vector3d row(1.0, c, s);
+    normal_ += row * row.transpose();
+    right_ += widthPx * row;
+    squares_ += widthPx * widthPx;
+  }
+  void add(const WidthByDirection& other) {
+    normal_ += other.normal_;
+    right_ += other.right_;
+    squares_ += other.squares_;
+  }
+  // 0..1: of the variance of the widths what their direction explains.
+  double explained() const {
+    const double count = normal_(0, 0);
+    if (!(count > 0.0)) return 0.0;
+    const double all = squares_ - right_[0] * right_[0] / count;
+    Eigen::Matrix3d normal = normal_;
+    normal.diagonal() += Eigen::Vector3d::Constant(kPrior * count);
+    const double left = squares_ - right_.dot(normal.ldlt().solve(right_));
+    return all > 0.0 ? std::clamp(1.0 - left / all, 0.0, 1.0) : 0.0;
+  }
+
+ private:
+  static constexpr double kPrior = 1e-9;  // of lines of one direction alone
+  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+  double squares_ = 0.0;
+};
+
 // What the vote looks at in one piece.
 struct Voter {
   std::size_t piece = 0;
   int widthBin = 0, sizeBin = 0, meanBin = 0;  // half octaves: of the largest disc, of the piece, of the mean width
   double area = 0.0, uneven = 0.0, penPx = 0.0, widthsLong = 0.0;
   bool isMostlyShape = false, isOneLine = false;
+  WidthByDirection widths;
 };
 
 // Area that one width, the pen's, leaves unexplained in the whole piece, of all.
@@ -48,6 +89,21 @@ double unevennessOf(const LabelledPiece& piece, const InkGraph& graph) {
     }
   }
   return all > 0.0 ? off / all : 0.0;
+}
+
+WidthByDirection widthsOf(const LabelledPiece& piece, const InkGraph& graph) {
+  constexpr int kTangentPx = 4;  // along the chain, to either side
+  WidthByDirection widths;
+  for (const int path : piece.paths) {
+    for (const int chain : graph.paths()[path].chains) {
+      const std::vector<InkPixel>& pixels = graph.chains()[chain].pixels;
+      for (int i = kTangentPx; i + kTangentPx < std::ssize(pixels); ++i) {
+        const Vec2 along = pixels[i + kTangentPx].centre() - pixels[i - kTangentPx].centre();
+        if (!pixels[i].inJunction && along.norm() > 0.0) widths.add(along.normalized(), pixels[i].widthPx());
+      }
+    }
+  }
+  return widths;
 }
 
 std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, double pageDiagonalPx) {
@@ -73,6 +129,7 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
   v.isOneLine = lines == 1;
   v.meanBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, v.area / std::max(1.0, pathsPx)))));
   // Of joined letters, what one letter has.
+  v.widths = widthsOf(piece, graph);
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
   return v;
 }
@@ -81,12 +138,14 @@ struct Tally {
   int voters = 0, oneLine = 0;
   double area = 0.0, pen = 0.0, shape = 0.0;
   std::vector<std::pair<double, double>> uneven;  // and the area
+  WidthByDirection widths;
   void add(const Voter& v) {
     ++voters;
     oneLine += v.isOneLine ? 1 : 0;
     area += v.area;
     uneven.emplace_back(v.uneven, v.area);
     pen += v.area * v.penPx;
+    widths.add(v.widths);
     shape += v.isMostlyShape ? v.area : 0.0;
   }
   void add(const Tally& t) {
@@ -95,6 +154,7 @@ struct Tally {
     area += t.area;
     uneven.insert(uneven.end(), t.uneven.begin(), t.uneven.end());
     pen += t.pen;
+    widths.add(t.widths);
     shape += t.shape;
   }
 };
@@ -104,8 +164,9 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t, double leastB
   // A pixel of every width counts as even (unevennessOf).
   const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
   const bool mayBeLetters = t.oneLine < kOneLineShare * t.voters;
-  if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && t.pen >= leastBroadPx * t.area)
-    return InkLabel::Shape;
+  const bool mayBeBroad = t.pen >= leastBroadPx * t.area &&
+                          (t.pen >= kNarrowPens * leastBroadPx * t.area || t.widths.explained() >= kLeastByDirection);
+  if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && mayBeBroad) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   if (t.shape < kFewShapes * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
   return {};

@@ -168,6 +168,26 @@ TEST(InkLabels, AnAlphabetGetsOneTreatment) {
   }
 }
 
+// A marker of 7 px whose line swells and thins out as it runs, whatever its direction: handwriting, and no nib.
+TEST(InkLabels, UnevenHandwritingIsStrokes) {
+  test::LabelPage page(900, 500);
+  page.begin(false);
+  for (int i = 0; i < 27; ++i) {
+    const double x = 50.0 + 95.0 * (i % 9), y = 40.0 + 150.0 * (i / 9);
+    const std::vector<Vec2> letter = {{x, y}, {x + 12, y + 60}, {x + 40, y + 60}, {x + 46, y + 25}, {x + 14, y + 24}};
+    page.line(segment({x + 26, y + 60}, {x + 30, y + 90}), 7.0);
+    int swing = i;
+    for (std::size_t k = 1; k < letter.size(); ++k) {
+      for (double from = 0.0; from < 1.0; from += 0.5) {
+        const auto at = [&](double f) { return Vec2(letter[k - 1] + f * (letter[k] - letter[k - 1])); };
+        const bool isSwelling = ++swing % 2 == 0;
+        page.line(segment(at(from), at(from + 0.5)), isSwelling ? 4.5 : 10.5, isSwelling ? 10.5 : 4.5);
+      }
+    }
+  }
+  EXPECT_LT(shareOfShapes(labelsOf(page.ink(4))), 0.01);
+}
+
 // Letters of a felt pen above words of a fine pen, of about their size; where lines of a word meet, a disc fits in that
 // is nearly as large as in the letters.
 TEST(InkLabels, WordsOfAFinePenAreNotLettersOfAFeltPen) {
