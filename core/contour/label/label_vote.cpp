@@ -22,10 +22,12 @@ constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexpl
 constexpr double kHairWidths = 0.5;         // of the pen of a piece: thinner paths are hairs
 constexpr double kLeastBroadPx = 4.5;  // of the page: below it the grid of pixels is as large as the contrast of a nib
 // The widths of a narrow pen also vary by its raster, the paper and the photograph, those of a nib by direction: by .6
-// to .9 of their variance on rendered alphabets, .2 at most in handwriting with felt pens and pencils.
+// to .9 of their variance on rendered alphabets, .2 at most in handwriting with felt pens and pencils. Letters that are
+// hardly larger than the pen is wide are blots, and are read by their outline.
 constexpr double kNarrowPens = 3.0;  // [least broad pens]
 constexpr double kLeastByDirection = 0.4;
-constexpr int kLeastVoters = 5;  // pieces: fewer are no lettering
+constexpr double kSlenderWidths = 8.0;  // [pen widths] of the size of letters
+constexpr int kLeastVoters = 5;         // pieces: fewer are no lettering
 // Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
 // them.
 constexpr double kOneLineShare = 0.75;
@@ -71,7 +73,7 @@ class WidthByDirection {
 struct Voter {
   std::size_t piece = 0;
   int widthBin = 0, sizeBin = 0, meanBin = 0;  // half octaves: of the largest disc, of the piece, of the mean width
-  double area = 0.0, uneven = 0.0, penPx = 0.0, widthsLong = 0.0;
+  double area = 0.0, uneven = 0.0, penPx = 0.0, sizePx = 0.0, widthsLong = 0.0;
   bool isMostlyShape = false, isOneLine = false;
   WidthByDirection widths;
 };
@@ -116,6 +118,7 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
   v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
   v.area = static_cast<double>(piece.areaPx);
   v.penPx = piece.mainPenPx;
+  v.sizePx = size;
   double pathsPx = 0.0;
   int lines = 0;
   for (const int number : piece.paths) {
@@ -164,8 +167,9 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t, double leastB
   // A pixel of every width counts as even (unevennessOf).
   const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
   const bool mayBeLetters = t.oneLine < kOneLineShare * t.voters;
-  const bool mayBeBroad = t.pen >= leastBroadPx * t.area &&
-                          (t.pen >= kNarrowPens * leastBroadPx * t.area || t.widths.explained() >= kLeastByDirection);
+  const bool isHandwriting = t.pen < kNarrowPens * leastBroadPx * t.area &&
+                             voter.sizePx > kSlenderWidths * voter.penPx && t.widths.explained() < kLeastByDirection;
+  const bool mayBeBroad = t.pen >= leastBroadPx * t.area && !isHandwriting;
   if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && mayBeBroad) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   if (t.shape < kFewShapes * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
