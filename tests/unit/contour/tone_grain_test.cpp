@@ -114,7 +114,8 @@ struct FaintLine {
   double depth;  // [grey]
 };
 
-std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise, double paper = 150.0) {
+std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise, double paper = 150.0,
+                          bool isPencil = true) {
   GreyImage grey(600, 400);
   std::uint32_t state = 7;
   for (int y = 0; y < grey.height; ++y) {
@@ -141,7 +142,7 @@ std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise, dou
     measureContour(c);
     set.contours.push_back(std::move(c));
   }
-  return linesOfGrain(set, grey, {});
+  return linesOfGrain(set, grey, isPencil, {});
 }
 
 TEST(ToneGrain, AFaintDashIsGrainOnNoiseAloneAndNotInCompany) {
@@ -166,8 +167,9 @@ TEST(ToneGrain, AFaintDashIsGrainOnNoiseAloneAndNotInCompany) {
 TEST(ToneGrain, OnWhitenedPaperItIsToldByTheLinesAlone) {
   constexpr double kWhite = 255.0;
   const FaintLine longLine{between({50.0, 50.0}, {550.0, 60.0}), 120.0};
-  FaintLine dash{between({300.0, 250.0}, {318.0, 258.0}), 25.0};
+  FaintLine dash{between({300.0, 250.0}, {318.0, 258.0}), 20.0};
   EXPECT_TRUE(grainOf({longLine, dash}, 0.5, kWhite)[1]);
+  EXPECT_FALSE(grainOf({longLine, dash}, 0.5, kWhite, false)[1]) << "a faint pen";
   EXPECT_FALSE(grainOf({longLine, {between({300.0, 250.0}, {352.0, 275.0}), 25.0}}, 0.5, kWhite)[1])
       << "long, straight";
   dash.depth = 50.0;
