@@ -161,6 +161,7 @@ struct FoundLines {
   RunPieces regions;                ///< What a choice of the user holds for.
   BitImage blots;                   ///< Ink to be followed along its middle that has none.
   std::optional<BitImage> painted;  ///< InkSplit::painted.
+  bool isPencil = false;            ///< Most of the ink is.
 };
 
 // Drops marks much fainter than the strokes around them. @return how many.
@@ -193,6 +194,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);
+  found.isPencil = split->pencil && 2 * split->pencil->ink.count() > ink.count();
   const BitImage rows =
       hasOwnLengths(params) ? BitImage(ink.width, ink.height) : findRows(*split, params.minWidths, context);
   const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, &rows, params.minWidths,
@@ -334,7 +336,7 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
   // A line of several strokes lies beside their ink.
   const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
   if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
-    if (isOfOne) dropGrain(found->set, grey, found->painted, context);
+    if (isOfOne) dropGrain(found->set, grey, found->isPencil, found->painted, context);
     dropPageEdgeLines(found->set, grey);
   }
   if (isOfAllInk(edges, params)) noteUntraced(found->set, ink);

@@ -34,7 +34,8 @@ constexpr double kLeastSigma = 0.29;                    // [grey] of what is rou
 constexpr int kFewestCells = 60;                        // of a ground: the upper quantile is then not a single cell
 // Of the contrast of the page's lines: pencil strokes of one hand differ by less, as in centreline.cpp.
 constexpr double kAsDarkAsLines = 0.8;
-constexpr int kMostRounds = 12;  // of taking lines out: a row of faint dashes would be eaten up from its ends
+constexpr double kFaintOnWhite = 0.2;  // of that contrast, where the ground of a line says nothing
+constexpr int kMostRounds = 12;        // of taking lines out: a row of faint dashes would be eaten up from its ends
 
 // [px] 0: not known.
 double widthOf(const Contour& line) {
@@ -240,30 +241,39 @@ ShortLines shortLinesOf(const ContourSet& set) {
   return lines;
 }
 
+// Whether the scanner has made the paper white: what is left of its tooth stands out then.
+bool isClipped(const LinesOnGround& page) {
+  constexpr float kWhite = 252.0f;  // [grey] JPEG leaves it a little below 255
+  const cv::Mat1b white = page.level > kWhite;
+  return 2 * cv::countNonZero(white) > page.level.rows * page.level.cols;
+}
+
 // Lines that are hardly darker than their ground, and fainter than the long lines.
-std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, const GreyImage& grey,
+std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, const GreyImage& grey, bool isPencil,
                              const RunContext& context) {
   std::vector<bool> isFaint(set.contours.size(), false);
   const LinesOnGround page = linesOnGround(set, lines.isShort, grey, lines.widthPx);
   const std::optional<double> usual = usualContrast(set, lines.isShort, page);
+  const bool isWhite = isPencil && isClipped(page);
   for (std::size_t i = 0; i < set.contours.size() && usual && !context.isCancelled(); ++i) {
     const Contour& c = set.contours[i];
     if (!lines.isShort[i] || c.traceMode || isStraight(c, lines.widthPx)) continue;
-    if (contrastOf(c, page) >= kAsDarkAsLines * *usual) continue;
+    const double contrast = contrastOf(c, page);
+    if (contrast >= kAsDarkAsLines * *usual) continue;
     const std::optional<double> over = overGround(c, page);
-    isFaint[i] = over && *over < kStandsOut;
+    isFaint[i] = over && (*over < kStandsOut || (isWhite && contrast < kFaintOnWhite * *usual));
   }
   return isFaint;
 }
 
 }  // namespace
 
-std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, const RunContext& context) {
+std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, bool isPencil, const RunContext& context) {
   std::vector<bool> isGrain(set.contours.size(), false);
   const ShortLines lines = shortLinesOf(set);
   if (grey.isUniform || !(lines.widthPx > 0.0) || context.isCancelled()) return isGrain;
   if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
-  const std::vector<bool> isFaint = faintLines(set, lines, grey, context);
+  const std::vector<bool> isFaint = faintLines(set, lines, grey, isPencil, context);
   // Grain is no company: without it others have none either.
   bool isChanged = true;
   for (int round = 0; round < kMostRounds && isChanged && !context.isCancelled(); ++round) {
@@ -277,12 +287,12 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, con
   return isGrain;
 }
 
-void dropGrain(ContourSet& set, const GreyImage& grey, const std::optional<BitImage>& painted,
+void dropGrain(ContourSet& set, const GreyImage& grey, bool isPencil, const std::optional<BitImage>& painted,
                const RunContext& context) {
   constexpr double kOnPaintPx = 1.5;  // the pixel of a place and its eight neighbours
   std::vector<bool> isGrain(set.contours.size(), false);
   try {
-    isGrain = linesOfGrain(set, grey, context);
+    isGrain = linesOfGrain(set, grey, isPencil, context);
   } catch (const cv::Exception&) {  // too little memory: the lines stay as they are
   }
   std::vector<Contour> kept;

@@ -130,20 +130,22 @@ struct HalfLevels {
   bool areMixed = false;  ///< Ink and highlights: see SignedDepths.
 };
 HalfLevels halfLevels(const Plane& grey, const PageEdges& edges, const PaperBackground& paper, int shrink) {
-  const auto depthAt = [&](const EdgePoint& p) {
-    return static_cast<double>(grey.row(p.y)[p.x]) - paper.at((p.x + 0.5) * shrink, (p.y + 0.5) * shrink);
-  };
-  SignedDepths depths;
-  for (const EdgePoint& p : edges.crests) depths.add(static_cast<double>(p.strength), depthAt(p));
   HalfLevels found;
-  found.areMixed = depths.areMixed();
+  SignedDepths bySign;
+  std::vector<double> depths;
+  depths.reserve(edges.crests.size());
+  for (const EdgePoint& p : edges.crests) {
+    depths.push_back(static_cast<double>(grey.row(p.y)[p.x]) - paper.at((p.x + 0.5) * shrink, (p.y + 0.5) * shrink));
+    bySign.add(static_cast<double>(p.strength), depths.back());
+  }
+  found.areMixed = bySign.areMixed();
   std::array<double, kRegions> sum{}, weight{};
   std::array<int, kRegions> votes{};
-  for (const EdgePoint& p : edges.crests) {
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const EdgePoint& p = edges.crests[i];
+    if (found.areMixed && depths[i] > 0.0) continue;
     const int r = regionOf(p.x, p.y, grey.width, grey.height);
-    const double depth = depthAt(p);
-    if (found.areMixed && depth > 0.0) continue;
-    sum[r] += static_cast<double>(p.strength) * depth;
+    sum[r] += static_cast<double>(p.strength) * depths[i];
     weight[r] += static_cast<double>(p.strength);
     ++votes[r];
   }

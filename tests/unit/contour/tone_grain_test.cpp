@@ -114,7 +114,8 @@ struct FaintLine {
   double depth;  // [grey]
 };
 
-std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise) {
+std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise, double paper = 150.0,
+                          bool isPencil = true) {
   GreyImage grey(600, 400);
   std::uint32_t state = 7;
   for (int y = 0; y < grey.height; ++y) {
@@ -122,7 +123,7 @@ std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise) {
       double sum = 0.0;  // nearly normal, of unit variance
       for (int k = 0; k < 12; ++k)
         sum += static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0;
-      grey.row(y)[x] = static_cast<std::uint16_t>(257.0 * std::clamp(150.0 + noise * (sum - 6.0), 0.0, 255.0));
+      grey.row(y)[x] = static_cast<std::uint16_t>(257.0 * std::clamp(paper + noise * (sum - 6.0), 0.0, 255.0));
     }
   }
   ContourSet set;
@@ -135,13 +136,13 @@ std::vector<bool> grainOf(const std::vector<FaintLine>& lines, double noise) {
       for (int dy = -2; dy < 2; ++dy)
         for (int dx = -2; dx < 2; ++dx) {
           std::uint16_t& pixel = grey.row(static_cast<int>(p.at.y()) + dy)[static_cast<int>(p.at.x()) + dx];
-          pixel = std::min(pixel, static_cast<std::uint16_t>(257.0 * (150.0 - line.depth)));
+          pixel = std::min(pixel, static_cast<std::uint16_t>(257.0 * (paper - line.depth)));
         }
     }
     measureContour(c);
     set.contours.push_back(std::move(c));
   }
-  return linesOfGrain(set, grey, {});
+  return linesOfGrain(set, grey, isPencil, {});
 }
 
 TEST(ToneGrain, AFaintDashIsGrainOnNoiseAloneAndNotInCompany) {
@@ -160,6 +161,19 @@ TEST(ToneGrain, AFaintDashIsGrainOnNoiseAloneAndNotInCompany) {
   const std::vector<bool> isGrain = grainOf(hatching, 50.0);
   EXPECT_EQ(std::count(isGrain.begin(), isGrain.end(), true), 0) << "hatching";
   EXPECT_FALSE(grainOf({longLine, {between({300.0, 250.0}, {352.0, 275.0}), 25.0}}, 50.0)[1]) << "long and straight";
+}
+
+// A scanner has made the paper white but for crumbs of its tooth.
+TEST(ToneGrain, OnWhitenedPaperItIsToldByTheLinesAlone) {
+  constexpr double kWhite = 255.0;
+  const FaintLine longLine{between({50.0, 50.0}, {550.0, 60.0}), 120.0};
+  FaintLine dash{between({300.0, 250.0}, {318.0, 258.0}), 20.0};
+  EXPECT_TRUE(grainOf({longLine, dash}, 0.5, kWhite)[1]);
+  EXPECT_FALSE(grainOf({longLine, dash}, 0.5, kWhite, false)[1]) << "a faint pen";
+  EXPECT_FALSE(grainOf({longLine, {between({300.0, 250.0}, {352.0, 275.0}), 25.0}}, 0.5, kWhite)[1])
+      << "long, straight";
+  dash.depth = 50.0;
+  EXPECT_FALSE(grainOf({longLine, dash}, 0.5, kWhite)[1]) << "a faint stroke";
 }
 
 }  // namespace
