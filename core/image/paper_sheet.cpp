@@ -221,20 +221,25 @@ cv::Mat1b sheetWithoutNecks(const cv::Mat1b& beside) {
   return sheet;
 }
 
-/// All cells beside a sheet; absent where it is doubtful that there is a sheet. `even`: its even area, filled.
-std::optional<cv::Mat1b> cellsBeside(const cv::Mat1b& even, const SheetCells& cells, const RunContext& context) {
+struct BesideSheet {
+  std::optional<cv::Mat1b> cells;  ///< Absent: nothing is beside a sheet, or it is doubtful that there is one.
+  bool isDoubtful = false;         ///< Something lies beside, and what it leaves is no sheet.
+};
+
+/// All cells beside a sheet. `even`: its even area, filled.
+BesideSheet cellsBeside(const cv::Mat1b& even, const SheetCells& cells, const RunContext& context) {
   const cv::Mat1b table = besideTheSheet(even, cells);
   cv::Mat1b beside = table.clone();
   addBeyondEdges(beside, cells, context);
-  if (cv::countNonZero(beside) == 0) return std::nullopt;
+  if (cv::countNonZero(beside) == 0) return {};
   const cv::Mat1b sheet = sheetWithoutNecks(beside);
   const double share = cv::countNonZero(sheet) / static_cast<double>(sheet.total());
-  if (share < kLeastSheet || share > kMostSheet) return std::nullopt;
+  if (share < kLeastSheet || share > kMostSheet) return {std::nullopt, true};
   std::vector<cv::Point> places, hull;
   cv::findNonZero(sheet, places);
   cv::convexHull(places, hull);
-  if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return std::nullopt;
-  return withoutTonesAtEdge(table, even, cells) | (beside & (table == 0));
+  if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return {std::nullopt, true};
+  return {cv::Mat1b(withoutTonesAtEdge(table, even, cells) | (beside & (table == 0))), false};
 }
 
 /// An even area with what it becomes slowly, but for narrow parts: the blur along its edge.
@@ -257,22 +262,23 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
   const int area = cv::countNonZero(even);
   if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;
   if (area < kMostSheet * static_cast<double>(even.total())) even = withSlowChanges(even, cells);
-  std::optional<cv::Mat1b> beside = cellsBeside(even, cells, context);
-  if (!beside && area < kMostSheet * static_cast<double>(even.total())) {
+  BesideSheet found = cellsBeside(even, cells, context);
+  if (found.isDoubtful) {
     // Lines that run off the sheet part it: what lies between them and the table is no part of the table.
     even = filledSheet(sheetBehindLines(even, labels, cells));
-    beside = cellsBeside(even, cells, context);
+    found = cellsBeside(even, cells, context);
   }
-  if (!beside) return std::nullopt;
+  if (!found.cells) return std::nullopt;
+  cv::Mat1b beside = *found.cells;
   for (int label = 0; label < std::ssize(areas); ++label) {
     if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
     const cv::Mat1b page = filledSheet(labels == label);
     // Within the sheet it is a shape that was drawn.
     if (cv::countNonZero(page & even) > 0 || !isFacingPage(page, even, cells, ShadedPaper(even, cells))) continue;
-    if (auto besideBoth = cellsBeside(even | page, cells, context)) beside = std::move(besideBoth);
+    if (auto both = cellsBeside(even | page, cells, context).cells) beside = *both;
     break;
   }
-  const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(*beside));
+  const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(beside));
   if (cv::countNonZero(sheet) > kMostSheet * static_cast<double>(sheet.total())) return std::nullopt;
   return sheet;
 }

@@ -19,6 +19,7 @@ constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a 
 // lying down, and as large as it is long; what is as high is a row of joined letters, each about as wide as high.
 constexpr double kLetterHeight = 5.0;
 constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexplained in an alphabet
+constexpr double kLeastUnevenness = 0.02;   // of a piece whose widths are held against their directions
 constexpr double kHairWidths = 0.5;         // of the pen of a piece: thinner paths are hairs
 constexpr double kLeastBroadPx = 4.5;  // of the page: below it the grid of pixels is as large as the contrast of a nib
 // The widths of a narrow pen also vary by its raster, the paper and the photograph, those of a nib by direction: by .6
@@ -132,8 +133,8 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
   v.isOneLine = lines == 1;
   v.meanBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, v.area / std::max(1.0, pathsPx)))));
   // Of joined letters, what one letter has.
-  v.widths = widthsOf(piece, graph);
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
+  if (v.uneven >= kLeastUnevenness) v.widths = widthsOf(piece, graph);
   return v;
 }
 
