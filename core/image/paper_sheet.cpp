@@ -35,11 +35,6 @@ constexpr double kOutlineCells = 1.5;  // [cells] of the outline of the sheet: s
 constexpr double kFinestQuadrilateral = 0.005, kCoarsestQuadrilateral = 0.08, kQuadrilateralStep = 0.0025;
 constexpr double kLeastQuadrilateral = 0.93;  // of the hull's area: else the sheet has other corners than these four
 
-bool isOneSheet(const cv::Vec3f& a, const cv::Vec3f& b) {
-  return std::fabs(a[0] - b[0]) <= kMostSheetStep && std::fabs(a[1] - b[1]) <= kMostSheetStep &&
-         std::fabs(a[2] - b[2]) <= kMostSheetStep;
-}
-
 /// Cells joined as long as brightness and colour change slowly; rough ones stay alone. Labels from 0.
 cv::Mat1i joinCells(const SheetCells& cells) {
   cv::Mat1i labels(cells.rows, cells.columns, -1);
@@ -265,7 +260,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
   BesideSheet found = cellsBeside(even, cells, context);
   if (found.isDoubtful) {
     // Lines that run off the sheet part it: what lies between them and the table is no part of the table.
-    even = filledSheet(sheetBehindLines(even, labels, cells));
+    even = filledSheet(sheetBehindLines(even, labels, areas, cells));
     found = cellsBeside(even, cells, context);
   }
   if (!found.cells) return std::nullopt;

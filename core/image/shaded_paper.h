@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "core/image/sheet_cells.h"
 
 namespace batten {
 
-inline constexpr float kMostSheetStep = 7.0f;   ///< [grey] from cell to cell of one sheet, in brightness and in colour
+inline constexpr float kMostSheetStep = 7.0f;  ///< [grey] from cell to cell of one sheet, in brightness and in colour
+/// Whether two cells, side by side or across a line, may be of one sheet: grey, red less grey, blue less grey.
+inline bool isOneSheet(const cv::Vec3f& a, const cv::Vec3f& b) {
+  const cv::Vec3f apart = a - b;
+  return std::max({std::fabs(apart[0]), std::fabs(apart[1]), std::fabs(apart[2])}) <= kMostSheetStep;
+}
 inline constexpr double kDarkestOnSheet = 0.6;  ///< of its brightness: behind a fold or in a shadow it is no darker
 inline constexpr double kSameGrain = 1.25;      ///< times the roughness of paper: no more if it is the same paper
 inline constexpr double kLeastGrain = 1.5;      ///< [grey] less cannot be told from none

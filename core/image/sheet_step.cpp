@@ -2,7 +2,6 @@
 #include "core/image/sheet_step.h"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/image/grown_mask.h"
@@ -46,8 +45,7 @@ StripMeans besideBorder(const cv::Mat1b& side, const cv::Mat1b& other, const She
 }
 
 bool isStep(const StripMeans& a, const StripMeans& b, const cv::Point& p) {
-  const cv::Vec3f apart = a.colourAt(p) - b.colourAt(p);
-  if (std::max({std::fabs(apart[0]), std::fabs(apart[1]), std::fabs(apart[2])}) > kMostSheetStep) return true;
+  if (!isOneSheet(a.colourAt(p), b.colourAt(p))) return true;
   const auto grain = static_cast<float>(kLeastGrain);
   const auto [smooth, rough] = std::minmax({std::max(a.roughAt(p), grain), std::max(b.roughAt(p), grain)});
   return rough >= kStepOfGrain * smooth;

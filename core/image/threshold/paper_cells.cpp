@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
-#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -165,27 +164,25 @@ std::vector<float> levelsOf(const RegionSurface& surface, const Cells& cells) {
   return levels;
 }
 
-/// Free cells that are brighter than the paper by more than ink is darker: white chalk on toned paper, paint. None
-/// where there are so many that they may be the paper themselves.
-std::vector<std::uint8_t> findHighlights(const Cells& cells, const PaperBackground& paper,
-                                         const std::vector<float>& halfLevels) {
+/// Takes cells that are brighter than the paper by more than ink is darker from the free ones: white chalk on toned
+/// paper, paint. None where there are so many that they may be the paper themselves.
+void dropHighlights(Cells& cells, const PaperBackground& paper, const std::vector<float>& halfLevels) {
   constexpr double kMostHighlights = 0.15;  // of the free cells
   constexpr float kBrighterHalves = 2.0f;   // of the half level: the whole contrast
-  std::vector<std::uint8_t> isHighlight(cells.mean.size(), 0);
-  for (std::size_t i = 0; i < isHighlight.size(); ++i) {
-    const bool isBrighter = cells.mean[i] - paper.grey[i] >= -kBrighterHalves * halfLevels[i];
-    isHighlight[i] = cells.isFree[i] != 0 && isBrighter ? 1 : 0;
+  std::vector<std::size_t> highlights;
+  double free = 0.0;
+  for (std::size_t i = 0; i < cells.mean.size(); ++i) {
+    if (cells.isFree[i] == 0) continue;
+    free += 1.0;
+    if (cells.mean[i] - paper.grey[i] >= -kBrighterHalves * halfLevels[i]) highlights.push_back(i);
   }
-  const auto countOf = [](const std::vector<std::uint8_t>& cell) {
-    return static_cast<double>(std::count(cell.begin(), cell.end(), std::uint8_t{1}));
-  };
-  if (countOf(isHighlight) > kMostHighlights * countOf(cells.isFree)) isHighlight.assign(cells.mean.size(), 0);
-  return isHighlight;
+  if (static_cast<double>(highlights.size()) > kMostHighlights * free) return;
+  for (const std::size_t i : highlights) cells.isFree[i] = 0;
 }
 
-/// Brings the paper to the cells that turn out to be paper. Absent highlights are looked for.
-void correctPaper(const Plane& grey, const PageEdges& edges, int shrink, const Cells& cells,
-                  std::optional<std::vector<std::uint8_t>>& isHighlight, PaperEstimate& estimate) {
+/// Brings the paper to the cells that turn out to be paper. The first round takes highlights from the free cells.
+void correctPaper(const Plane& grey, const PageEdges& edges, int shrink, int round, Cells& cells,
+                  PaperEstimate& estimate) {
   PaperBackground& paper = estimate.paper;
   const auto [half, areMixed] = halfLevels(grey, edges, paper, shrink);
   RegionValues values{};
@@ -193,12 +190,12 @@ void correctPaper(const Plane& grey, const PageEdges& edges, int shrink, const C
   const bool noEdges = std::all_of(half.begin(), half.end(), [](float v) { return v == 0.0f; });
   const std::vector<float> limits = levelsOf(RegionSurface(values, cells.columns, cells.rows, true), cells);
   const std::size_t count = cells.mean.size();
-  if (!isHighlight) isHighlight = areMixed ? findHighlights(cells, paper, limits) : std::vector<std::uint8_t>(count, 0);
+  if (round == 0 && areMixed) dropHighlights(cells, paper, limits);
   std::vector<float> offset(count), weight(count);
   std::vector<std::size_t> darker;  // free cells
   for (std::size_t i = 0; i < count; ++i) {
     offset[i] = cells.mean[i] - paper.grey[i];
-    const bool isFree = cells.isFree[i] != 0 && (*isHighlight)[i] == 0, isBright = noEdges || offset[i] > limits[i];
+    const bool isFree = cells.isFree[i] != 0, isBright = noEdges || offset[i] > limits[i];
     if (isFree && !isBright) darker.push_back(i);
     estimate.isPaper[i] = isFree && isBright ? 1 : 0;
     weight[i] = isFree && isBright ? 1.0f : 0.0f;
@@ -221,7 +218,7 @@ void correctPaper(const Plane& grey, const PageEdges& edges, int shrink, const C
 PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx,
                             const RunContext& context) {
   const BitImage touched = dilate(edges.area, 0, FilterBorder::Paper, context);
-  const Cells cells = measureCells(grey, touched, cellPx / shrink, context);
+  Cells cells = measureCells(grey, touched, cellPx / shrink, context);
   PaperEstimate estimate;
   PaperBackground& paper = estimate.paper;
   paper.cellPx = cellPx;
@@ -244,9 +241,8 @@ PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrin
   }
   for (float& value : paper.grey) value += height;
 
-  std::optional<std::vector<std::uint8_t>> isHighlight;
   for (int round = 0; round < kRounds && !context.isCancelled(); ++round)
-    correctPaper(grey, edges, shrink, cells, isHighlight, estimate);
+    correctPaper(grey, edges, shrink, round, cells, estimate);
   return estimate;
 }
 
