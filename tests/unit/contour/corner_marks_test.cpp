@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -15,6 +14,7 @@
 #include "core/contour/trace_contours.h"
 #include "tests/support/angles.h"
 #include "tests/support/contour_shapes.h"
+#include "tests/support/growth.h"
 #include "tests/support/pen_lines.h"
 #include "tests/unit/contour/corner_lines.h"
 
@@ -226,16 +226,16 @@ TEST(CornerMarks, ManyTakeNoTimeWithTheSizeOfTheDrawing) {
           fromPoints(test::alongPolygon({{0.0, 200.0 + 4.0 * i}, {5000.0, 200.0 + 4.0 * i}}, false), false)
               .contours.front());
     const auto secondsFor = [&](std::span<const CornerMark> some) {
-      const std::clock_t begin = std::clock();  // of this program alone, however busy the machine is
-      const auto pieces = splitAtCorners(set, some, params, {});
-      const std::clock_t end = std::clock();
-      EXPECT_TRUE(pieces && pieces->corners.size() == some.size() && pieces->lostMarks.empty());
-      return static_cast<double>(end - begin) / CLOCKS_PER_SEC;
+      return test::secondsOf([&] {
+        const auto pieces = splitAtCorners(set, some, params, {});
+        EXPECT_TRUE(pieces && pieces->corners.size() == some.size() && pieces->lostMarks.empty());
+      });
     };
     return std::min(secondsFor(marks), secondsFor(marks)) - std::min(secondsFor({}), secondsFor({}));
   };
-  const double alone = secondsWith(0), among = secondsWith(200);
-  EXPECT_LT(among, 3.0 * alone) << "among a million other points";
+  EXPECT_TRUE(test::growsAtMost(
+      3.0, [&] { return secondsWith(0); }, [&] { return secondsWith(200); }))
+      << "among a million other points";
 }
 
 TEST(CornerMarks, ClosedContours) {

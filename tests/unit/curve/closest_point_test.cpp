@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "core/curve/closest_point.h"
+#include "tests/support/growth.h"
 
 namespace batten {
 namespace {
@@ -99,15 +99,15 @@ TEST(Deviation, OfALongWindingLineTakesNoTimeWithTheSquareOfItsLength) {
   const auto secondsFor = [](int turns) {
     std::vector<Vec2> beside;
     const NurbsCurve curve = spiral(turns, beside);
-    const std::clock_t begin = std::clock();  // of this program alone, however busy the machine is
-    const Deviation found = deviation(curve, beside, false);
-    EXPECT_LT(found.max, 0.3);
-    EXPECT_GT(found.rms, 0.15);
-    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    return test::secondsOf([&] {
+      const Deviation found = deviation(curve, beside, false);
+      EXPECT_LT(found.max, 0.3);
+      EXPECT_GT(found.rms, 0.15);
+    });
   };
-  secondsFor(8);
-  const double one = std::min(secondsFor(8), secondsFor(8)), many = std::min(secondsFor(32), secondsFor(32));
-  EXPECT_LT(many, 4.0 * 16.0 * one) << "16 times the points and the length; 256 times if each looked at all of it";
+  EXPECT_TRUE(test::growsAtMost(
+      4.0 * 16.0, [&] { return secondsFor(8); }, [&] { return secondsFor(32); }))
+      << "16 times the points and the length; 256 times if each looked at all of it";
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <random>
 
@@ -11,6 +10,7 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/model/fairing_line.h"
+#include "tests/support/growth.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
@@ -132,15 +132,17 @@ TEST(FairAsNeeded, AStepTakesNoTimeWithTheSquareOfTheSegments) {
     const NurbsCurve truth = NurbsCurve::make(5, test::clampedKnots(5, points), control).value();
     const NurbsCurve sketch = test::noisy(truth, 0.02, 1);
     const FairingLine line = measured(truth, 0.3, 1);
-    const std::clock_t begin = std::clock();  // of this program alone, however busy the machine is
-    const auto faired = fair(sketch, false, tolerance(1.0), {}, line);
-    const std::clock_t end = std::clock();
-    EXPECT_TRUE(faired && faired->report.iterations > 0);
-    return static_cast<double>(end - begin) / CLOCKS_PER_SEC / (faired ? faired->report.iterations : 1);
+    int steps = 1;
+    const double seconds = test::secondsOf([&] {
+      const auto faired = fair(sketch, false, tolerance(1.0), {}, line);
+      ASSERT_TRUE(faired && faired->report.iterations > 0);
+      steps = faired->report.iterations;
+    });
+    return seconds / steps;
   };
-  const double few = std::min(secondsAStep(75), secondsAStep(75)),
-               many = std::min(secondsAStep(300), secondsAStep(300));
-  EXPECT_LT(many, 3.0 * 4.0 * few) << "4 times the segments; 16 times and more if each looked at all of them";
+  EXPECT_TRUE(test::growsAtMost(
+      3.0 * 4.0, [&] { return secondsAStep(75); }, [&] { return secondsAStep(300); }))
+      << "4 times the segments; 16 times and more if each looked at all of them";
 }
 
 }  // namespace
