@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/image/ruling/line_runs.h"
 
 namespace batten {
 namespace {
@@ -81,6 +82,7 @@ class RulingEraser {
     if (depth_ < kLeastDepthSeen || !findSupport()) return;
     measureRims();
     isSolid_ = 1.0 - depth_ < kSolidLight;
+    if (isSolid_) findOtherInk();
     std::vector<LinePart> parts;  // all before the first pixel changes
     std::vector<double> darker;
     for (int b = 0; b < blocks_; ++b) {
@@ -314,6 +316,18 @@ class RulingEraser {
     return profile;
   }
 
+  /// Which columns of a solid line's course hold ink that is not its own.
+  void findOtherInk() {
+    std::vector<char> inked;
+    for (int x = from_; x < to_; ++x) {
+      const auto level = greyAt(x, 0.0);
+      inked.push_back(level && static_cast<double>(*level) < (1.0 - 0.5 * depth_) * atBlocks(paper_, x) ? 1 : 0);
+    }
+    const std::vector<char> other = otherInkOnLine(inked, family_.spacingPx);
+    isOther_.assign(image_.width, 0);
+    std::copy(other.begin(), other.end(), isOther_.begin() + from_);
+  }
+
   double leastStroke() const { return std::max(kLeastStroke, 3.0 * noiseLevel_); }
 
   bool isGap(const std::vector<double>& profile) const { return !isSolid_ && depthOf(profile) < kPresence * depth_; }
@@ -322,6 +336,7 @@ class RulingEraser {
     if (isGap(line.usual)) return;
     const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
     forStrip(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
+      if (isSolid_ && isOther_[x] != 0) return;
       const double paper = atBlocks(paper_, x), light = image_.row(y)[x] / paper;
       const double stroke = strokeAt(x, offset);
       double left = 1.0;
@@ -349,6 +364,7 @@ class RulingEraser {
   double noiseLevel_ = 0.0, depth_ = 0.0;
   double low_ = 0.0, high_ = 0.0;  ///< [px] What the line covers, from its middle.
   bool isSolid_ = false;
+  std::vector<char> isOther_;  ///< Of a solid line, per column: not its ink.
 };
 
 }  // namespace

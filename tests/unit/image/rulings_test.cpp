@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/ruling/find_rulings.h"
+#include "core/image/ruling/line_runs.h"
 #include "core/image/ruling/remove_rulings.h"
 
 #include <gtest/gtest.h>
@@ -236,6 +237,55 @@ TEST(Rulings, AGridAsDarkAsTheStrokesIsTakenOut) {
   const Wrong wrong = wrongInk(inkOf(withoutRulings(scan.grey, found, {})));
   EXPECT_LT(wrong.beside, 400);
   EXPECT_LT(wrong.missed, 0.03);
+}
+
+// A legend in a grid: what is written in the box is not the grid's, wherever it lies on the course of a line.
+TEST(Rulings, WhatIsWrittenInABoxWithoutLinesStays) {
+  constexpr double kLeft = 290.0, kRight = 450.0, kTop = 190.0, kBottom = 280.0;
+  const auto isInBox = [&](double x, double y) { return x > kLeft && x < kRight && y > kTop && y < kBottom; };
+  const auto outside = [&](const Ruling& r) {
+    return layer([&](double x, double y) { return isInBox(x, y) ? 0.0f : covered(offLine(r, x, y), r.width); });
+  };
+  // A bar every 31 px, on the course of every line down the page.
+  const Ruling down{.runsDown = true};
+  const auto isBar = [&](double x, double y) {
+    return isInBox(x, y) && std::fabs(offLine(down, x, y)) < 2.5 && y > kTop + 25.0 && y < kBottom - 25.0;
+  };
+  const auto bars = layer([&](double x, double y) { return isBar(x, y) ? 1.0f : 0.0f; });
+  const Scan scan = paperWith({{outside({}), kPen}, {outside(down), kPen}, {bars, kPen}, {drawing(), kPen}});
+  const auto found = findRulings(scan.grey, {});
+  ASSERT_EQ(found.size(), 2u);
+  const BitImage ink = inkOf(withoutRulings(scan.grey, found, {}));
+  int all = 0, left = 0;
+  for (int y = 0; y < ink.height; ++y) {
+    for (int x = 0; x < ink.width; ++x) {
+      if (!isBar(x + 0.5, y + 0.5)) continue;
+      ++all;
+      left += ink.at(x, y) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(left, 0.9 * all);
+  int above = 0;  // of the lines that come to the box
+  for (int y = 0; y < static_cast<int>(kTop) - 5; ++y)
+    for (int x = 0; x < ink.width; ++x) above += ink.at(x, y) && offDrawing(x + 0.5, y + 0.5) > 5.0 ? 1 : 0;
+  EXPECT_LT(above, 100);
+}
+
+TEST(Rulings, OfADottedLineAllDotsAreItsOwn) {
+  const auto inked = [](const std::string& text) {
+    std::vector<char> columns(text.begin(), text.end());
+    for (char& c : columns) c = c == '#' ? 1 : 0;
+    return columns;
+  };
+  const auto marked = [](const std::vector<char>& other) {
+    std::string text;
+    for (const char c : other) text += c != 0 ? 'o' : '.';
+    return text;
+  };
+  EXPECT_EQ(marked(otherInkOnLine(inked("##################.....###.....################"), 8.0)),
+            ".......................ooo.....................");
+  EXPECT_EQ(marked(otherInkOnLine(inked("##################.###.....################"), 8.0)), std::string(43, '.'));
+  EXPECT_EQ(marked(otherInkOnLine(inked("...##....##....##....##....##....##....##"), 8.0)), std::string(41, '.'));
 }
 
 TEST(Rulings, DrawingsHaveNone) {
