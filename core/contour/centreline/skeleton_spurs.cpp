@@ -16,7 +16,10 @@ namespace {
 constexpr double kFatCorner = 1.15;        // of the usual radius: the ink inside an acute corner is fatter
 constexpr double kCornerSpur = 5.0 / 3.0;  // of a spur: so much longer is the branch to the tip of an acute corner
 constexpr double kWidestTip = 2.5;         // of the usual radius: two strokes side by side, and no blot
-constexpr double kLeastEdgeWidths = 3.0;   // [stroke widths] shorter edges have no direction
+constexpr double kStrokeBreadth =
+    0.7;  // of the radius of its neighbours: less has the branch to a corner of 70 degrees or more
+constexpr double kStrokeOut = 0.8;        // of a spur's length: a stroke stands out of the ink it leaves by so much
+constexpr double kLeastEdgeWidths = 3.0;  // [stroke widths] shorter edges have no direction
 // Out of the disc and as far again; 3 px keep a single step of a skeleton below 20 degrees where strokes are thin.
 constexpr double kCornerReachRadii = 2.0, kCornerReachPx = 3.0;
 constexpr double kAcute = 0.26;  // cos 75 deg
@@ -29,6 +32,7 @@ class SpurPruner {
  private:
   std::optional<int> spurTip(int edge, double factor) const;
   bool closesCorner(int edge, int node) const;
+  bool isStroke(int edge, int tip, double factor) const;
   void markCorner(int edge, int side, const Vec2& centre, double reach);
   void leadToTip(int edge, int side, const Vec2& tip, double reach);
   Vec2 turningPoint(int spur, int tipSide) const;
@@ -55,6 +59,26 @@ bool SpurPruner::closesCorner(int edge, int node) const {
   return other[0].dot(other[1]) > kAcute && spur.dot(other[0] + other[1]) < 0.0;
 }
 
+// A short stroke, as the stem of a letter beyond its bowl: it stands out of the ink of the others as broad as they are,
+// while the branch to a corner or a bump of a border grows narrow before it is out.
+bool SpurPruner::isStroke(int edge, int tip, double factor) const {
+  const SkeletonEdge& l = graph_.edge(edge);
+  const SkeletonNode& n = graph_.node(*l.node[1 - tip]);
+  double usual = graph_.medianRadius();
+  for (const int end : n.ends) {
+    if (end / 2 == edge) continue;
+    const double radius = graph_.meanRadius(end / 2);
+    if (graph_.edge(end / 2).length < kLeastEdgeWidths * 2.0 * radius) return false;
+    usual = std::min(usual, radius);
+  }
+  double out = 0.0;
+  for (const StrokePathPoint& p : l.points) {
+    const double radius = static_cast<double>(p.radius);
+    if (radius >= kStrokeBreadth * usual) out = std::max(out, (p.at - n.centre).norm() + radius - n.radius);
+  }
+  return out >= kStrokeOut * factor * 2.0 * usual;
+}
+
 // The side of an edge at which it ends free, if it is a spur.
 std::optional<int> SpurPruner::spurTip(int edge, double factor) const {
   const SkeletonEdge& l = graph_.edge(edge);
@@ -64,7 +88,10 @@ std::optional<int> SpurPruner::spurTip(int edge, double factor) const {
   const int tip = tips[0] ? 0 : 1, junction = *l.node[1 - tip];
   const double r = graph_.node(junction).radius, rw = graph_.medianRadius() + 0.5;
   const double width = 2.0 * std::min(r, 2.0 * rw);
-  if (l.length <= factor * width + 1.0) return tip;
+  if (l.length <= factor * width + 1.0) {
+    const bool isKept = isStroke(edge, tip, factor) && !closesCorner(edge, junction);
+    return isKept ? std::nullopt : std::optional(tip);
+  }
   // An acute corner is fat inside and has a long branch to its tip.
   const bool isCorner =
       r > kFatCorner * rw && l.length <= factor * kCornerSpur * width + 1.0 && closesCorner(edge, junction);

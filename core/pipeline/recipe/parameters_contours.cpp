@@ -71,7 +71,9 @@ void appendStrokes(std::vector<Parameter>& table) {
   table.push_back(real(
       kContours,
       {"edges.spur", "Drop side branches", "stroke widths",
-       "Side branches of a stroke shorter than this are dropped. Larger drops more.", true},
+       "Side branches of a stroke shorter than this are dropped, unless they stand out of its ink as broad as it is. "
+       "Larger drops more.",
+       true},
       {0.0, 5.0, 0.1, 1}, [](auto& r) -> auto& { return r.edges.spurFactor; }));
   table.push_back(real(
       kContours,
