@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/parallel.h"
+#include "core/contour/centreline/course_junctions.h"
 #include "core/contour/centreline/grey_across.h"
 #include "core/contour/centreline/pixel_placement.h"
 #include "core/contour/centreline/stroke_course.h"
@@ -113,7 +114,10 @@ RefinedStrokes refineStrokePaths(const std::vector<StrokePath>& paths, const Gre
                                  const RefineSettings& settings, const RunContext& context) {
   constexpr int kRounds = 2;  // the second samples across the middle that the first found
   std::vector<StrokeCourse> courses(paths.size());
-  forCourses(courses, context, [&](int i) { courses[i] = resample(paths[i]); });
+  forCourses(courses, context, [&](int i) {
+    courses[i] = resample(paths[i]);
+    if (settings.rule != CentreRule::Centroid) hideBlots(courses[i]);  // the width of a pencil's strokes varies
+  });
   if (settings.rule != CentreRule::None) {
     for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
       measureAll(courses, grey, settings.rule, context);
@@ -133,6 +137,7 @@ RefinedStrokes refineStrokePaths(const std::vector<StrokePath>& paths, const Gre
   std::vector<FreeEnds> ends(paths.size());
   forCourses(courses, context, [&](int i) {
     layThroughJunctions(courses[i]);
+    removeJogs(courses[i]);
     if (settings.rule != CentreRule::None) ends[i] = findEnds(courses[i], grey, settings.rule == CentreRule::Centroid);
   });
   const double cutOdds = cutOddsOf(ends);

@@ -20,9 +20,6 @@ constexpr double kPaperBesidePx = 3.5;     // beyond the border of the ink: two 
 constexpr double kParabolaShare = 0.6;     // of the reach: over less only a line is fitted
 constexpr double kWidthOffMedian = 0.4;    // of the median width of the stroke
 constexpr double kWidthOffMask = 0.25;     // of the width in the mask at the place
-constexpr double kApproachWidths = 4.0;    // [stroke widths] looked at on either side of a junction,
-constexpr double kLeastApproachPx = 8.0;   // and of thin strokes
-constexpr double kOffInkWidths = 0.6;      // [stroke widths] a course farther than this, and a pixel, has left the ink
 
 std::vector<Vec2> positions(const std::vector<StrokePathPoint>& points) {
   std::vector<Vec2> at;
@@ -87,14 +84,14 @@ void fillBetween(StrokeCourse& course, float CoursePoint::*value, float otherwis
 
 }  // namespace
 
-std::optional<CourseApproach> approachAt(const StrokeCourse& c, int border, int side, double reach) {
+std::optional<CourseApproach> approachAt(const StrokeCourse& c, int border, int side, double reach, bool onlyOutside) {
   const int n = c.count();
   std::vector<double> s;
   std::vector<Vec2> at;
   for (int k = 0; k <= static_cast<int>(reach); ++k) {
     int i = border + side * k;
     if (c.closed) i = wrapIndex(i, n);
-    if (i < 0 || i >= n || c.points[i].part == StrokePart::Junction) break;
+    if (i < 0 || i >= n || (onlyOutside && c.points[i].part == StrokePart::Junction)) break;
     s.push_back(side * k);
     at.push_back(c.points[i].base);
   }
@@ -153,48 +150,6 @@ void moveCourse(StrokeCourse& c, bool again) {
   const std::vector<Vec2> base = smoothPolyline(valuesOf(c, &CoursePoint::base), c.closed, kCourseStairSigma);
   setValues(c, &CoursePoint::base, base);
   setValues(c, &CoursePoint::tangent, directions(base, c.closed, kTangentReach));
-}
-
-void layThroughJunctions(StrokeCourse& c) {
-  const int n = c.count();
-  const auto isJunction = [&](int i) { return c.points[wrapIndex(i, n)].part == StrokePart::Junction; };
-  int start = 0;
-  while (c.closed && start < n && isJunction(start)) ++start;
-  if (start == n) return;
-  const double reach = std::max(kLeastApproachPx, kApproachWidths * c.widthPx);
-  for (int i = start; i < start + n; ++i) {
-    if (!isJunction(i)) continue;
-    int end = i;
-    while (end + 1 < start + n && isJunction(end + 1)) ++end;
-    const bool openStart = !c.closed && i == 0, openEnd = !c.closed && end == n - 1;
-    const auto before = openStart ? std::nullopt : approachAt(c, i - 1, -1, reach);
-    const auto after = openEnd ? std::nullopt : approachAt(c, end + 1, 1, reach);
-    std::vector<Vec2> laid(end - i + 1);
-    const int count = end - i + 1;
-    bool fair = true;
-    for (int k = 0; k < count && fair; ++k) {
-      Vec2& at = laid[k];
-      if (before && after) {
-        const double t = static_cast<double>(k + 1) / (count + 1), u = 1.0 - t;
-        const double derivative = endDerivative((after->at - before->at).norm(), before->direction, after->direction);
-        at = u * u * (1.0 + 2.0 * t) * before->at + t * t * (1.0 + 2.0 * u) * after->at +
-             derivative * t * u * (u * before->direction - t * after->direction);
-      } else if (before && openEnd) {
-        at = before->at + (k + 1) * before->direction;
-      } else if (after && openStart) {
-        at = after->at - (count - k) * after->direction;
-      } else {
-        fair = false;
-        break;
-      }
-      // A course that leaves the ink is no course of the pen.
-      fair = (at - c.points[wrapIndex(i + k, n)].base).norm() <= kOffInkWidths * c.widthPx + 1.0;
-    }
-    for (int k = 0; k < count && fair; ++k) {
-      c.points[wrapIndex(i + k, n)].base = laid[k];
-    }
-    i = end;
-  }
 }
 
 void replaceTail(StrokeCourse& c, int keep, const std::vector<Vec2>& tail) {

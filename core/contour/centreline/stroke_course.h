@@ -63,12 +63,13 @@ inline constexpr double kHookWidths = 0.5;
 inline constexpr int kLeastBackPoints = 4;
 
 /// Position, direction of travel and bend (second derivative, 1/px) at point `border` by a parabola through the points
-/// from there on to side +1 or -1, at most `reach` px and not into a junction.
+/// from there on to side +1 or -1, at most `reach` px and, where asked, not into a junction.
 struct CourseApproach {
   Vec2 at = Vec2::Zero(), direction = Vec2::Zero(), bend = Vec2::Zero();
 };
 /// Nothing where fewer than three points of the stroke are left there.
-std::optional<CourseApproach> approachAt(const StrokeCourse& course, int border, int side, double reach);
+std::optional<CourseApproach> approachAt(const StrokeCourse& course, int border, int side, double reach,
+                                         bool onlyOutside = true);
 
 /// Even, smooth positions of a stroke path, ready to be measured.
 StrokeCourse resample(const StrokePath& path);
@@ -76,8 +77,6 @@ StrokeCourse resample(const StrokePath& path);
 void rejectImplausibleShifts(StrokeCourse& course, bool checkWidth);
 /// Moves the points to the middle found; `again`: and prepares the next round.
 void moveCourse(StrokeCourse& course, bool again);
-/// Replaces the points within junctions by a cubic that continues both sides.
-void layThroughJunctions(StrokeCourse& course);
 /// Keeps the first `keep` points and appends `tail`; what is not known of the new points is as at the last one kept.
 /// @pre 0 < keep <= count().
 void replaceTail(StrokeCourse& course, int keep, const std::vector<Vec2>& tail);

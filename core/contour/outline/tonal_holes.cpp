@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 // [pencil widths] to either side of a border: the middle of a stroke of the pencil, and the next gap of its hatching.
-constexpr double kWithin = 0.5, kBeyond = 1.0;
+constexpr double kWithin = 0.5, kBeyondHole = 1.0;
 constexpr double kAlongTones = 6.0;     // points: the grain along the border
 constexpr double kFaint = 0.55;         // of the contrast of the outer borders: a highlight has less
 constexpr double kNotBeyond = 0.4;      // of the contrast within a stroke: between the strokes is paper again
@@ -25,7 +25,7 @@ struct Contrast {
 };
 Contrast contrastOf(const Contour& c, double pencilPx, const GreyImage& grey, const RunContext& context) {
   const std::vector<EdgeRise> rises = edgeRises(unrefinedPositionsOf(c.points), c.closed, grey,
-                                                {kWithin * pencilPx, kBeyond * pencilPx}, kAlongTones, context);
+                                                {kWithin * pencilPx, kBeyondHole * pencilPx}, kAlongTones, context);
   Contrast sum;
   const auto n = static_cast<double>(rises.size());
   for (const EdgeRise& rise : rises) {
