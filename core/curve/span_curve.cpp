@@ -30,6 +30,7 @@ class PartLength {
       const double v = width * curve.speed({span, low + kNodeAt[k] / kPartsPerSpan});
       for (std::size_t i = 0; i < kNodes; ++i) slope_[i] += v * kLagrange[k][i];
     }
+    for (std::size_t i = 0; i < kNodes; ++i) length_[i] = slope_[i] / static_cast<double>(i + 1);
   }
   static double lowOf(int part) { return static_cast<double>(part % kPartsPerSpan) / kPartsPerSpan; }
 
@@ -57,11 +58,11 @@ class PartLength {
     return sum;
   }
   double at(double x) const {
-    double sum = slope_.back() / kNodes;
-    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + slope_[i] / static_cast<double>(i + 1);
+    double sum = length_.back();
+    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + length_[i];
     return sum * x;
   }
-  NodeValues slope_{};
+  NodeValues slope_{}, length_{};  ///< Coefficients of the speed, and of the length divided by x.
 };
 
 /// Of a polynomial of degree p, its coefficients from the constant one on, and its derivatives: Horner for the Taylor
@@ -83,6 +84,29 @@ std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau, 
     jet[d] *= factor;
   }
   return jet;
+}
+
+/// Of the basis functions of a span, whose coefficients lie in lines of equal powers.
+template <int kDegree>
+SpanRow rowOf(const double* coefficients, int anyDegree, double tau, double width, int order) {
+  const int degree = kDegree == Eigen::Dynamic ? anyDegree : kDegree;
+  const std::size_t size = static_cast<std::size_t>(degree) + 1;
+  SpanRow result;
+  double scale = 1.0;
+  for (int d = 0; d <= order; ++d) {
+    std::array<double, kMaxDegree + 1> sum{};
+    double power = scale;
+    for (int k = d; k <= degree; ++k) {
+      double factor = power;
+      for (int i = 0; i < d; ++i) factor *= k - i;
+      const double* line = coefficients + static_cast<std::size_t>(k) * size;
+      for (std::size_t j = 0; j < size; ++j) sum[j] += factor * line[j];
+      power *= tau;
+    }
+    result.d[d] = sum;
+    scale /= width;
+  }
+  return result;
 }
 
 template <std::size_t kOrder>
@@ -137,24 +161,11 @@ SpanPlace SpanBasis::place(double u) const {
 }
 
 SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
-  SpanRow result;
-  const double h = width(place.span);
-  const std::size_t size = stride();
-  const double* c = &coefficients_[place.span * size * size];
-  double scale = 1.0;
-  for (int d = 0; d <= std::min(order, degree_); ++d) {
-    auto& out = result.d[d];
-    double power = scale;
-    for (int k = d; k <= degree_; ++k) {
-      double factor = power;
-      for (int i = 0; i < d; ++i) factor *= k - i;
-      const double* line = c + k * size;
-      for (std::size_t j = 0; j < size; ++j) out[j] += factor * line[j];
-      power *= place.tau;
-    }
-    scale /= h;
-  }
-  return result;
+  constexpr int kQuintic = 5;  // the usual case, with loops of known lengths
+  const double* c = &coefficients_[place.span * stride() * stride()];
+  const int highest = std::min(order, degree_);
+  return degree_ == kQuintic ? rowOf<kQuintic>(c, degree_, place.tau, width(place.span), highest)
+                             : rowOf<Eigen::Dynamic>(c, degree_, place.tau, width(place.span), highest);
 }
 
 SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : basis_(&basis) {

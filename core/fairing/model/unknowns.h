@@ -38,6 +38,7 @@ class Unknowns {
   struct SpanMap {
     std::vector<int> index;
     std::vector<std::vector<std::pair<int, double>>> slots;  ///< Per local coordinate 2j + c: (slot, factor).
+    std::vector<int> own;  ///< Where each local coordinate is an unknown of its own: the slots. Else empty.
   };
   void buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold);
   void buildPeriodic(int points);
