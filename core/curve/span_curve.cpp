@@ -68,7 +68,7 @@ class PartLength {
 /// Of a polynomial of degree p, its coefficients from the constant one on, and its derivatives: Horner for the Taylor
 /// coefficients at tau. The order is known to the compiler, so that all of them stay in registers.
 template <std::size_t kOrder>
-std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
+BATTEN_PART_OF_LOOP std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
   std::array<Vec2, kOrder + 1> jet;
   jet.fill(Vec2::Zero());
   jet[0] = c[p];
@@ -111,10 +111,45 @@ SpanRow rowOf(const double* coefficients, int anyDegree, double tau, double widt
 
 template <std::size_t kOrder>
 Jet jetAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
-  const auto low = taylorAt<kOrder>(c, p, tau, inverseWidth);
+  constexpr std::size_t kQuintic = 5;  // the usual case, with loops of known lengths
+  const auto low =
+      p == kQuintic ? taylorAt<kOrder>(c, kQuintic, tau, inverseWidth) : taylorAt<kOrder>(c, p, tau, inverseWidth);
   Jet jet;
   for (std::size_t d = 0; d < jet.size(); ++d) jet[d] = d <= kOrder ? low[std::min(d, kOrder)] : Vec2(Vec2::Zero());
   return jet;
+}
+
+template <int kDegree>
+SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
+  const SpanBasis& basis = curve.basis();
+  SpanPlace place = start;
+  const std::size_t p = kDegree == Eigen::Dynamic ? basis.degree() : kDegree;
+  for (int step = 0; step < 8; ++step) {
+    const double width = basis.width(place.span);
+    const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
+    double move = footStep(jet[0] - point, jet[1], jet[2]) / width;
+    if (!std::isfinite(move)) return place;
+    move = std::clamp(move, -1.0, 1.0);
+    SpanPlace next{place.span, place.tau + move};
+    // The remainder of a move over a knot is rescaled to the next span's width.
+    while (next.tau < 0.0 || next.tau > 1.0) {
+      const bool back = next.tau < 0.0;
+      int span = next.span + (back ? -1 : 1);
+      if (span < 0 || span >= basis.spanCount()) {
+        if (!basis.isPeriodic()) {
+          next.tau = back ? 0.0 : 1.0;
+          break;
+        }
+        span = back ? basis.spanCount() - 1 : 0;
+      }
+      const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
+      next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
+    }
+    const bool settled = std::abs(move) < 1e-10 || (next.span == place.span && std::abs(next.tau - place.tau) < 1e-12);
+    place = next;
+    if (settled) break;
+  }
+  return place;
 }
 
 }  // namespace
@@ -254,35 +289,9 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
 }
 
 SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
-  const SpanBasis& basis = curve.basis();
-  SpanPlace place = start;
-  const std::size_t p = basis.degree();
-  for (int step = 0; step < 8; ++step) {
-    const double width = basis.width(place.span);
-    const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
-    double move = footStep(jet[0] - point, jet[1], jet[2]) / width;
-    if (!std::isfinite(move)) return place;
-    move = std::clamp(move, -1.0, 1.0);
-    SpanPlace next{place.span, place.tau + move};
-    // The remainder of a move over a knot is rescaled to the next span's width.
-    while (next.tau < 0.0 || next.tau > 1.0) {
-      const bool back = next.tau < 0.0;
-      int span = next.span + (back ? -1 : 1);
-      if (span < 0 || span >= basis.spanCount()) {
-        if (!basis.isPeriodic()) {
-          next.tau = back ? 0.0 : 1.0;
-          break;
-        }
-        span = back ? basis.spanCount() - 1 : 0;
-      }
-      const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
-      next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
-    }
-    const bool settled = std::abs(move) < 1e-10 || (next.span == place.span && std::abs(next.tau - place.tau) < 1e-12);
-    place = next;
-    if (settled) break;
-  }
-  return place;
+  constexpr int kQuintic = 5;  // the usual case, with loops of known lengths
+  return curve.basis().degree() == kQuintic ? footPointOf<kQuintic>(curve, point, start)
+                                            : footPointOf<Eigen::Dynamic>(curve, point, start);
 }
 
 }  // namespace batten

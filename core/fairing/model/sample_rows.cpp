@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fairing/model/sample_rows.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <type_traits>
@@ -27,39 +28,59 @@ void scatter(std::span<const int> index, const Near<Stride>& near, Eigen::Vector
   for (std::size_t k = 0; k < index.size(); ++k) all[index[k]] = near[static_cast<Eigen::Index>(k)];
 }
 
-/// The rows of a sample with the factors of their squares.
-struct SquaredRows {
-  const double *curvature, *across, *along;
-  double ofCurvature, ofAcross, unit, floor, slide;
-};
-
-/// Rows from..from + 3 of the squares, from their first column of four on: what lies left of the diagonal is not read.
+/// Rows `From` to `From` + 3 of the squares of samples of one span, from that column on: what lies left of the diagonal
+/// is not read. The sums of a row stay in registers; they are added to in the order of the samples.
 template <int From>
-BATTEN_PART_OF_LOOP void addFourSquares(const SquaredRows& rows, double* __restrict stiff, double* __restrict mass) {
+BATTEN_PART_OF_LOOP void addFourRows(const double* rows, int samples, const SampleRows::Squares& squares,
+                                     const SampleRows::SquareWeights* weights, double* __restrict stiff,
+                                     double* __restrict mass) {
+  constexpr int kFours = (kFreeQuintic - From) / 4;
+  const double unit = squares.unit, floor = squares.floor, slide = squares.slide;
   for (int b = From; b < From + 4; ++b) {
-    const double c = rows.ofCurvature * rows.curvature[b], f = rows.ofAcross * rows.across[b],
-                 n = rows.unit * rows.across[b], t = rows.unit * rows.along[b];
-    const double held = rows.floor * t, slides = rows.slide * t;
-    for (int a = From; a < kFreeQuintic; ++a) {
-      stiff[kFreeQuintic * b + a] += c * rows.curvature[a] + f * rows.across[a] + held * rows.along[a];
-      mass[kFreeQuintic * b + a] += n * rows.across[a] + slides * rows.along[a];
+    double *stiffRow = stiff + kFreeQuintic * b + From, *massRow = mass + kFreeQuintic * b + From;
+    std::array<std::array<double, 4>, kFours> s, m;
+    for (int g = 0; g < kFours; ++g)
+      for (int l = 0; l < 4; ++l) s[g][l] = stiffRow[4 * g + l];
+    for (int g = 0; g < kFours; ++g)
+      for (int l = 0; l < 4; ++l) m[g][l] = massRow[4 * g + l];
+    const double* curvature = rows;
+    for (int i = 0; i < samples; ++i, curvature += SampleRows::kRows * kFreeQuintic) {
+      const double *across = curvature + kFreeQuintic, *along = across + kFreeQuintic;
+      const double c = weights[i].curvature * curvature[b], f = weights[i].across * across[b], n = unit * across[b],
+                   t = unit * along[b];
+      const double held = floor * t, slides = slide * t;
+      for (int g = 0; g < kFours; ++g) {
+        const int at = From + 4 * g;
+        for (int l = 0; l < 4; ++l)
+          s[g][l] += c * curvature[at + l] + f * across[at + l] + held * along[at + l];
+        for (int l = 0; l < 4; ++l) m[g][l] += n * across[at + l] + slides * along[at + l];
+      }
     }
+    for (int g = 0; g < kFours; ++g)
+      for (int l = 0; l < 4; ++l) stiffRow[4 * g + l] = s[g][l];
+    for (int g = 0; g < kFours; ++g)
+      for (int l = 0; l < 4; ++l) massRow[4 * g + l] = m[g][l];
   }
 }
-BATTEN_HOT_LOOP void addQuinticSquares(const SquaredRows& rows, double* __restrict stiff, double* __restrict mass) {
-  addFourSquares<0>(rows, stiff, mass);
-  addFourSquares<4>(rows, stiff, mass);
-  addFourSquares<8>(rows, stiff, mass);
+BATTEN_HOT_LOOP void addQuinticSquares(const double* rows, int samples, const SampleRows::Squares& squares,
+                                       const SampleRows::SquareWeights* weights, double* __restrict stiff,
+                                       double* __restrict mass) {
+  addFourRows<0>(rows, samples, squares, weights, stiff, mass);
+  addFourRows<4>(rows, samples, squares, weights, stiff, mass);
+  addFourRows<8>(rows, samples, squares, weights, stiff, mass);
 }
-void addSquaresOf(int stride, const SquaredRows& rows, double* stiff, double* mass) {
-  if (stride == kFreeQuintic) return addQuinticSquares(rows, stiff, mass);
-  for (int b = 0; b < stride; ++b) {
-    const double c = rows.ofCurvature * rows.curvature[b], f = rows.ofAcross * rows.across[b],
-                 n = rows.unit * rows.across[b], t = rows.unit * rows.along[b];
-    const double held = rows.floor * t, slides = rows.slide * t;
-    for (int a = b; a < stride; ++a) {
-      stiff[stride * b + a] += c * rows.curvature[a] + f * rows.across[a] + held * rows.along[a];
-      mass[stride * b + a] += n * rows.across[a] + slides * rows.along[a];
+void addAnySquares(int stride, const double* rows, int samples, const SampleRows::Squares& squares,
+                   const SampleRows::SquareWeights* weights, double* stiff, double* mass) {
+  for (int i = 0; i < samples; ++i, rows += static_cast<std::ptrdiff_t>(SampleRows::kRows) * stride) {
+    const double *across = rows + stride, *along = across + stride;
+    for (int b = 0; b < stride; ++b) {
+      const double c = weights[i].curvature * rows[b], f = weights[i].across * across[b], n = squares.unit * across[b],
+                   t = squares.unit * along[b];
+      const double held = squares.floor * t, slides = squares.slide * t;
+      for (int a = b; a < stride; ++a) {
+        stiff[stride * b + a] += c * rows[a] + f * across[a] + held * along[a];
+        mass[stride * b + a] += n * across[a] + slides * along[a];
+      }
     }
   }
 }
@@ -67,9 +88,15 @@ void addSquaresOf(int stride, const SquaredRows& rows, double* stiff, double* ma
 /// Calls `body` with an entry of the matrix, and its place in the square of a span's unknowns.
 template <class Body>
 void eachEntry(std::span<const int> index, int stride, BandedMatrix& matrix, const Body& body) {
+  const bool isInOrder = !index.empty() && index.back() - index.front() + 1 == std::ssize(index);
   for (std::size_t b = 0; b < index.size(); ++b) {
     double* entries = &matrix.entry(index[b], 0);
-    for (std::size_t a = b; a < index.size(); ++a) body(entries[index[a] - index[b]], b * stride + a);
+    const std::size_t diagonal = b * (static_cast<std::size_t>(stride) + 1);
+    if (isInOrder) {
+      for (std::size_t k = 0; k < index.size() - b; ++k) body(entries[k], diagonal + k);
+    } else {
+      for (std::size_t k = 0; k < index.size() - b; ++k) body(entries[index[b + k] - index[b]], diagonal + k);
+    }
   }
 }
 
@@ -94,13 +121,19 @@ void SampleRows::reset(const Unknowns& unknowns, const EqualArc& arc) {
   unknowns_ = &unknowns;
   stride_ = unknowns.stride();
   count_ = static_cast<int>(arc.places.size());
-  values_.assign(offset(count_, Curvature), 0.0);
+  values_.resize(offset(count_, Curvature));
   runs_.clear();
   for (int i = 0; i < count_; ++i) {
     const int span = arc.places[i].span;
-    if (runs_.empty() || runs_.back().span != span) runs_.push_back({i, i, span});
+    if (i == 0 || arc.places[i - 1].span != span) runs_.push_back({i, i, span});
     runs_.back().end = i + 1;
   }
+}
+
+void SampleRows::set(int sample, Row row, int span, const LocalRow& overPoints) {
+  double* values = &values_[offset(sample, row)];
+  unknowns_->reduce(span, overPoints, values);
+  std::fill(values + unknowns_->indices(span).size(), values + stride_, 0.0);
 }
 
 SampleRows::Products SampleRows::times(const Eigen::VectorXd& v) const {
@@ -187,12 +220,13 @@ void SampleRows::addSquares(const Squares& squares, CancelCheck check, BandedMat
     if (check.isCancelled()) return;
     eachEntry(index, stride_, stiffness, [&](double entry, std::size_t place) { stiff[place] = entry; });
     eachEntry(index, stride_, mass, [&](double entry, std::size_t place) { heavy[place] = entry; });
-    for (int i = run.begin; i < run.end; ++i) {
-      const SquareWeights& weights = squares.weights[i];
-      addSquaresOf(stride_,
-                   {row(i, Curvature), row(i, Across), row(i, Along), weights.curvature, weights.across, squares.unit,
-                    squares.floor, squares.slide},
-                   stiff.data(), heavy.data());
+    const double* rows = row(run.begin, Curvature);
+    const SquareWeights* weights = &squares.weights[run.begin];
+    const int samples = run.end - run.begin;
+    if (stride_ == kFreeQuintic) {
+      addQuinticSquares(rows, samples, squares, weights, stiff.data(), heavy.data());
+    } else {
+      addAnySquares(stride_, rows, samples, squares, weights, stiff.data(), heavy.data());
     }
     eachEntry(index, stride_, stiffness, [&](double& entry, std::size_t place) { entry = stiff[place]; });
     eachEntry(index, stride_, mass, [&](double& entry, std::size_t place) { entry = heavy[place]; });

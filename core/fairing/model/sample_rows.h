@@ -20,11 +20,9 @@ class SampleRows {
   enum Row { Curvature, Across, Along };
   static constexpr int kRows = 3;
 
-  /// Rows of zeros. @param unknowns, arc must outlive it.
+  /// Makes room for the samples' rows, all of which are to be set. @param unknowns must outlive it.
   void reset(const Unknowns& unknowns, const EqualArc& arc);
-  void set(int sample, Row row, int span, const LocalRow& overPoints) {
-    unknowns_->reduce(span, overPoints, &values_[offset(sample, row)]);
-  }
+  void set(int sample, Row row, int span, const LocalRow& overPoints);
 
   /// Rows times unknowns, one number a sample.
   struct Products {
