@@ -234,8 +234,8 @@ TEST(TargetSteps, ReachedLaterAreThoseFollowedAtOnce) {
   ASSERT_TRUE(objective);
   const TargetSteps whole(**setup, *objective, {});
   ASSERT_GT(whole.steps().size(), 3u);
-  const double bound = 1.001 * whole.steps()[2].deviationMm;  // left by the step after it
-  ASSERT_GT(whole.steps()[1].deviationMm, bound);
+  const double bound = 1.001 * whole.steps()[2].deviationMm();  // left by the step after it
+  ASSERT_GT(whole.steps()[1].deviationMm(), bound);
   const auto isSame = [](std::span<const TargetStep> a, std::span<const TargetStep> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const TargetStep& x, const TargetStep& y) { return x.points == y.points; });
