@@ -89,13 +89,17 @@ BATTEN_PART_OF_LOOP std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::si
 /// Of the basis functions of a span, whose coefficients lie in lines of equal powers.
 template <int kDegree>
 SpanRow rowOf(const double* coefficients, int anyDegree, double tau, double width, int order) {
+  constexpr int kMostOrder = 4;
   const int degree = kDegree == Eigen::Dynamic ? anyDegree : kDegree;
   const std::size_t size = static_cast<std::size_t>(degree) + 1;
   SpanRow result;
   double scale = 1.0;
-  for (int d = 0; d <= order; ++d) {
-    std::array<double, kMaxDegree + 1> sum{};
+  BATTEN_UNROLL
+  for (int d = 0; d <= kMostOrder; ++d) {
+    if (d > order) break;
+    double* sum = result.d[d].data();
     double power = scale;
+    BATTEN_UNROLL
     for (int k = d; k <= degree; ++k) {
       double factor = power;
       for (int i = 0; i < d; ++i) factor *= k - i;
@@ -103,7 +107,6 @@ SpanRow rowOf(const double* coefficients, int anyDegree, double tau, double widt
       for (std::size_t j = 0; j < size; ++j) sum[j] += factor * line[j];
       power *= tau;
     }
-    result.d[d] = sum;
     scale /= width;
   }
   return result;

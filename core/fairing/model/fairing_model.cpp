@@ -43,7 +43,14 @@ IntervalRule intervalRule(int k, int count, bool closed) {
 
 FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& objective,
                            const FairingCorridor& corridor, const FairingState& state)
-    : setup_(&setup), state_(&state) {
+    : setup_(&setup) {
+  remake(objective, corridor, state);
+}
+
+void FairingModel::remake(const FairingObjective& objective, const FairingCorridor& corridor,
+                          const FairingState& state) {
+  const FairingSetup& setup = *setup_;
+  state_ = &state;
   const int count = setup.sampleCount(), degree = setup.basis.degree();
   const double length = state.arc.length;
   const bool profile = !objective.wanted.empty();

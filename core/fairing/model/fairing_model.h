@@ -15,6 +15,8 @@ class FairingModel {
  public:
   FairingModel(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
                const FairingState& state);
+  /// At another state, over the same unknowns: uses the memory that it has.
+  void remake(const FairingObjective& objective, const FairingCorridor& corridor, const FairingState& state);
   /// J v and J' y of the curvature residuals, with samples that are re-located at equal arc fractions.
   Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
   Eigen::VectorXd applyTransposed(const Eigen::VectorXd& y) const;

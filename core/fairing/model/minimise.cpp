@@ -50,7 +50,11 @@ class FairingProblem final : public LevenbergProblem {
       : setup_(setup), objective_(objective), corridor_(corridor), state_(std::move(start)) {}
 
   double linearise() override {
-    model_.emplace(setup_, objective_, corridor_, state_);
+    if (model_) {
+      model_->remake(objective_, corridor_, state_);
+    } else {
+      model_.emplace(setup_, objective_, corridor_, state_);
+    }
     return state_.total;
   }
   double tryStep(double damping) override {

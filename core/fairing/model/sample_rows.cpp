@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include "core/base/hot_loop.h"
 
@@ -51,8 +52,7 @@ BATTEN_PART_OF_LOOP void addFourRows(const double* rows, int samples, const Samp
       const double held = floor * t, slides = slide * t;
       for (int g = 0; g < kFours; ++g) {
         const int at = From + 4 * g;
-        for (int l = 0; l < 4; ++l)
-          s[g][l] += c * curvature[at + l] + f * across[at + l] + held * along[at + l];
+        for (int l = 0; l < 4; ++l) s[g][l] += c * curvature[at + l] + f * across[at + l] + held * along[at + l];
         for (int l = 0; l < 4; ++l) m[g][l] += n * across[at + l] + slides * along[at + l];
       }
     }
@@ -85,18 +85,24 @@ void addAnySquares(int stride, const double* rows, int samples, const SampleRows
   }
 }
 
+/// Between a square of numbers and the rows of a matrix, which begin at their diagonals.
+using Triangle = std::make_index_sequence<kFreeQuintic>;
+template <std::size_t... kRow>
+void copyFrom(const double* rows, std::size_t width, double* square, std::index_sequence<kRow...>) {
+  (std::copy_n(rows + kRow * width, kFreeQuintic - kRow, square + kRow * (kFreeQuintic + 1)), ...);
+}
+template <std::size_t... kRow>
+void copyTo(double* rows, std::size_t width, const double* square, std::index_sequence<kRow...>) {
+  (std::copy_n(square + kRow * (kFreeQuintic + 1), kFreeQuintic - kRow, rows + kRow * width), ...);
+}
+
 /// Calls `body` with an entry of the matrix, and its place in the square of a span's unknowns.
 template <class Body>
 void eachEntry(std::span<const int> index, int stride, BandedMatrix& matrix, const Body& body) {
-  const bool isInOrder = !index.empty() && index.back() - index.front() + 1 == std::ssize(index);
   for (std::size_t b = 0; b < index.size(); ++b) {
     double* entries = &matrix.entry(index[b], 0);
     const std::size_t diagonal = b * (static_cast<std::size_t>(stride) + 1);
-    if (isInOrder) {
-      for (std::size_t k = 0; k < index.size() - b; ++k) body(entries[k], diagonal + k);
-    } else {
-      for (std::size_t k = 0; k < index.size() - b; ++k) body(entries[index[b + k] - index[b]], diagonal + k);
-    }
+    for (std::size_t k = 0; k < index.size() - b; ++k) body(entries[index[b + k] - index[b]], diagonal + k);
   }
 }
 
@@ -216,13 +222,24 @@ void SampleRows::addSquares(const Squares& squares, CancelCheck check, BandedMat
                             BandedMatrix& mass) const {
   std::vector<double> stiff(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_));
   std::vector<double> heavy(stiff.size());
+  const std::size_t width = static_cast<std::size_t>(stiffness.halfWidth()) + 1;
   eachRun([&](const Run& run, std::span<const int> index) {
-    if (check.isCancelled()) return;
-    eachEntry(index, stride_, stiffness, [&](double entry, std::size_t place) { stiff[place] = entry; });
-    eachEntry(index, stride_, mass, [&](double entry, std::size_t place) { heavy[place] = entry; });
+    if (index.empty() || check.isCancelled()) return;
     const double* rows = row(run.begin, Curvature);
     const SquareWeights* weights = &squares.weights[run.begin];
     const int samples = run.end - run.begin;
+    double *ofStiffness = &stiffness.entry(index.front(), 0), *ofMass = &mass.entry(index.front(), 0);
+    const bool isInOrder = index.back() - index.front() + 1 == std::ssize(index);
+    if (stride_ == kFreeQuintic && index.size() == kFreeQuintic && isInOrder) {  // the usual case
+      copyFrom(ofStiffness, width, stiff.data(), Triangle());
+      copyFrom(ofMass, width, heavy.data(), Triangle());
+      addQuinticSquares(rows, samples, squares, weights, stiff.data(), heavy.data());
+      copyTo(ofStiffness, width, stiff.data(), Triangle());
+      copyTo(ofMass, width, heavy.data(), Triangle());
+      return;
+    }
+    eachEntry(index, stride_, stiffness, [&](double entry, std::size_t place) { stiff[place] = entry; });
+    eachEntry(index, stride_, mass, [&](double entry, std::size_t place) { heavy[place] = entry; });
     if (stride_ == kFreeQuintic) {
       addQuinticSquares(rows, samples, squares, weights, stiff.data(), heavy.data());
     } else {

@@ -39,6 +39,7 @@ class Unknowns {
     std::vector<int> index;
     std::vector<std::vector<std::pair<int, double>>> slots;  ///< Per local coordinate 2j + c: (slot, factor).
     std::vector<int> own;  ///< Where each local coordinate is an unknown of its own: the slots. Else empty.
+    bool isInOrder = false;  ///< Those slots are 0, 1, 2, …
   };
   void buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold);
   void buildPeriodic(int points);
