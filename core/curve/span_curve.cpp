@@ -68,7 +68,8 @@ class PartLength {
 /// Of a polynomial of degree p, its coefficients from the constant one on, and its derivatives: Horner for the Taylor
 /// coefficients at tau. The order is known to the compiler, so that all of them stay in registers.
 template <std::size_t kOrder>
-BATTEN_PART_OF_LOOP std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
+BATTEN_PART_OF_LOOP std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau,
+                                                          double inverseWidth) {
   std::array<Vec2, kOrder + 1> jet;
   jet.fill(Vec2::Zero());
   jet[0] = c[p];

@@ -51,7 +51,7 @@ void FairingModel::remake(const FairingObjective& objective, const FairingCorrid
                           const FairingState& state) {
   const FairingSetup& setup = *setup_;
   state_ = &state;
-  const int count = setup.sampleCount(), degree = setup.basis.degree();
+  const int count = setup.sampleCount();
   const double length = state.arc.length;
   const bool profile = !objective.wanted.empty();
   stepLength_ = length / (setup.closed ? count : count - 1);
@@ -66,19 +66,10 @@ void FairingModel::remake(const FairingObjective& objective, const FairingCorrid
   Eigen::VectorXd corridorGradient(count);
   for (int i = 0; i < count && !setup.check.isCancelled(); ++i) {
     const FairingSample& sample = state.samples[i];
-    const int span = state.arc.places[i].span;
-    const SpanRow basis = setup.basis.row(state.arc.places[i], profile ? 2 : 3);
     const CurvatureJet& c = sample.curvature;
     const Vec2 tangent = sample.jet[1] / c.speed, normal = leftNormal(tangent);
-    LocalRow local = profile ? curvatureRow(sample.jet, basis, degree) : curvatureSlopeRow(sample.jet, basis, degree);
-    // A sample that is re-located loses what sliding along the curve would change.
     nonlocal_[i] = profile ? c.slope : c.bend;
-    for (int j = 0; j <= degree; ++j) {
-      local[j] -= nonlocal_[i] * basis.d[0][j] * tangent;
-    }
-    rows_.set(i, SampleRows::Curvature, span, local);
-    rows_.set(i, SampleRows::Across, span, positionRow(normal, basis, degree));
-    rows_.set(i, SampleRows::Along, span, positionRow(tangent, basis, degree));
+    setRows(i, tangent, normal, profile);
     across_[i] = sample.normalAtFoot.dot(normal);
     weight_[i] = weight;
     lengthTerm_[i] = profile ? weight_[i] * setup.start.length / (length * length) * objective.wanted[i]
@@ -100,6 +91,34 @@ void FairingModel::remake(const FairingObjective& objective, const FairingCorrid
   gradient_ = applyTransposed(state.residual);
   rows_.addTransposed(across_.cwiseProduct(corridorGradient), gradient_);
   assemble();
+}
+
+/// A sample that is re-located loses what sliding along the curve would change.
+void FairingModel::setRows(int i, const Vec2& tangent, const Vec2& normal, bool profile) {
+  constexpr int kQuintic = 5;  // the usual case, written in place
+  const SpanPlace& place = state_->arc.places[i];
+  const int span = place.span, degree = setup_->basis.degree();
+  const Jet& jet = state_->samples[i].jet;
+  const SpanRow basis = setup_->basis.row(place, profile ? 2 : 3);
+  if (profile && degree == kQuintic && rows_.areOwn(span)) {
+    const auto [first, second] = curvatureWeights(jet);
+    double *curvature = rows_.own(i, SampleRows::Curvature), *across = rows_.own(i, SampleRows::Across),
+           *along = rows_.own(i, SampleRows::Along);
+    for (int j = 0; j <= kQuintic; ++j) {
+      const double value = basis.d[0][j];
+      Vec2 change = basis.d[1][j] * first + basis.d[2][j] * second;
+      change -= nonlocal_[i] * value * tangent;
+      Eigen::Map<Vec2>(curvature + 2 * j) = change;
+      Eigen::Map<Vec2>(across + 2 * j) = value * normal;
+      Eigen::Map<Vec2>(along + 2 * j) = value * tangent;
+    }
+    return;
+  }
+  LocalRow local = profile ? curvatureRow(jet, basis, degree) : curvatureSlopeRow(jet, basis, degree);
+  for (int j = 0; j <= degree; ++j) local[j] -= nonlocal_[i] * basis.d[0][j] * tangent;
+  rows_.set(i, SampleRows::Curvature, span, local);
+  rows_.set(i, SampleRows::Across, span, positionRow(normal, basis, degree));
+  rows_.set(i, SampleRows::Along, span, positionRow(tangent, basis, degree));
 }
 
 void FairingModel::assemble() {

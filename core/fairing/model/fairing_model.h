@@ -28,6 +28,7 @@ class FairingModel {
   std::optional<Eigen::VectorXd> step(double damping) const;
 
  private:
+  void setRows(int sample, const Vec2& tangent, const Vec2& normal, bool profile);
   void assemble();
   /// What J' y adds to the rows: per sample, and of a closed curve to the tangent of the first one.
   struct Transposed {

@@ -103,8 +103,7 @@ double largestDistance(const SpanCurve& from, const SpanCurve& to, double enough
 }
 
 /// Of a curve over fewer knots and the sketched one.
-double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays,
-                                     double enough) {
+double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays, double enough) {
   const int spans = setup.basis.spanCount(), sketched = setup.reference.basis().spanCount();
   const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
   double largest = 0.0;

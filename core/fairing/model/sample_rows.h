@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include "core/curve/span_curve.h"
@@ -23,6 +24,10 @@ class SampleRows {
   /// Makes room for the samples' rows, all of which are to be set. @param unknowns must outlive it.
   void reset(const Unknowns& unknowns, const EqualArc& arc);
   void set(int sample, Row row, int span, const LocalRow& overPoints);
+  /// The numbers of a row, to be set. @pre areOwn() of its span.
+  double* own(int sample, Row row) { return &values_[offset(sample, row)]; }
+  /// Whether a span has as many unknowns as any, and they are the coordinates of its control points.
+  bool areOwn(int span) const { return unknowns_->isInOrder(span) && std::ssize(unknowns_->indices(span)) == stride_; }
 
   /// Rows times unknowns, one number a sample.
   struct Products {

@@ -27,8 +27,8 @@ struct TargetStep {
   double weight = 0.0;  ///< [1/mm] Of the distance from the sketch.
   std::vector<Vec2> points;
   std::vector<SpanPlace> feet;
-  double damping = 1e-3;     ///< As FairingLimits::damping.
-  double misfit = 0.0;       ///< Of the profile, squared.
+  double damping = 1e-3;  ///< As FairingLimits::damping.
+  double misfit = 0.0;    ///< Of the profile, squared.
   Termination why = Termination::IterationLimit;
   const FairingSetup* setup = nullptr;  ///< Of the points.
 

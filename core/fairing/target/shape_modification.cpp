@@ -130,9 +130,7 @@ class ShapeModification {
     for (const TargetCourse& calm : target_.calm(mostMm_)) open(calm);
   }
   /// A target that is so far from the sketch is not looked for over fewer knots.
-  bool isBeyond() const {
-    return !courses_.empty() && !courses_.front().followed->steps().front().isWithin(mostMm_);
-  }
+  bool isBeyond() const { return !courses_.empty() && !courses_.front().followed->steps().front().isWithin(mostMm_); }
   /// Where the target is met without tremor, there is none to be passed over.
   bool isCalm() const {
     if (courses_.empty() || courses_.front().followed->endsEarly()) return false;
