@@ -49,6 +49,7 @@ struct TargetStep {
 /// on sketch and target alone, so what is found within a tolerance is found within a larger one too.
 class TargetSteps {
  public:
+  /// @param context must outlive it, as must the setup and the objective.
   /// @param mostMm the steps end, and none meets the target, where the curve has left the sketch by more than this.
   TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
               double mostMm = std::numeric_limits<double>::infinity());
