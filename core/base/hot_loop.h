@@ -11,6 +11,13 @@
 #define BATTEN_HOT_LOOP
 #endif
 
+/// BATTEN_PART_OF_LOOP: a function that must become part of the hot loop that calls it, and of its wider vectors.
+#if defined(__GNUC__)
+#define BATTEN_PART_OF_LOOP inline __attribute__((always_inline))
+#else
+#define BATTEN_PART_OF_LOOP inline
+#endif
+
 /// BATTEN_UNROLL: before a short loop of known length, which is then written out, so that the loop around it can be
 /// turned into one of vectors.
 #if defined(__GNUC__) && !defined(__clang__)

@@ -30,6 +30,7 @@ class PartLength {
       const double v = width * curve.speed({span, low + kNodeAt[k] / kPartsPerSpan});
       for (std::size_t i = 0; i < kNodes; ++i) slope_[i] += v * kLagrange[k][i];
     }
+    for (std::size_t i = 0; i < kNodes; ++i) length_[i] = slope_[i] / static_cast<double>(i + 1);
   }
   static double lowOf(int part) { return static_cast<double>(part % kPartsPerSpan) / kPartsPerSpan; }
 
@@ -57,17 +58,18 @@ class PartLength {
     return sum;
   }
   double at(double x) const {
-    double sum = slope_.back() / kNodes;
-    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + slope_[i] / static_cast<double>(i + 1);
+    double sum = length_.back();
+    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + length_[i];
     return sum * x;
   }
-  NodeValues slope_{};
+  NodeValues slope_{}, length_{};  ///< Coefficients of the speed, and of the length divided by x.
 };
 
 /// Of a polynomial of degree p, its coefficients from the constant one on, and its derivatives: Horner for the Taylor
 /// coefficients at tau. The order is known to the compiler, so that all of them stay in registers.
 template <std::size_t kOrder>
-std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
+BATTEN_PART_OF_LOOP std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau,
+                                                          double inverseWidth) {
   std::array<Vec2, kOrder + 1> jet;
   jet.fill(Vec2::Zero());
   jet[0] = c[p];
@@ -85,12 +87,73 @@ std::array<Vec2, kOrder + 1> taylorAt(const Vec2* c, std::size_t p, double tau, 
   return jet;
 }
 
+/// Of the basis functions of a span, whose coefficients lie in lines of equal powers.
+template <int kDegree>
+SpanRow rowOf(const double* coefficients, int anyDegree, double tau, double width, int order) {
+  constexpr int kMostOrder = 4;
+  const int degree = kDegree == Eigen::Dynamic ? anyDegree : kDegree;
+  const std::size_t size = static_cast<std::size_t>(degree) + 1;
+  SpanRow result;
+  double scale = 1.0;
+  BATTEN_UNROLL
+  for (int d = 0; d <= kMostOrder; ++d) {
+    if (d > order) break;
+    double* sum = result.d[d].data();
+    double power = scale;
+    BATTEN_UNROLL
+    for (int k = d; k <= degree; ++k) {
+      double factor = power;
+      for (int i = 0; i < d; ++i) factor *= k - i;
+      const double* line = coefficients + static_cast<std::size_t>(k) * size;
+      for (std::size_t j = 0; j < size; ++j) sum[j] += factor * line[j];
+      power *= tau;
+    }
+    scale /= width;
+  }
+  return result;
+}
+
 template <std::size_t kOrder>
 Jet jetAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
-  const auto low = taylorAt<kOrder>(c, p, tau, inverseWidth);
+  constexpr std::size_t kQuintic = 5;  // the usual case, with loops of known lengths
+  const auto low =
+      p == kQuintic ? taylorAt<kOrder>(c, kQuintic, tau, inverseWidth) : taylorAt<kOrder>(c, p, tau, inverseWidth);
   Jet jet;
   for (std::size_t d = 0; d < jet.size(); ++d) jet[d] = d <= kOrder ? low[std::min(d, kOrder)] : Vec2(Vec2::Zero());
   return jet;
+}
+
+template <int kDegree>
+SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
+  const SpanBasis& basis = curve.basis();
+  SpanPlace place = start;
+  const std::size_t p = kDegree == Eigen::Dynamic ? basis.degree() : kDegree;
+  for (int step = 0; step < 8; ++step) {
+    const double width = basis.width(place.span);
+    const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
+    double move = footStep(jet[0] - point, jet[1], jet[2]) / width;
+    if (!std::isfinite(move)) return place;
+    move = std::clamp(move, -1.0, 1.0);
+    SpanPlace next{place.span, place.tau + move};
+    // The remainder of a move over a knot is rescaled to the next span's width.
+    while (next.tau < 0.0 || next.tau > 1.0) {
+      const bool back = next.tau < 0.0;
+      int span = next.span + (back ? -1 : 1);
+      if (span < 0 || span >= basis.spanCount()) {
+        if (!basis.isPeriodic()) {
+          next.tau = back ? 0.0 : 1.0;
+          break;
+        }
+        span = back ? basis.spanCount() - 1 : 0;
+      }
+      const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
+      next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
+    }
+    const bool settled = std::abs(move) < 1e-10 || (next.span == place.span && std::abs(next.tau - place.tau) < 1e-12);
+    place = next;
+    if (settled) break;
+  }
+  return place;
 }
 
 }  // namespace
@@ -137,24 +200,11 @@ SpanPlace SpanBasis::place(double u) const {
 }
 
 SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
-  SpanRow result;
-  const double h = width(place.span);
-  const std::size_t size = stride();
-  const double* c = &coefficients_[place.span * size * size];
-  double scale = 1.0;
-  for (int d = 0; d <= std::min(order, degree_); ++d) {
-    auto& out = result.d[d];
-    double power = scale;
-    for (int k = d; k <= degree_; ++k) {
-      double factor = power;
-      for (int i = 0; i < d; ++i) factor *= k - i;
-      const double* line = c + k * size;
-      for (std::size_t j = 0; j < size; ++j) out[j] += factor * line[j];
-      power *= place.tau;
-    }
-    scale /= h;
-  }
-  return result;
+  constexpr int kQuintic = 5;  // the usual case, with loops of known lengths
+  const double* c = &coefficients_[place.span * stride() * stride()];
+  const int highest = std::min(order, degree_);
+  return degree_ == kQuintic ? rowOf<kQuintic>(c, degree_, place.tau, width(place.span), highest)
+                             : rowOf<Eigen::Dynamic>(c, degree_, place.tau, width(place.span), highest);
 }
 
 SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : basis_(&basis) {
@@ -243,35 +293,9 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
 }
 
 SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
-  const SpanBasis& basis = curve.basis();
-  SpanPlace place = start;
-  const std::size_t p = basis.degree();
-  for (int step = 0; step < 8; ++step) {
-    const double width = basis.width(place.span);
-    const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
-    double move = footStep(jet[0] - point, jet[1], jet[2]) / width;
-    if (!std::isfinite(move)) return place;
-    move = std::clamp(move, -1.0, 1.0);
-    SpanPlace next{place.span, place.tau + move};
-    // The remainder of a move over a knot is rescaled to the next span's width.
-    while (next.tau < 0.0 || next.tau > 1.0) {
-      const bool back = next.tau < 0.0;
-      int span = next.span + (back ? -1 : 1);
-      if (span < 0 || span >= basis.spanCount()) {
-        if (!basis.isPeriodic()) {
-          next.tau = back ? 0.0 : 1.0;
-          break;
-        }
-        span = back ? basis.spanCount() - 1 : 0;
-      }
-      const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
-      next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
-    }
-    const bool settled = std::abs(move) < 1e-10 || (next.span == place.span && std::abs(next.tau - place.tau) < 1e-12);
-    place = next;
-    if (settled) break;
-  }
-  return place;
+  constexpr int kQuintic = 5;  // the usual case, with loops of known lengths
+  return curve.basis().degree() == kQuintic ? footPointOf<kQuintic>(curve, point, start)
+                                            : footPointOf<Eigen::Dynamic>(curve, point, start);
 }
 
 }  // namespace batten

@@ -51,7 +51,7 @@ TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
       run.levels = targetLevels(job.curve, job.closed, job.params, context);
       outcomes.splits = run.levels.ofTolerance().splits;
     }
-    outcomes.targets = run.levels.ofTolerance().targets;
+    outcomes.targets = run.levels.targets;
     outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
     auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span, context)
                                : makeSetup(job.curve, job.closed, job.params, context);
@@ -82,7 +82,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, int degree, const RunCont
     if (faired) {
       run.isMet[at] = faired->isMet;
       faired->faired = againstSketch(*run.setup, std::move(faired->faired));
-      outcomes.targets.profiles[at] = run.levels.all[faired->level].targets.profiles[at];
+      outcomes.targets.profiles[at] = std::move(faired->profile);
       outcomes.faired[at] = std::move(faired->faired);
     } else {
       outcomes.problems[at] = faired.error().message;

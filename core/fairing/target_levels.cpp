@@ -39,7 +39,8 @@ class LevelFairing {
         toleranceMm_(toleranceMm),
         context_(context),
         needs_(levels.all.size()),
-        targets_(levels.all.size()) {}
+        targets_(levels.all.size()),
+        profiles_(levels.all.size()) {}
 
   Result<LevelOutcome> overAll() {
     const auto fewest = std::ssize(levels_.ofTolerance().splits);
@@ -61,7 +62,7 @@ class LevelFairing {
   Result<LevelOutcome> ifItMet() {
     auto faired = over(levels_.first, true);
     if (!faired) return fail(faired.error());
-    best_ = LevelOutcome{levels_.first, std::move(*faired), false};
+    best_ = LevelOutcome{levels_.first, {}, std::move(*faired), false};
     if (best_->faired.report.withinTolerance) {
       needs_[levels_.first] = {best_->faired.report.neededMm, true};
       if (isMet(*best_)) findNeed();
@@ -70,10 +71,14 @@ class LevelFairing {
   }
 
  private:
-  const TargetProfile& profileOf(std::size_t level) const { return levels_.all[level].targets.profiles[degree_ - 1]; }
   bool isMet(const LevelOutcome& one) const {
     const FairingReport& report = one.faired.report;
     return one.level == levels_.first && report.withinTolerance && report.extremaAfter <= report.extremaBefore;
+  }
+  const TargetProfile& profileOf(std::size_t level) {
+    auto& profile = profiles_[level];
+    if (!profile) profile = levels_.profile(level, degree_);
+    return *profile;
   }
   TargetCourses& targetOf(std::size_t level) {
     auto& target = targets_[level];
@@ -93,7 +98,7 @@ class LevelFairing {
       return report.extremaAfter < than.extremaAfter ||
              (report.extremaAfter == than.extremaAfter && report.withinTolerance && !than.withinTolerance);
     };
-    if (!best_ || isBetter(best_->faired.report)) best_ = LevelOutcome{level, std::move(*faired), false};
+    if (!best_ || isBetter(best_->faired.report)) best_ = LevelOutcome{level, {}, std::move(*faired), false};
     return std::nullopt;
   }
 
@@ -142,6 +147,7 @@ class LevelFairing {
 
   Result<LevelOutcome> finished() {
     if (context_.isCancelled()) return cancelled();
+    best_->profile = profileOf(best_->level);
     best_->isMet = isMet(*best_);
     return std::move(*best_);
   }
@@ -154,6 +160,7 @@ class LevelFairing {
   const RunContext& context_;
   std::vector<LevelNeed> needs_;                         ///< Per level.
   std::vector<std::unique_ptr<TargetCourses>> targets_;  ///< Of the levels that were looked at.
+  std::vector<std::optional<TargetProfile>> profiles_;   ///< Of the same.
   double neededMm_ = 0.0;                                ///< The least tolerance.
   std::optional<LevelOutcome> best_;
 };
@@ -186,28 +193,35 @@ LogAestheticTarget logAestheticOf(const NurbsCurve& curve, bool closed, const Fa
 
 TargetLevels oneLevel(std::vector<double> splits, TargetSet targets) {
   TargetLevels levels;
-  levels.all.push_back({0.0, std::move(splits), std::move(targets)});
+  levels.all.push_back({0.0, std::move(splits)});
+  levels.targets = std::move(targets);
   return levels;
 }
 
+TargetProfile TargetLevels::profile(std::size_t level, int degree) const {
+  if (level == first) return targets.profiles[degree - 1];
+  TargetParams own = params;
+  own.splits = all[level].splits;
+  return fitTarget(start, own, closed, degree);
+}
+
 TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
-  TargetParams targets = params.targets;
-  const auto calm = withoutTremor(curve, closed, params, check);
-  const NurbsCurve& start = calm ? *calm : curve;
-  const auto fitted = [&] {
-    TargetSet set = fitTargets(start, targets, closed);
-    if (!calm) return set;
-    set.samples = sampledCurvature(curve, targets.samples).places();  // what is shown of the curve
-    return set;
-  };
-  if (!hasNaturalSpans(targets)) return oneLevel(targets.splits, fitted());
-  const std::vector<SpanLevel> spans = naturalSpanLevels(start, closed);
   TargetLevels levels;
-  levels.first = levelOf(spans, params.toleranceMm);
-  for (const SpanLevel& one : spans) {
-    targets.splits = one.splits;
-    levels.all.push_back({one.fromMm, one.splits, fitted()});
+  levels.params = params.targets;
+  levels.closed = closed;
+  const auto calm = withoutTremor(curve, closed, params, check);
+  levels.start = calm ? *calm : curve;
+  levels.all.push_back({0.0, params.targets.splits});
+  if (hasNaturalSpans(params.targets)) {
+    const std::vector<SpanLevel> spans = naturalSpanLevels(levels.start, closed);
+    levels.first = levelOf(spans, params.toleranceMm);
+    levels.all.clear();
+    for (const SpanLevel& one : spans) levels.all.push_back({one.fromMm, one.splits});
   }
+  TargetParams first = params.targets;
+  first.splits = levels.ofTolerance().splits;
+  levels.targets = fitTargets(levels.start, first, closed);
+  if (calm) levels.targets.samples = sampledCurvature(curve, first.samples).places();  // what is shown of the curve
   return levels;
 }
 
@@ -222,7 +236,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
   if (!params.spanTargets.empty())
     return fairSpans(curve, closed, targetSplits(curve, closed, params, context), params, context);
   const TargetLevels levels = targetLevels(curve, closed, params, context);
-  const TargetSet& first = levels.ofTolerance().targets;
+  const TargetSet& first = levels.targets;
   if (!first.recommendedDegree)
     return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
   if (const auto asked = degreeOf(params.target)) {

@@ -16,19 +16,25 @@
 
 namespace batten {
 
-/// The targets of one curve over one list of splits.
+/// One list of splits.
 struct TargetLevel {
   double fromMm = 0.0;  ///< The smallest tolerance that has these splits.
   std::vector<double> splits;
-  TargetSet targets;
 };
 
-/// The targets over the splits that the parameters ask for: of natural spans those of all tolerances, fewest splits
-/// first. What is valid for a smaller tolerance is valid for a larger one too.
+/// The targets of one curve over the splits that the parameters ask for: of natural spans those of all tolerances,
+/// fewest splits first. What is valid for a smaller tolerance is valid for a larger one too.
 struct TargetLevels {
   std::vector<TargetLevel> all;  ///< Never empty.
   std::size_t first = 0;         ///< The one of the tolerance that is asked for.
+  TargetSet targets;             ///< Over its splits.
   const TargetLevel& ofTolerance() const { return all[first]; }
+  /// Over the splits of a level: fitted when it is asked for, where it is not the first one.
+  TargetProfile profile(std::size_t level, int degree) const;
+
+  NurbsCurve start;  ///< To which the others are fitted …
+  TargetParams params;
+  bool closed = false;  ///< … and how.
 };
 TargetLevels targetLevels(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
 /// One list of splits, whatever the tolerance.
@@ -40,6 +46,7 @@ LogAestheticTarget logAestheticOf(const NurbsCurve&, bool closed, const FairingP
 /// What one degree comes to.
 struct LevelOutcome {
   std::size_t level = 0;  ///< Which of the levels gave it.
+  TargetProfile profile;  ///< The target over its splits.
   FairedCurve faired;
   bool isMet = false;  ///< The target over the spans of the tolerance was met, without a curvature extremum more.
 };

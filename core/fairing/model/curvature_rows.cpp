@@ -18,11 +18,14 @@ CurvatureJet curvatureJet(const Jet& r) {
   return result;
 }
 
-LocalRow curvatureRow(const Jet& r, const SpanRow& basis, int degree) {
+CurvatureWeights curvatureWeights(const Jet& r) {
   const double s2 = r[1].squaredNorm(), s3 = s2 * std::sqrt(s2), kappa = cross(r[1], r[2]) / s3;
   // a x b with a = N e_x is N b_y, with a = N e_y is -N b_x.
-  const Vec2 first = Vec2(r[2].y(), -r[2].x()) / s3 - 3.0 * kappa / s2 * r[1];
-  const Vec2 second = Vec2(-r[1].y(), r[1].x()) / s3;
+  return {Vec2(r[2].y(), -r[2].x()) / s3 - 3.0 * kappa / s2 * r[1], Vec2(-r[1].y(), r[1].x()) / s3};
+}
+
+LocalRow curvatureRow(const Jet& r, const SpanRow& basis, int degree) {
+  const auto [first, second] = curvatureWeights(r);
   LocalRow row;
   row.fill(Vec2::Zero());
   for (int j = 0; j <= degree; ++j) {

@@ -11,6 +11,11 @@ namespace batten {
 /// d kappa / d q at a fixed parameter, per control point of the span (003 section 4; algorithms: shape modification):
 /// row[j] = (d kappa / d x_j, d kappa / d y_j) with s = |R'|.
 using LocalRow = std::array<Vec2, kMaxDegree + 1>;
+/// d kappa / d R' and d kappa / d R'': by them a control point counts with the derivatives of its basis function.
+struct CurvatureWeights {
+  Vec2 first, second;
+};
+CurvatureWeights curvatureWeights(const Jet& jet);
 LocalRow curvatureRow(const Jet& jet, const SpanRow& basis, int degree);
 /// The same for d kappa / d s, the change of curvature along the curve.
 LocalRow curvatureSlopeRow(const Jet& jet, const SpanRow& basis, int degree);

@@ -43,37 +43,35 @@ IntervalRule intervalRule(int k, int count, bool closed) {
 
 FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& objective,
                            const FairingCorridor& corridor, const FairingState& state)
-    : setup_(&setup), state_(&state) {
-  const int count = setup.sampleCount(), degree = setup.basis.degree(), stride = setup.unknowns.stride();
+    : setup_(&setup) {
+  remake(objective, corridor, state);
+}
+
+void FairingModel::remake(const FairingObjective& objective, const FairingCorridor& corridor,
+                          const FairingState& state) {
+  const FairingSetup& setup = *setup_;
+  state_ = &state;
+  const int count = setup.sampleCount();
   const double length = state.arc.length;
   const bool profile = !objective.wanted.empty();
   stepLength_ = length / (setup.closed ? count : count - 1);
-  for (auto* rows : {&local_, &normal_, &tangent_}) rows->setZero(stride, count);
+  rows_.reset(setup.unknowns, state.arc);
   across_.resize(count);
   weight_.resize(count);
   nonlocal_.resize(count);
   lengthTerm_.resize(count);
   corridorCurvature_.resize(count);
+  const double weight =
+      profile ? 1.0 / objective.reference / std::sqrt(count) : std::sqrt(length / count) / objective.reference;
   Eigen::VectorXd corridorGradient(count);
   for (int i = 0; i < count && !setup.check.isCancelled(); ++i) {
     const FairingSample& sample = state.samples[i];
-    const int span = state.arc.places[i].span;
-    const SpanRow basis = setup.basis.row(state.arc.places[i], profile ? 2 : 3);
     const CurvatureJet& c = sample.curvature;
     const Vec2 tangent = sample.jet[1] / c.speed, normal = leftNormal(tangent);
-    const Unknowns& unknowns = setup.unknowns;
-    LocalRow local = profile ? curvatureRow(sample.jet, basis, degree) : curvatureSlopeRow(sample.jet, basis, degree);
-    // A sample that is re-located loses what sliding along the curve would change.
     nonlocal_[i] = profile ? c.slope : c.bend;
-    for (int j = 0; j <= degree; ++j) {
-      local[j] -= nonlocal_[i] * basis.d[0][j] * tangent;
-    }
-    unknowns.reduce(span, local, &local_(0, i));
-    unknowns.reduce(span, positionRow(normal, basis, degree), &normal_(0, i));
-    unknowns.reduce(span, positionRow(tangent, basis, degree), &tangent_(0, i));
+    setRows(i, tangent, normal, profile);
     across_[i] = sample.normalAtFoot.dot(normal);
-    weight_[i] =
-        profile ? 1.0 / objective.reference / std::sqrt(count) : std::sqrt(length / count) / objective.reference;
+    weight_[i] = weight;
     lengthTerm_[i] = profile ? weight_[i] * setup.start.length / (length * length) * objective.wanted[i]
                              : 0.5 * state.residual[i] / length;
     const double e = sample.distance;
@@ -91,22 +89,36 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
                  (objective.reference * objective.reference) / count;
   if (setup.check.isCancelled()) return;
   gradient_ = applyTransposed(state.residual);
-  for (int i = 0; i < count; ++i) accumulate(normal_, i, across_[i] * corridorGradient[i], gradient_);
+  rows_.addTransposed(across_.cwiseProduct(corridorGradient), gradient_);
   assemble();
 }
 
-double FairingModel::dot(const Eigen::MatrixXd& rows, int sample, const Eigen::VectorXd& v) const {
-  const auto index = setup_->unknowns.indices(state_->arc.places[sample].span);
-  const double* row = &rows(0, sample);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < index.size(); ++k) sum += row[k] * v[index[k]];
-  return sum;
-}
-
-void FairingModel::accumulate(const Eigen::MatrixXd& rows, int sample, double factor, Eigen::VectorXd& out) const {
-  const auto index = setup_->unknowns.indices(state_->arc.places[sample].span);
-  const double* row = &rows(0, sample);
-  for (std::size_t k = 0; k < index.size(); ++k) out[index[k]] += factor * row[k];
+/// A sample that is re-located loses what sliding along the curve would change.
+void FairingModel::setRows(int i, const Vec2& tangent, const Vec2& normal, bool profile) {
+  constexpr int kQuintic = 5;  // the usual case, written in place
+  const SpanPlace& place = state_->arc.places[i];
+  const int span = place.span, degree = setup_->basis.degree();
+  const Jet& jet = state_->samples[i].jet;
+  const SpanRow basis = setup_->basis.row(place, profile ? 2 : 3);
+  if (profile && degree == kQuintic && rows_.areOwn(span)) {
+    const auto [first, second] = curvatureWeights(jet);
+    double *curvature = rows_.own(i, SampleRows::Curvature), *across = rows_.own(i, SampleRows::Across),
+           *along = rows_.own(i, SampleRows::Along);
+    for (int j = 0; j <= kQuintic; ++j) {
+      const double value = basis.d[0][j];
+      Vec2 change = basis.d[1][j] * first + basis.d[2][j] * second;
+      change -= nonlocal_[i] * value * tangent;
+      Eigen::Map<Vec2>(curvature + 2 * j) = change;
+      Eigen::Map<Vec2>(across + 2 * j) = value * normal;
+      Eigen::Map<Vec2>(along + 2 * j) = value * tangent;
+    }
+    return;
+  }
+  LocalRow local = profile ? curvatureRow(jet, basis, degree) : curvatureSlopeRow(jet, basis, degree);
+  for (int j = 0; j <= degree; ++j) local[j] -= nonlocal_[i] * basis.d[0][j] * tangent;
+  rows_.set(i, SampleRows::Curvature, span, local);
+  rows_.set(i, SampleRows::Across, span, positionRow(normal, basis, degree));
+  rows_.set(i, SampleRows::Along, span, positionRow(tangent, basis, degree));
 }
 
 void FairingModel::assemble() {
@@ -114,23 +126,11 @@ void FairingModel::assemble() {
   stiffness_ = BandedMatrix(unknowns.count(), unknowns.halfWidth(), false);
   mass_ = stiffness_;
   tangentFloor_ = kTangentFloor * dampingUnit_;
-  for (int i = 0; i < setup_->sampleCount() && !setup_->check.isCancelled(); ++i) {
-    const auto index = unknowns.indices(state_->arc.places[i].span);
-    const double w2 = weight_[i] * weight_[i], f2 = corridorCurvature_[i] * across_[i] * across_[i];
-    for (std::size_t b = 0; b < index.size(); ++b) {
-      const auto col = static_cast<Eigen::Index>(b);
-      const double l = w2 * local_(col, i), f = f2 * normal_(col, i), n = dampingUnit_ * normal_(col, i),
-                   t = dampingUnit_ * tangent_(col, i);
-      double* stiff = &stiffness_.entry(index[b], 0);
-      double* mass = &mass_.entry(index[b], 0);
-      for (std::size_t a = b; a < index.size(); ++a) {
-        const auto row = static_cast<Eigen::Index>(a);
-        const int below = index[a] - index[b];
-        stiff[below] += l * local_(row, i) + f * normal_(row, i) + kTangentFloor * t * tangent_(row, i);
-        mass[below] += n * normal_(row, i) + kTangentDamping * t * tangent_(row, i);
-      }
-    }
-  }
+  SampleRows::Squares squares{{}, dampingUnit_, kTangentFloor, kTangentDamping};
+  squares.weights.reserve(setup_->start.places.size());
+  for (int i = 0; i < setup_->sampleCount(); ++i)
+    squares.weights.push_back({weight_[i] * weight_[i], corridorCurvature_[i] * across_[i] * across_[i]});
+  rows_.addSquares(squares, setup_->check, stiffness_, mass_);
 }
 
 FairingModel::Integral FairingModel::cumulative(const Eigen::VectorXd& values) const {
@@ -186,68 +186,34 @@ FairingModel::Transposed FairingModel::transposed(const Eigen::VectorXd& y) cons
 }
 
 Eigen::VectorXd FairingModel::apply(const Eigen::VectorXd& v) const {
-  const int count = setup_->sampleCount();
-  Eigen::VectorXd local(count), normal(count);
-  for (int i = 0; i < count; ++i) {
-    local[i] = dot(local_, i, v);
-    normal[i] = dot(normal_, i, v);
-  }
-  return applyTo(local, normal, setup_->closed ? dot(tangent_, 0, v) : 0.0);
+  const SampleRows::Products moves = rows_.times(v);
+  return applyTo(moves.curvature, moves.across, setup_->closed ? moves.along[0] : 0.0);
 }
 
 Eigen::VectorXd FairingModel::applyTransposed(const Eigen::VectorXd& y) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(setup_->unknowns.count());
   const Transposed back = transposed(y);
-  for (int i = 0; i < setup_->sampleCount(); ++i) {
-    accumulate(local_, i, back.local[i], out);
-    accumulate(normal_, i, back.normal[i], out);
-  }
-  if (setup_->closed) accumulate(tangent_, 0, back.shift, out);
+  rows_.addTransposed(back.local, back.normal, out);
+  if (setup_->closed) rows_.addFirstAlong(back.shift, out);
   return out;
 }
 
 Eigen::VectorXd FairingModel::distances(const Eigen::VectorXd& v) const {
-  Eigen::VectorXd result(setup_->sampleCount());
-  for (int i = 0; i < setup_->sampleCount(); ++i) result[i] = across_[i] * dot(normal_, i, v);
-  return result;
+  return across_.cwiseProduct(rows_.acrossTimes(v));
 }
 
 Eigen::VectorXd FairingModel::applyNormal(const Eigen::VectorXd& v, double damping) const {
-  constexpr int kQuintic = 12;  // unknowns of a span whose control points are all free: the usual case, in registers
-  return setup_->unknowns.stride() == kQuintic ? applyNormalOf<kQuintic>(v, damping)
-                                               : applyNormalOf<Eigen::Dynamic>(v, damping);
-}
-
-/// All rows of a sample are gone through at once: this is what conjugate gradients spend their time on. Spans with
-/// fewer unknowns have zeros behind them.
-template <int Stride>
-Eigen::VectorXd FairingModel::applyNormalOf(const Eigen::VectorXd& v, double damping) const {
-  using Row = Eigen::Map<const Eigen::Matrix<double, Stride, 1>>;
-  const int count = setup_->sampleCount();
-  const Eigen::Index stride = setup_->unknowns.stride();
-  const auto indexOf = [&](int i) { return setup_->unknowns.indices(state_->arc.places[i].span); };
-  Eigen::VectorXd local(count), normal(count), tangent(count);
-  Eigen::Matrix<double, Stride, 1> near = Eigen::Matrix<double, Stride, 1>::Zero(stride);
-  for (int i = 0; i < count; ++i) {
-    const auto index = indexOf(i);
-    near.setZero();
-    for (std::size_t k = 0; k < index.size(); ++k) near[static_cast<Eigen::Index>(k)] = v[index[k]];
-    local[i] = Row(&local_(0, i), stride).dot(near);
-    normal[i] = Row(&normal_(0, i), stride).dot(near);
-    tangent[i] = Row(&tangent_(0, i), stride).dot(near);
-  }
-  const Eigen::VectorXd y = applyTo(local, normal, setup_->closed ? tangent[0] : 0.0);
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(v.size());
-  const Transposed back = transposed(y);
+  SampleRows::Products moves = rows_.times(v);
+  const Eigen::VectorXd y = applyTo(moves.curvature, moves.across, setup_->closed ? moves.along[0] : 0.0);
+  Transposed back = transposed(y);
   const double along = damping * kTangentDamping * dampingUnit_ + tangentFloor_, across = damping * dampingUnit_;
-  for (int i = 0; i < count; ++i) {
-    const auto index = indexOf(i);
-    const double n = back.normal[i] + (corridorCurvature_[i] * across_[i] * across_[i] + across) * normal[i];
-    const double t = along * tangent[i] + (setup_->closed && i == 0 ? back.shift : 0.0);
-    near =
-        back.local[i] * Row(&local_(0, i), stride) + n * Row(&normal_(0, i), stride) + t * Row(&tangent_(0, i), stride);
-    for (std::size_t k = 0; k < index.size(); ++k) out[index[k]] += near[static_cast<Eigen::Index>(k)];
+  for (int i = 0; i < setup_->sampleCount(); ++i) {
+    moves.across[i] = back.normal[i] + (corridorCurvature_[i] * across_[i] * across_[i] + across) * moves.across[i];
+    moves.along[i] = along * moves.along[i] + (setup_->closed && i == 0 ? back.shift : 0.0);
   }
+  moves.curvature = std::move(back.local);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(v.size());
+  rows_.addTransposedSums(moves, out);
   return out;
 }
 

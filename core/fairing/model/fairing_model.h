@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/fairing/model/fairing_state.h"
+#include "core/fairing/model/sample_rows.h"
 #include "core/solve/banded_matrix.h"
 
 namespace batten {
@@ -14,6 +15,8 @@ class FairingModel {
  public:
   FairingModel(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
                const FairingState& state);
+  /// At another state, over the same unknowns: uses the memory that it has.
+  void remake(const FairingObjective& objective, const FairingCorridor& corridor, const FairingState& state);
   /// J v and J' y of the curvature residuals, with samples that are re-located at equal arc fractions.
   Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
   Eigen::VectorXd applyTransposed(const Eigen::VectorXd& y) const;
@@ -25,8 +28,7 @@ class FairingModel {
   std::optional<Eigen::VectorXd> step(double damping) const;
 
  private:
-  double dot(const Eigen::MatrixXd& rows, int sample, const Eigen::VectorXd& v) const;
-  void accumulate(const Eigen::MatrixXd& rows, int sample, double factor, Eigen::VectorXd& out) const;
+  void setRows(int sample, const Vec2& tangent, const Vec2& normal, bool profile);
   void assemble();
   /// What J' y adds to the rows: per sample, and of a closed curve to the tangent of the first one.
   struct Transposed {
@@ -42,14 +44,12 @@ class FairingModel {
   Eigen::VectorXd applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const;
   Transposed transposed(const Eigen::VectorXd& y) const;
   Eigen::VectorXd applyNormal(const Eigen::VectorXd& v, double damping) const;
-  template <int Stride>
-  Eigen::VectorXd applyNormalOf(const Eigen::VectorXd& v, double damping) const;
   Integral cumulative(const Eigen::VectorXd& values) const;
   Eigen::VectorXd cumulativeTransposed(const Eigen::VectorXd& values, double total) const;
 
   const FairingSetup* setup_;
   const FairingState* state_;
-  Eigen::MatrixXd local_, normal_, tangent_;  ///< One column a sample, over indices(span).
+  SampleRows rows_;
   Eigen::VectorXd across_;  ///< Cosine between the curve's normal and the sketch's: signed distances change by it.
   Eigen::VectorXd weight_, nonlocal_, lengthTerm_, corridorCurvature_, gradient_;
   double stepLength_ = 0.0, tangentFloor_ = 0.0, dampingUnit_ = 0.0;

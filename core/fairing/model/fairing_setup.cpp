@@ -73,15 +73,29 @@ int turnsFor(const SpanCurve& from, int span, int least) {
   return turned < kMostChecks ? std::max(static_cast<int>(turned), least) : kMostChecks;
 }
 
-/// Of two curves over one basis.
-double largestDistance(const SpanCurve& from, const SpanCurve& to, CancelCheck check) {
+/// The span at whose middle two curves over one basis are farthest apart.
+int farthestSpan(const SpanCurve& a, const SpanCurve& b) {
+  double most = -1.0;
+  int farthest = 0;
+  for (int span = 0; span < a.basis().spanCount(); ++span) {
+    const double apart = (a.at({span, 0.5}, 0)[0] - b.at({span, 0.5}, 0)[0]).squaredNorm();
+    if (apart > most) most = apart, farthest = span;
+  }
+  return farthest;
+}
+
+/// Of two curves over one basis; no more than that it is more than `enough`, where it is.
+double largestDistance(const SpanCurve& from, const SpanCurve& to, double enough, CancelCheck check) {
   const auto same = [](const SpanPlace& place) { return place; };
   double largest = 0.0;
   const int spans = from.basis().spanCount();
-  for (int span = 0; span < spans && !check.isCancelled(); ++span)
+  const auto isMore = [&] { return largest > enough && std::isfinite(largest); };
+  if (std::isfinite(enough) && !check.isCancelled())
+    largest = largestInSpan(from, to, farthestSpan(from, to), kChecksPerSpan, same);
+  for (int span = 0; span < spans && !isMore() && !check.isCancelled(); ++span)
     largest = std::max(largest, largestInSpan(from, to, span, kChecksPerSpan, same));
   if (!std::isfinite(largest)) return std::numeric_limits<double>::max();
-  for (int span = 0; span < spans && largest > 0.0 && !check.isCancelled(); ++span) {
+  for (int span = 0; span < spans && largest > 0.0 && !isMore() && !check.isCancelled(); ++span) {
     const int checks = checksFor(from, to, span, largest);
     if (checks > kChecksPerSpan) largest = std::max(largest, largestInSpan(from, to, span, checks, same));
   }
@@ -89,11 +103,12 @@ double largestDistance(const SpanCurve& from, const SpanCurve& to, CancelCheck c
 }
 
 /// Of a curve over fewer knots and the sketched one.
-double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays) {
+double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays, double enough) {
   const int spans = setup.basis.spanCount(), sketched = setup.reference.basis().spanCount();
   const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
   double largest = 0.0;
-  for (int span = 0; span < spans && !setup.check.isCancelled(); ++span) {
+  const auto isMore = [&] { return kUnseenOverFewerKnots * largest > enough && std::isfinite(largest); };
+  for (int span = 0; span < spans && !isMore() && !setup.check.isCancelled(); ++span) {
     largest = std::max(largest, largestInSpan(curve, setup.reference, span, turnsFor(curve, span, checks),
                                               [&](const SpanPlace& place) { return setup.sketchedPlace(place); }));
   }
@@ -106,7 +121,7 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
     while (span + 1 < spans && setup.basis.begin(span + 1) <= u) ++span;
     return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
   };
-  for (int span = 0; bothWays && span < sketched && !setup.check.isCancelled(); ++span) {
+  for (int span = 0; bothWays && span < sketched && !isMore() && !setup.check.isCancelled(); ++span) {
     largest =
         std::max(largest, largestInSpan(setup.reference, curve, span, turnsFor(setup.reference, span, kChecksPerSpan),
                                         [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
@@ -240,11 +255,12 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
   return fromPeriodic(form, setup.original);
 }
 
-double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays) {
+double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays, double enoughMm) {
   const SpanCurve curve(setup.basis, points);
-  if (setup.sketch) return largestDistanceOverFewerKnots(setup, curve, bothWays);
-  const double there = largestDistance(curve, setup.reference, setup.check);
-  return bothWays ? std::max(there, largestDistance(setup.reference, curve, setup.check)) : there;
+  if (setup.sketch) return largestDistanceOverFewerKnots(setup, curve, bothWays, enoughMm);
+  const double there = largestDistance(curve, setup.reference, enoughMm, setup.check);
+  if (!bothWays || there > enoughMm) return there;
+  return std::max(there, largestDistance(setup.reference, curve, enoughMm, setup.check));
 }
 
 FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {

@@ -33,6 +33,7 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
   state.residual.resize(count);
   const double length = state.arc.length, domain = setup.original.end() - setup.original.start();
   const bool profile = !objective.wanted.empty();
+  const double root = std::sqrt(count), spread = std::sqrt(length / count);
   double misfit = 0.0;  // so far
   const double givesUpAt = kSurelyMore * most;
   for (int i = 0; i < count; ++i) {
@@ -47,8 +48,8 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
     if (foot[1].norm() > 0.0) sample.normalAtFoot = leftNormal(foot[1].normalized());
     const double e = sample.distance = (jet[0] - foot[0]).dot(sample.normalAtFoot);
     state.residual[i] = profile ? (sample.curvature.kappa - setup.start.length / length * objective.wanted[i]) /
-                                      objective.reference / std::sqrt(count)
-                                : sample.curvature.slope * std::sqrt(length / count) / objective.reference;
+                                      objective.reference / root
+                                : sample.curvature.slope * spread / objective.reference;
     const double miss = e - setup.offsetAt(sample.foot);
     state.total += corridor.weight * corridor.weight * miss * miss / count;
     if (corridor.barrier) {

@@ -29,8 +29,10 @@ constexpr LevenbergOptions kFairingSteps{.success = 8.0,
 constexpr double kBarrierShare = 0.95;
 
 /// The largest share of a step that keeps every sample's distance within the bound of the barrier, by the linear model.
-double shareWithin(const FairingCorridor& corridor, const FairingState& state, const Eigen::VectorXd& change) {
+double shareWithin(const FairingCorridor& corridor, const FairingState& state, const FairingModel& model,
+                   const Eigen::VectorXd& step) {
   if (!corridor.barrier) return 1.0;
+  const Eigen::VectorXd change = model.distances(step);
   const double bound = corridor.barrier->boundMm;
   double share = 1.0;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
@@ -48,13 +50,17 @@ class FairingProblem final : public LevenbergProblem {
       : setup_(setup), objective_(objective), corridor_(corridor), state_(std::move(start)) {}
 
   double linearise() override {
-    model_.emplace(setup_, objective_, corridor_, state_);
+    if (model_) {
+      model_->remake(objective_, corridor_, state_);
+    } else {
+      model_.emplace(setup_, objective_, corridor_, state_);
+    }
     return state_.total;
   }
   double tryStep(double damping) override {
     const auto step = model_->step(damping);
     if (!step) return std::numeric_limits<double>::infinity();
-    const double share = shareWithin(corridor_, state_, model_->distances(*step));
+    const double share = shareWithin(corridor_, state_, *model_, *step);
     std::vector<Vec2> points = state_.points;
     setup_.unknowns.move(share * *step, points);
     promised_ = -2.0 * share * model_->gradient().dot(*step);

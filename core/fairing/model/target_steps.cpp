@@ -27,6 +27,15 @@ constexpr int kLongCurve = 600;
 constexpr double kOutOfReach = 0.02;                                         // of the extent
 constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};  // the same, of long curves
 
+/// Of the control points. No place of the curve moves farther, and hardly a foot point is missed by as much again.
+constexpr double kSurelyWithin = 2.0;
+double largestMove(const FairingSetup& setup, const std::vector<Vec2>& points) {
+  if (setup.sketch) return std::numeric_limits<double>::infinity();  // begins beside the sketch
+  double most = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) most = std::max(most, (points[i] - setup.points[i]).norm());
+  return most;
+}
+
 }  // namespace
 
 Result<FairingObjective> targetObjective(const FairingSetup& setup, const TargetProfile& profile) {
@@ -51,6 +60,38 @@ Result<FairingObjective> targetObjective(const FairingSetup& setup, const Target
 
 int extremaAsked(const FairingSetup& setup, const FairingObjective& objective) {
   return countExtrema(objective.wanted, kExtremumProminence / setup.extent, setup.closed);
+}
+
+double TargetStep::deviationMm() const {
+  if (!deviationMm_) deviationMm_ = largestDeviation(*setup, points, true);
+  return *deviationMm_;
+}
+
+bool TargetStep::isWithin(double mm) const {
+  if (deviationMm_) return *deviationMm_ <= mm;
+  if (mm == std::numeric_limits<double>::infinity()) return true;
+  if (leastMm_ > mm) return false;
+  if (kSurelyWithin * largestMove(*setup, points) <= mm) return true;
+  const double deviation = largestDeviation(*setup, points, true, mm);
+  if (deviation > mm) {
+    leastMm_ = deviation;
+  } else {
+    deviationMm_ = deviation;
+  }
+  return deviation <= mm;
+}
+
+int TargetStep::extrema() const {
+  if (!extrema_) {
+    const auto curve = toCurve(*setup, points);
+    extrema_ = curve ? countedExtrema(*curve, setup->closed, setup->check) : 0;
+  }
+  return *extrema_;
+}
+
+void TargetStep::measured(double deviationMm, int extrema) {
+  deviationMm_ = deviationMm;
+  extrema_ = extrema;
 }
 
 TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
@@ -79,7 +120,7 @@ void TargetSteps::reach(double mostMm) {
 /// On the way from the sketch; the step at the target is no reason to end before it.
 std::optional<std::size_t> TargetSteps::firstBeyond(double mostMm) const {
   for (std::size_t i = steps_.size(); i-- > 0;)
-    if (steps_[i].weight > smallest_ && steps_[i].deviationMm > mostMm) return i;
+    if (steps_[i].weight > smallest_ && !steps_[i].isWithin(mostMm)) return i;
   return std::nullopt;
 }
 
@@ -89,8 +130,10 @@ double TargetSteps::weightOf(int step) const {
 
 /// From the sketch to the target: each step starts from the one before, which lies near.
 void TargetSteps::follow(double mostMm) {
-  TargetStep from{0.0, setup_.points,      setup_.start.places, LevenbergOptions{}.damping, 0.0, 0.0,
-                  0,   Termination::NotRun};
+  TargetStep from;
+  from.points = setup_.points;
+  from.feet = setup_.start.places;
+  from.damping = LevenbergOptions{}.damping;
   if (!steps_.empty()) from = steps_.front();
   std::reverse(steps_.begin(), steps_.end());
   bool isBeyond = false;
@@ -100,15 +143,15 @@ void TargetSteps::follow(double mostMm) {
     const FairingLimits limits = i > 0 ? (long_ ? kRough : kWarm) : long_ ? kProbe : kFull;
     auto step = solve(weightOf(i), from, limits);
     if (!step) break;
+    isBeyond = i > 0 && !step->isWithin(mostMm);
     from = *step;
     steps_.push_back(std::move(*step));
-    isBeyond = i > 0 && from.deviationMm > mostMm;
   }
   std::reverse(steps_.begin(), steps_.end());
   if (context_.isCancelled()) steps_.clear();
   if (isBeyond) return;
   next_.reset();
-  rough_ = long_ && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup_.extent;
+  rough_ = long_ && !steps_.empty() && !steps_.front().isWithin(kOutOfReach * setup_.extent);
   if (!long_ || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
   if (auto step = solve(smallest_, steps_.front(), kRest)) steps_.front() = std::move(*step);
 }
@@ -128,8 +171,7 @@ std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& fr
   step.damping = run.damping;
   step.misfit = run.state.misfit;
   step.why = run.why;
-  step.deviationMm = largestDeviation(setup_, run.state.points, true);
-  step.extrema = countedExtrema(*curve, setup_.closed, setup_.check);
+  step.setup = &setup_;
   step.points = std::move(run.state.points);
   step.feet = run.state.feet();
   return step;

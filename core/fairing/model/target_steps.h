@@ -27,17 +27,29 @@ struct TargetStep {
   double weight = 0.0;  ///< [1/mm] Of the distance from the sketch.
   std::vector<Vec2> points;
   std::vector<SpanPlace> feet;
-  double damping = 1e-3;     ///< As FairingLimits::damping.
-  double misfit = 0.0;       ///< Of the profile, squared.
-  double deviationMm = 0.0;  ///< From the sketch, both ways.
-  int extrema = 0;           ///< Of the usual prominence.
+  double damping = 1e-3;  ///< As FairingLimits::damping.
+  double misfit = 0.0;    ///< Of the profile, squared.
   Termination why = Termination::IterationLimit;
+  const FairingSetup* setup = nullptr;  ///< Of the points.
+
+  /// From the sketch, both ways. This and the extrema are measured where they are asked for: many steps are only known
+  /// to be too far off.
+  double deviationMm() const;
+  bool isWithin(double mm) const;  ///< deviationMm() <= mm
+  int extrema() const;             ///< Of the usual prominence.
+  void measured(double deviationMm, int extrema);
+
+ private:
+  mutable std::optional<double> deviationMm_;
+  mutable double leastMm_ = 0.0;  ///< Part of the deviation, where all of it is not known.
+  mutable std::optional<int> extrema_;
 };
 
 /// Follows a target: the curve that meets it fully, and curves that hold nearer and nearer to the sketch. They depend
 /// on sketch and target alone, so what is found within a tolerance is found within a larger one too.
 class TargetSteps {
  public:
+  /// @param context must outlive it, as must the setup and the objective.
   /// @param mostMm the steps end, and none meets the target, where the curve has left the sketch by more than this.
   TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
               double mostMm = std::numeric_limits<double>::infinity());

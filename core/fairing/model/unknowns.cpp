@@ -155,6 +155,10 @@ void Unknowns::buildSpans(const SpanBasis& basis) {
         }
       }
     }
+    const auto isOwn = [](const auto& slots) { return slots.size() == 1 && slots.front().second == 1.0; };
+    if (map.index.size() == map.slots.size() && std::all_of(map.slots.begin(), map.slots.end(), isOwn))
+      for (const auto& slots : map.slots) map.own.push_back(slots.front().first);
+    map.isInOrder = !map.own.empty() && std::is_sorted(map.own.begin(), map.own.end());
     stride_ = std::max(stride_, static_cast<int>(map.index.size()));
     if (!map.index.empty()) halfWidth_ = std::max(halfWidth_, map.index.back() - map.index.front());
   }
@@ -162,6 +166,15 @@ void Unknowns::buildSpans(const SpanBasis& basis) {
 
 void Unknowns::reduce(int span, const LocalRow& local, double* values) const {
   const SpanMap& map = spans_[span];
+  if (map.isInOrder) {  // the usual case
+    for (std::size_t j = 0; 2 * j < map.own.size(); ++j) Eigen::Map<Vec2>(values + 2 * j) = local[j];
+    return;
+  }
+  if (!map.own.empty()) {
+    for (std::size_t i = 0; i < map.own.size(); ++i)
+      values[map.own[i]] = local[i / 2][static_cast<Eigen::Index>(i % 2)];
+    return;
+  }
   std::fill(values, values + map.index.size(), 0.0);
   for (std::size_t i = 0; i < map.slots.size(); ++i) {
     const double value = local[i / 2][static_cast<Eigen::Index>(i % 2)];

@@ -25,6 +25,8 @@ class Unknowns {
   int halfWidth() const { return halfWidth_; }
   int stride() const { return stride_; }  ///< Largest number of unknowns that a span depends on.
   std::span<const int> indices(int span) const { return spans_[span].index; }
+  /// Whether the coordinates of a span's control points are its unknowns, in their order.
+  bool isInOrder(int span) const { return spans_[span].isInOrder; }
   /// Local row over the control points of a span to values over indices(span).
   void reduce(int span, const LocalRow& local, double* values) const;
   /// Adds the displacement of the unknowns to the control points.
@@ -38,6 +40,8 @@ class Unknowns {
   struct SpanMap {
     std::vector<int> index;
     std::vector<std::vector<std::pair<int, double>>> slots;  ///< Per local coordinate 2j + c: (slot, factor).
+    std::vector<int> own;    ///< Where each local coordinate is an unknown of its own: the slots. Else empty.
+    bool isInOrder = false;  ///< Those slots are 0, 1, 2, …
   };
   void buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold);
   void buildPeriodic(int points);

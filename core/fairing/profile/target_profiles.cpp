@@ -133,6 +133,12 @@ double TargetProfile::curvatureAt(double f) const {
   return std::isfinite(kappa) ? kappa : 0.0;
 }
 
+TargetProfile fitTarget(const NurbsCurve& curve, const TargetParams& params, bool closed, int degree) {
+  const CurvatureSamples samples = sampledCurvature(curve, params.samples);
+  const ProfileData data = profileData(samples.perimeters(), samples.kappa, extent(curve), params.quantity);
+  return fitProfile(data, params, closed, degree, curve.controlPointCount());
+}
+
 TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool closed) {
   TargetSet set;
   if (curve.isEmpty()) {

@@ -96,6 +96,8 @@ struct TargetSet {
 /// @param closed value and slope of the profile at f = 1 equal those at 0 (degrees 1 and 2: a circle); `monotone` is
 /// off.
 TargetSet fitTargets(const NurbsCurve&, const TargetParams&, bool closed = false);
+/// The one of a degree alone.
+TargetProfile fitTarget(const NurbsCurve&, const TargetParams&, bool closed, int degree);
 
 /// The polynomial fit alone, for tests and for other data. `f` in 0..1.
 std::vector<double> fitPolynomial(std::span<const double> f, std::span<const double> values, int degree);

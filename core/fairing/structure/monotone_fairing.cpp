@@ -114,7 +114,7 @@ class MonotoneFairing {
       const TargetSteps followed(setup_, *objective, context_, mostMm);
       iterations_ += followed.iterations();
       for (const TargetStep& step : followed.steps())
-        curves.push_back(candidates_.overSketch(step.points, step.extrema, step.deviationMm));
+        curves.push_back(candidates_.overSketch(step.points, step.extrema(), step.deviationMm()));
     }
     return curves;
   }

@@ -68,9 +68,9 @@ class ShapeModification {
         onlyNeed_(effort.onlyNeed),
         isFiltered_(effort.isFiltered),
         notes_(effort.isFiltered ? kNotesOfFilter : kNotesOfTarget),
+        sketchedExtrema_(target.sketchedExtrema()),
         asked_(extremaAsked(sketch_, objective_)) {
-    if (effort.asked == ExtremaAsked::UpToSketch)
-      asked_ = std::min(asked_, countedExtrema(sketch_.original, sketch_.closed, sketch_.check));
+    if (effort.asked == ExtremaAsked::UpToSketch) asked_ = std::min(asked_, sketchedExtrema_);
     if (onlyIfMet_ || onlyNeed_) mostMm_ = kBeyondReach * toleranceMm;
     openAll();
     // One that comes to its target decides together with the others, which are then followed to the end.
@@ -90,10 +90,10 @@ class ShapeModification {
     }
     best_.points = sketch_.points;
     best_.misfit = before->misfit;
-    best_.extrema = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
+    best_.measured(0.0, sketchedExtrema_);
     report_.objectiveBefore = std::sqrt(best_.misfit);
     const TargetStep& full = fullStep();
-    report_.neededMm = toleranceFor(full.deviationMm);
+    report_.neededMm = toleranceFor(full.deviationMm());
     metMisfit_ = full.misfit;
     if (!isFiltered_) takeUpTo(toleranceMm_);
     report_.withinTolerance = !courses_.front().followed->endsEarly() && *report_.neededMm <= toleranceMm_;
@@ -113,7 +113,7 @@ class ShapeModification {
   /// The tolerance that meets the target; nothing where no course came to it.
   std::optional<double> neededMm() const {
     if (courses_.empty() || isBeyond()) return std::nullopt;
-    return toleranceFor(fullStep().deviationMm);
+    return toleranceFor(fullStep().deviationMm());
   }
 
  private:
@@ -130,14 +130,12 @@ class ShapeModification {
     for (const TargetCourse& calm : target_.calm(mostMm_)) open(calm);
   }
   /// A target that is so far from the sketch is not looked for over fewer knots.
-  bool isBeyond() const {
-    return !courses_.empty() && courses_.front().followed->steps().front().deviationMm > mostMm_;
-  }
+  bool isBeyond() const { return !courses_.empty() && !courses_.front().followed->steps().front().isWithin(mostMm_); }
   /// Where the target is met without tremor, there is none to be passed over.
   bool isCalm() const {
     if (courses_.empty() || courses_.front().followed->endsEarly()) return false;
     const auto steps = courses_.front().followed->steps();
-    return !steps.empty() && steps.front().extrema <= asked_;
+    return !steps.empty() && steps.front().extrema() <= asked_;
   }
   void open(const TargetCourse& course) {
     if (!course.followed->steps().empty()) courses_.push_back({course.setup.get(), course.followed.get()});
@@ -149,19 +147,19 @@ class ShapeModification {
       if (course.followed->steps().front().misfit < best->followed->steps().front().misfit) best = &course;
     return best->followed->steps().front();
   }
-  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kToleranceRoom * toleranceMm_; }
+  bool isWithin(const TargetStep& step) const { return step.isWithin(kToleranceRoom * toleranceMm_); }
   /// Extrema that the target itself has are no fault.
-  int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
+  int rank(const TargetStep& step) const { return std::max(step.extrema(), asked_); }
 
   /// Steps within a tolerance, those that move least first.
   void takeUpTo(double toleranceMm) {
     std::vector<std::pair<const TargetStep*, const Course*>> within;
     for (const Course& course : courses_)
       for (const TargetStep& step : course.followed->steps())
-        if (step.deviationMm <= kToleranceRoom * toleranceMm) within.emplace_back(&step, &course);
+        if (step.isWithin(kToleranceRoom * toleranceMm)) within.emplace_back(&step, &course);
     if (isFiltered_) {
       std::stable_sort(within.begin(), within.end(),
-                       [](const auto& a, const auto& b) { return a.first->deviationMm < b.first->deviationMm; });
+                       [](const auto& a, const auto& b) { return a.first->deviationMm() < b.first->deviationMm(); });
     }
     for (const auto& [step, course] : within) take(*step, course);
   }
@@ -185,7 +183,7 @@ class ShapeModification {
   }
 
   void take(const TargetStep& step, const Course* course) {
-    if (isFiltered_ && step.extrema > best_.extrema) return;
+    if (isFiltered_ && step.extrema() > best_.extrema()) return;
     const bool better = rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit);
     // Few extrema are no merit of a curve that is farther from the filtered curvature than the sketch: it lost long
     // waves.
@@ -197,7 +195,7 @@ class ShapeModification {
 
   /// What only this tolerance has found must not win extrema that a larger one would not find again.
   void takeOfSameRank(const TargetStep& step, const Course* course) {
-    if (isFiltered_ ? step.extrema == best_.extrema : rank(step) == rank(best_)) take(step, course);
+    if (isFiltered_ ? step.extrema() == best_.extrema() : rank(step) == rank(best_)) take(step, course);
   }
 
   /// The steps on both sides of a tolerance: the last that leaves it, and the first that keeps it.
@@ -207,7 +205,7 @@ class ShapeModification {
   Sides sidesOf(const Course& course, double toleranceMm) const {
     Sides sides;
     for (const TargetStep& step : course.followed->steps()) {
-      if (step.deviationMm <= kToleranceRoom * toleranceMm) {
+      if (step.isWithin(kToleranceRoom * toleranceMm)) {
         sides.inside = &step;
         break;
       }
@@ -231,16 +229,17 @@ class ShapeModification {
   /// Steps that use more and more of a tolerance.
   std::vector<TargetStep> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
     std::vector<TargetStep> found;
+    sides.outside->deviationMm();  // before it is copied: other tolerances ask for it, too
     TargetStep wide = *sides.outside;
     std::optional<TargetStep> near;
     if (sides.inside) near = *sides.inside;
     for (int i = 0; i < most && !context_.isCancelled(); ++i) {
-      if (near && (near->deviationMm >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide.weight))
+      if (near && (near->deviationMm() >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide.weight))
         break;
       const double weight = near ? weightBetween(wide, *near, toleranceMm) : kWeightStep * wide.weight;
       auto step = course.followed->between(near ? *near : wide, weight);
       if (!step) break;
-      if (step->deviationMm <= kToleranceRoom * toleranceMm) {
+      if (step->isWithin(kToleranceRoom * toleranceMm)) {
         found.push_back(*step);
         near = std::move(step);
       } else {
@@ -260,15 +259,15 @@ class ShapeModification {
     if (course_ != &course || context_.isCancelled()) return;
     const auto polished = course.followed->polished(best_);
     if (polished && isWithin(*polished)) takeOfSameRank(*polished, &course);
-    if (course.setup == &sketch_ && !course.followed->isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
+    if (course.setup == &sketch_ && !course.followed->isRough() && best_.deviationMm() < kStuckShare * toleranceMm_)
       useBarrier(course);
   }
 
   static double weightBetween(const TargetStep& wide, const TargetStep& near, double toleranceMm) {
     const double a = std::log(wide.weight), b = std::log(near.weight);
-    const double da = std::log(wide.deviationMm / toleranceMm);
+    const double da = std::log(wide.deviationMm() / toleranceMm);
     const double db =
-        std::log(std::max(near.deviationMm / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kTargetUsedShare));
+        std::log(std::max(near.deviationMm() / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kTargetUsedShare));
     return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), kNearestShare, 1.0 - kNearestShare) * (b - a));
   }
 
@@ -278,12 +277,12 @@ class ShapeModification {
     report_.iterations += bounded.iterations;
     TargetStep step = best_;
     step.points = std::move(bounded.points);
-    step.deviationMm = keepWithin(sketch_, toleranceMm_, step.points);
+    const double deviationMm = keepWithin(sketch_, toleranceMm_, step.points);
     const auto state = evaluate(sketch_, objective_, {}, step.points, sketch_.start.places);
     const auto curve = toCurve(sketch_, step.points);
     if (!state || !curve) return;
     step.misfit = state->misfit;
-    step.extrema = countedExtrema(*curve, sketch_.closed, sketch_.check);
+    step.measured(deviationMm, countedExtrema(*curve, sketch_.closed, sketch_.check));
     takeOfSameRank(step, &course);
   }
 
@@ -308,7 +307,7 @@ class ShapeModification {
     } else if (!report_.withinTolerance) {
       report_.why = Termination::ToleranceLimited;
       report_.note = notes_.toTolerance;
-      if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
+      if (best_.deviationMm() >= kStuckShare * toleranceMm_) return;
       // The corridor had room left: it was not what stopped the curve.
       report_.note = own.isRough() ? notes_.outOfReach : notes_.inPart;
     }
@@ -322,9 +321,9 @@ class ShapeModification {
       return finished(sketch_, std::move(best_.points), toleranceMm_, std::move(report_));
     auto curve = toCurve(*course_->setup, best_.points);
     if (!curve) return fail(curve.error());
-    report_.maxDeviationMm = best_.deviationMm;
-    report_.extremaBefore = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
-    report_.extremaAfter = best_.extrema;
+    report_.maxDeviationMm = best_.deviationMm();
+    report_.extremaBefore = sketchedExtrema_;
+    report_.extremaAfter = best_.extrema();
     return FairedCurve{std::move(*curve), std::move(report_)};
   }
 
@@ -336,7 +335,7 @@ class ShapeModification {
   std::vector<Course> courses_;
   bool onlyIfMet_, onlyNeed_, isFiltered_;
   const ModificationNotes& notes_;
-  int asked_;
+  int sketchedExtrema_, asked_;
   double metMisfit_ = 0.0;  ///< Of the curve that meets the target.
   TargetStep best_;
   const Course* course_ = nullptr;  ///< To which the best one belongs; null: the sketch is the best.

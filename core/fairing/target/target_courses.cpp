@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fairing/target/target_courses.h"
 
+#include "core/curve/curvature.h"
 #include "core/fairing/model/coarse_setups.h"
 
 namespace batten {
+
+int TargetCourses::sketchedExtrema() {
+  if (!sketchedExtrema_) sketchedExtrema_ = countedExtrema(sketch().original, sketch().closed, sketch().check);
+  return *sketchedExtrema_;
+}
 
 const TargetCourse& TargetCourses::own(double mostMm) {
   follow(own_, mostMm);

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/result.h"
@@ -33,6 +34,7 @@ class TargetCourses {
 
   const RunContext& context() const { return context_; }
   const FairingSetup& sketch() const { return *own_.setup; }
+  int sketchedExtrema();  ///< Curvature extrema of the sketch, of the usual prominence.
   const Result<FairingObjective>& objective() const { return objective_; }
   /// Over the sketch's own knots, up to where the curve has left the sketch by more than `mostMm`. @pre an objective.
   const TargetCourse& own(double mostMm);
@@ -47,6 +49,7 @@ class TargetCourses {
   TargetCourse own_;
   std::vector<TargetCourse> calm_;
   bool hasCalm_ = false;
+  std::optional<int> sketchedExtrema_;
 };
 
 }  // namespace batten

@@ -7,13 +7,6 @@
 #include "core/image/bits/packed_flags.h"
 #include "core/image/grey_image.h"
 
-// Functions that must become part of the loop that calls them, and of its wider vectors.
-#if defined(__GNUC__)
-#define BATTEN_PART_OF_LOOP inline __attribute__((always_inline))
-#else
-#define BATTEN_PART_OF_LOOP inline
-#endif
-
 namespace batten {
 namespace {
 

@@ -232,15 +232,16 @@ TEST(TargetSteps, ReachedLaterAreThoseFollowedAtOnce) {
   ASSERT_TRUE(setup);
   const auto objective = targetObjective(**setup, fitTargets(curve, {}).profiles[0]);
   ASSERT_TRUE(objective);
-  const TargetSteps whole(**setup, *objective, {});
+  const RunContext context;
+  const TargetSteps whole(**setup, *objective, context);
   ASSERT_GT(whole.steps().size(), 3u);
-  const double bound = 1.001 * whole.steps()[2].deviationMm;  // left by the step after it
-  ASSERT_GT(whole.steps()[1].deviationMm, bound);
+  const double bound = 1.001 * whole.steps()[2].deviationMm();  // left by the step after it
+  ASSERT_GT(whole.steps()[1].deviationMm(), bound);
   const auto isSame = [](std::span<const TargetStep> a, std::span<const TargetStep> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const TargetStep& x, const TargetStep& y) { return x.points == y.points; });
   };
-  TargetSteps steps(**setup, *objective, {}, bound);
+  TargetSteps steps(**setup, *objective, context, bound);
   EXPECT_TRUE(steps.endsEarly());
   EXPECT_TRUE(isSame(steps.steps(), whole.steps().subspan(1)));
   const int made = steps.iterations();
