@@ -22,8 +22,8 @@ inline constexpr int kUnknownLanes = 2 * kXLanes + kLengthLanes;  // all of them
 /// Position and three derivatives of `points` Bezier points at a place of which these are the columns, x and y in turn:
 /// summed point by point.
 using PlaceSums = std::array<double, 8>;
-void sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
-               int points, PlaceSums& sums);
+PlaceSums sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
+                    int points);
 
 /// A row of a system with its weight (squared) and its weighted residual.
 struct WeighedRow {
