@@ -164,7 +164,8 @@ class RowSearch {
   const BitImage& ink_;
 };
 
-// Marks by squares of the page.
+// Marks by squares of the page, to look around one as far as it asks and until enough is seen; a PointGrid
+// (core/polyline) looks one cell around, and to its end.
 class MarkGrid {
  public:
   MarkGrid(const Marks& marks, int width) : marks_(marks), columns_(width / kCellPx + 1) {
