@@ -86,7 +86,7 @@ class SpanCurve {
 
 /// Places at equal arc length: `count` of them, both ends included, or for a closed curve the end left out.
 struct EqualArc {
-  double length = 0.0;
+  double length = 0.0;  ///< Of the whole curve.
   std::vector<SpanPlace> places;
 };
 /// Absent when the curve has no length or is not finite. The speed of each half span is taken as the polynomial through

@@ -36,11 +36,13 @@ struct LocalSquares {
   std::array<std::array<double, kRowWidth>, kRowWidth> squares;
   std::array<double, kRowWidth> gradient;
 };
+/// `sums` is the memory of a span: what it held is lost.
 void sumRows(const WeighedRow* rows, int count, int columns, LocalSquares& sums);
 
 /// How the Bezier points of a span depend on its control points and on lengths.
 struct SpanDependence {
   std::array<std::array<double, kXLanes>, kSpanPoints> byPoint;  ///< Bezier points by control points.
+  /// Their coordinates by lengths of spans.
   std::array<std::array<double, kLengthLanes>, kSpanPoints> xByLength, yByLength;
 };
 using UnknownRow = std::array<double, kUnknownLanes>;
@@ -53,6 +55,7 @@ void carrySquares(const LocalSquares& local, const SpanDependence&, int points, 
 /// bezierOfSpan for as many sets of knots as there are lanes: knots[k][lane].
 using KnotLanes = std::array<std::array<double, kLengthLanes>, 2 * kMostLightDegree>;
 using PointLanes = std::array<std::array<double, kLengthLanes>, kSpanPoints>;
+/// @param x,y the memory that keeps them, of which degree + 1 rows are written.
 void bezierOfLanes(int degree, const KnotLanes& knots, const std::array<Vec2, kSpanPoints>& points, PointLanes& x,
                    PointLanes& y);
 

@@ -16,6 +16,7 @@ namespace batten {
 /// Depths at the crests of edges, by their signs.
 struct SignedDepths {
   double darker = 0.0, brighter = 0.0;  ///< Sums, weighted by the strength of the crests; neither is negative.
+  /// @param depth [grey] positive: brighter than the paper.
   void add(double strength, double depth) { (depth > 0.0 ? brighter : darker) += strength * std::fabs(depth); }
   /// Ink and highlights, as white chalk on toned paper: the edges of the highlights tell nothing of the ink.
   bool areMixed() const {
