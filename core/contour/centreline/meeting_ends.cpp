@@ -218,8 +218,7 @@ bool EndLeader::isInked(const LineEnd& end, const std::vector<Vec2>& way) const 
   const double paper = std::max(levelAt(way.front() + aside), levelAt(way.front() - aside));
   const double ink = std::max(levelAt(way.front()), levelAt(way.back()));
   const double palest = ink + kMostPaler * std::max(0.0, paper - ink);
-  return std::all_of(way.begin() + own, way.end(),
-                     [&](const Vec2& at) { return levelAt(at) <= palest; });
+  return std::all_of(way.begin() + own, way.end(), [&](const Vec2& at) { return levelAt(at) <= palest; });
 }
 
 // Straight on where that meets a line well across; else as the line bends.
