@@ -11,6 +11,7 @@
 #define BATTEN_AVX2 __attribute__((target("avx2")))
 
 namespace batten {
+/// Whether this processor has AVX2.
 inline bool hasAvx2() {
   static const bool kHas = __builtin_cpu_supports("avx2") != 0;
   return kHas;

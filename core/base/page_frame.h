@@ -23,6 +23,7 @@ struct PageFrame {
   /// Directions and displacements: the origin plays no part. Unit vectors are to be normalised by the caller.
   Vec2 vectorToModel(const Vec2& px) const { return {px.x() * mmPerPx, -px.y() * mmPerPx}; }
   Vec2 vectorToImage(const Vec2& mm) const { return {mm.x() / mmPerPx, -mm.y() / mmPerPx}; }
+  /// [mm] of [px], and back.
   double lengthToModel(double px) const { return px * mmPerPx; }
   double lengthToImage(double mm) const { return mm / mmPerPx; }
 

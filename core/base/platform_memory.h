@@ -32,6 +32,7 @@ void keepFewHeaps();
 /// piece by piece as it is first written to, which takes longer than the writing: where it can, it is asked for large
 /// pieces. @return null: there is not so much.
 void* allocateBuffer(std::size_t bytes);
+/// Gives back what allocateBuffer gave; null is nothing to give back.
 void freeBuffer(void* buffer);
 
 /// [s] Processor time that this process has used so far, all threads together; 0 if unknown.

@@ -33,7 +33,9 @@ using Result = tl::expected<T, Error>;
 inline tl::unexpected<Error> fail(ErrorCode code, std::string message, std::string detail = {}) {
   return tl::unexpected<Error>(Error{code, std::move(message), std::move(detail)});
 }
+/// The same with an error that another function gave.
 inline tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+/// The failure of a cancelled run.
 inline tl::unexpected<Error> cancelled() { return fail(ErrorCode::Cancelled, "Cancelled."); }
 
 }  // namespace batten

@@ -12,6 +12,7 @@ namespace batten {
 /// a character nor visible - broken UTF-8, control characters (C0, DEL, C1), line and direction marks, spaces without
 /// width, noncharacters - becomes a question mark, one per byte or character.
 std::string shownText(std::string_view bytes);
+/// The same of a path, all of it.
 inline std::string shownName(const std::filesystem::path& path) { return shownText(path.string()); }
 
 /// A name or value as a message may quote it: in quotation marks, as shownText has it, and where it is longer than

@@ -17,6 +17,7 @@ enum class Termination {
   Degenerate,        ///< The input has too little shape (too few points, no length); a fallback was used.
 };
 
+/// In words, as reports hold it: "not run".
 constexpr std::string_view name(Termination t) {
   switch (t) {
     case Termination::NotRun:

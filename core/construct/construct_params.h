@@ -98,6 +98,7 @@ struct ConstructParams {
   bool smoothRagged = true;
   bool operator==(const ConstructParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const ConstructParams&);
 
 }  // namespace batten

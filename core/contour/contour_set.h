@@ -89,7 +89,7 @@ using EndPairs = std::vector<std::pair<int, int>>;
 
 /// A place where three or more branches of strokes meet.
 struct StrokeJunction {
-  Vec2 positionPx = Vec2::Zero();
+  Vec2 positionPx = Vec2::Zero();  ///< [px] Middle of the place.
   double radiusPx = 0.0;           ///< Of the ink of all its strokes.
   std::vector<Vec2> branchesPx;    ///< A place on every branch, where it has a middle of its own.
   EndPairs pairs;                  ///< Branches that are one stroke; a branch in no pair ends here.

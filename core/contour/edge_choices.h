@@ -22,11 +22,12 @@ inline constexpr double kInkReachPx = 24.0;
 /// survives changes of the mask: it applies to the nearest piece of ink within its reach. If several choices apply to
 /// one piece, the last one counts.
 struct EdgeChoice {
-  Vec2 positionPx = Vec2::Zero();
+  Vec2 positionPx = Vec2::Zero();  ///< [px] A place on the ink or near it.
   EdgeMode mode = EdgeMode::Outline;
   double reachPx = kInkReachPx;  ///< More where the page is enlarged; no part of a recipe.
   bool operator==(const EdgeChoice& o) const { return positionPx == o.positionPx && mode == o.mode; }
 };
+/// Its position must be finite.
 std::optional<Error> validate(const EdgeChoice&);
 
 /// Ink that the user has painted as strokes or as a shape, whatever it is told to be: all of it within a distance of a
@@ -39,6 +40,7 @@ struct PaintedInk {
     return coursePx == o.coursePx && radiusPx == o.radiusPx && mode == o.mode;
   }
 };
+/// 1 to 100 000 places, all finite, and a radius within its range.
 std::optional<Error> validate(const PaintedInk&);
 /// [px] Its radius on a page of another scale, as far as it is allowed.
 double scaledRadius(const PaintedInk&, double scale);
@@ -53,11 +55,12 @@ struct BranchPair {
 /// the mask: it applies to the nearest junction within its reach, and a place to the branch nearest to it within the
 /// same reach. If several choices apply to one junction, the last one counts.
 struct JunctionChoice {
-  Vec2 positionPx = Vec2::Zero();
+  Vec2 positionPx = Vec2::Zero();   ///< [px] A place at the junction.
   std::vector<BranchPair> pairs{};  ///< All that are led through; every other stroke ends there.
   double reachPx = kInkReachPx;     ///< More where the page is enlarged; no part of a recipe.
   bool operator==(const JunctionChoice& o) const { return positionPx == o.positionPx && pairs == o.pairs; }
 };
+/// All its places must be finite.
 std::optional<Error> validate(const JunctionChoice&);
 
 }  // namespace batten

@@ -37,6 +37,7 @@ struct EdgeParams {
   std::vector<JunctionChoice> junctions;  ///< Junctions whose strokes the user has paired.
   bool operator==(const EdgeParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const EdgeParams&);
 
 struct ContourParams {
@@ -46,6 +47,7 @@ struct ContourParams {
   int maxCount = 0;          ///< 0..100000. At most this many, the longest; says when it cuts. 0 = all.
   bool operator==(const ContourParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const ContourParams&);
 
 }  // namespace batten

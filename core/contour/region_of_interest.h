@@ -19,6 +19,7 @@ struct RegionOfInterest {
 };
 /// The rectangle with these opposite corners.
 RegionOfInterest rectangleRegion(const Vec2& a, const Vec2& b);
+/// A region needs three corners or more, all finite, and an area.
 std::optional<Error> validate(const RegionOfInterest&);
 
 /// Whether a place lies in one of the regions.

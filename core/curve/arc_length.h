@@ -28,7 +28,7 @@ class ArcLength {
 
 /// One sample of a curve. Units of the curve (mm in the model frame).
 struct CurveSample {
-  double u = 0.0, s = 0.0;
+  double u = 0.0, s = 0.0;  ///< Parameter; arc length from the start.
   Vec2 point = Vec2::Zero();
   Vec2 tangent = Vec2::UnitX();  ///< Unit direction of travel.
   double kappa = 0.0;            ///< 1/unit; 0 where the derivative vanishes.

@@ -12,8 +12,8 @@
 namespace batten {
 
 struct ClosestPoint {
-  double u = 0.0;
-  double distance = 0.0;
+  double u = 0.0;         ///< Parameter.
+  double distance = 0.0;  ///< [unit of the curve] >= 0
   Vec2 point = Vec2::Zero();
 };
 /// Globally closest point: sampled start values, then safeguarded Newton; ends included. Takes time with the length of
@@ -39,8 +39,8 @@ class ClosestPointFinder {
 /// Distances of points from a curve, in its unit.
 struct Deviation {
   double max = 0.0, rms = 0.0, percentile95 = 0.0;
-  int count = 0;
-  Vec2 worstPoint = Vec2::Zero();
+  int count = 0;                   ///< Points measured.
+  Vec2 worstPoint = Vec2::Zero();  ///< The point of the largest distance.
 };
 /// @param ordered the points follow the curve from start to end (edge points do): searches locally, much faster.
 Deviation deviation(const NurbsCurve&, std::span<const Vec2> points, bool ordered, CancelCheck check = {});

@@ -13,6 +13,7 @@ namespace batten {
 /// The control points of one cubic Bezier curve, parameter 0..1.
 using CubicBezier = std::array<Vec2, 4>;
 
+/// The place at t.
 inline Vec2 cubicPoint(const CubicBezier& c, double t) {
   const double s = 1.0 - t;
   return s * s * s * c[0] + 3 * s * s * t * c[1] + 3 * s * t * t * c[2] + t * t * t * c[3];

@@ -20,8 +20,8 @@ std::optional<double> curvatureSlope(const NurbsCurve&, double u);
 inline constexpr double kExtremumProminence = 5e-3;
 
 struct CurvatureExtremumPoint {
-  double u = 0.0, s = 0.0, kappa = 0.0;
-  bool maximum = true;
+  double u = 0.0, s = 0.0, kappa = 0.0;  ///< Parameter, arc length, signed curvature [1/unit].
+  bool maximum = true;                   ///< Of the signed curvature; else a minimum.
 };
 /// Extrema of the signed curvature whose rise above both neighbouring extrema (or ends) exceeds `prominence` [1/unit].
 /// Usual prominence: kExtremumProminence / extent. `periodic`: the end continues at the start.

@@ -10,8 +10,8 @@ namespace batten {
 
 /// An extremum of sampled curvature.
 struct StructureExtremum {
-  int sample = 0;  ///< Where it stands among the samples.
-  bool maximum = true;
+  int sample = 0;       ///< Where it stands among the samples.
+  bool maximum = true;  ///< Of the signed curvature; else a minimum.
 };
 
 /// Which extrema a curvature profile has, in order. Without extrema `rising` says which way it goes.

@@ -13,8 +13,8 @@ inline constexpr double kFootTrust = 0.2;
 
 /// The step of the parameter from a place of a curve towards the foot of a point, the place where (C - p) . C' = 0:
 /// Newton's on half the squared distance, or where its second derivative is not clearly positive Gauss and Newton's,
-/// which always goes downhill. Piegl & Tiller, The NURBS Book, section 6.1. @param offset C - p. @return 0 where the
-/// curve stands still or is not finite.
+/// which always goes downhill. Piegl & Tiller, The NURBS Book, section 6.1. @param offset C - p. @param second zero:
+/// Gauss and Newton's step. @return 0 where the curve stands still or is not finite.
 inline double footStep(const Vec2& offset, const Vec2& first, const Vec2& second) {
   const double speed2 = first.squaredNorm();
   const double bend = speed2 + offset.dot(second);

@@ -12,7 +12,7 @@ namespace batten {
 /// 1 meet there whatever the control points are.
 struct PeriodicForm {
   std::vector<double> knots;  ///< points.size() + 2 degree + 1 values; control point j is points[j modulo size].
-  std::vector<Vec2> points;
+  std::vector<Vec2> points;   ///< Control points.
 };
 
 /// Exact when the curve meets itself with all derivatives up to degree - 1; else its nearest periodic curve in the

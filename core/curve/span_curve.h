@@ -48,12 +48,11 @@ class SpanBasis {
   SpanRow row(const SpanPlace& place, int order) const;
   /// Coefficient of tau^k in basis function j of a span.
   double coefficient(int span, int k, int j) const {
-    return coefficients_[(static_cast<std::size_t>(span) * stride() + static_cast<std::size_t>(k)) * stride() +
-                         static_cast<std::size_t>(j)];
+    return coefficients_[(std::ptrdiff_t{span} * stride() + k) * stride() + j];
   }
 
  private:
-  std::size_t stride() const { return static_cast<std::size_t>(degree_) + 1; }
+  int stride() const { return degree_ + 1; }
   int degree_ = 0, count_ = 0, wrap_ = 0;
   std::vector<double> breaks_, coefficients_;
   std::vector<int> first_;
@@ -87,7 +86,7 @@ class SpanCurve {
 
 /// Places at equal arc length: `count` of them, both ends included, or for a closed curve the end left out.
 struct EqualArc {
-  double length = 0.0;
+  double length = 0.0;  ///< Of the whole curve.
   std::vector<SpanPlace> places;
 };
 /// Absent when the curve has no length or is not finite. The speed of each half span is taken as the polynomial through

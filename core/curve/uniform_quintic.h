@@ -20,7 +20,7 @@ namespace batten {
 /// knots run on for 5 spacings beyond both ends), periodic ones have `spans`. @pre spans >= 1 (closed: >= 6), length >
 /// 0.
 struct UniformKnots {
-  double length = 1.0;
+  double length = 1.0;  ///< Of the domain.
   int spans = 1;
   bool closed = false;
 

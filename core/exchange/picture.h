@@ -32,7 +32,7 @@ struct PictureLine {
   std::vector<Vec2> points;  ///< [px]
   bool closed = false;
   Colour colour{};
-  double widthPx = 1.0;
+  double widthPx = 1.0;  ///< [px]
 };
 
 /// Draws lines, antialiased, over the picture.

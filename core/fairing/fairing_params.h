@@ -75,6 +75,7 @@ struct KeptExtrema {
 };
 /// The number that recipes, reports and the command line hold for it: -1 for as few as the tolerance allows.
 int numberOf(const KeptExtrema&);
+/// What such a number stands for.
 KeptExtrema keptExtremaOf(int number);
 
 /// What is held at an end of an open curve beside its position, which always is.
@@ -112,6 +113,7 @@ struct FairingParams {
   TargetParams targets;
   bool operator==(const FairingParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const FairingParams&);
 
 }  // namespace batten

@@ -15,7 +15,7 @@ namespace batten {
 /// A log-aesthetic stretch of a target (log_aesthetic.h).
 struct LogAestheticSpan {
   double from = 0.0, to = 1.0;  ///< Shares of the arc length; closed: `to` may lie beyond 1.
-  double alpha = 0.0;
+  double alpha = 0.0;           ///< [-] Power of the radius, see LogAesthetic.
   /// [-] Miura's Lambda for a radius of 1 at its start: rho^alpha = 1 + alpha Lambda s (alpha 0: rho = e^(Lambda s)).
   /// 0 where a stretch begins or ends straight, or is a circle.
   double lambda = 0.0;
@@ -24,8 +24,8 @@ struct LogAestheticSpan {
 
 struct FairingReport {
   Termination why = Termination::NotRun;
-  std::string note;  ///< For the user; empty when all went as asked.
-  int iterations = 0;
+  std::string note;                                    ///< For the user; empty when all went as asked.
+  int iterations = 0;                                  ///< Of all minimisations together.
   double objectiveBefore = 0.0, objectiveAfter = 0.0;  ///< Relative curvature misfit, or integral of (dkappa/ds)^2.
   double maxDeviationMm = 0.0;                         ///< From the sketched curve.
   /// The smallest tolerance that meets the target (fairOverLevels), or takes the extrema that are too many; absent: the
@@ -39,7 +39,7 @@ struct FairingReport {
   /// Target mode: S (003 section 6) of the faired curve against the sketched one (similarityToSketch).
   std::optional<double> similarityAfter;
   std::vector<LogAestheticSpan> logAesthetic;  ///< Target 8: what the curve was fitted to.
-  int extremaBefore = 0, extremaAfter = 0;
+  int extremaBefore = 0, extremaAfter = 0;     ///< Of the usual prominence.
   double roundedMm = 0.0;  ///< Largest distance that rounding its corners moved the faired curve; not in the figures
                            ///< above, which are of fairing alone.
   /// Tolerance mode, as needed: standard deviation of a stretch of 8 px of the line's points; absent: not known.

@@ -18,8 +18,8 @@ namespace batten {
 
 /// One list of splits.
 struct TargetLevel {
-  double fromMm = 0.0;  ///< The smallest tolerance that has these splits.
-  std::vector<double> splits;
+  double fromMm = 0.0;         ///< The smallest tolerance that has these splits.
+  std::vector<double> splits;  ///< 0..1 of the arc length, ascending.
 };
 
 /// The targets of one curve over the splits that the parameters ask for: of natural spans those of all tolerances,

@@ -11,7 +11,7 @@ namespace batten {
 /// The holes, or the wires, of a spiral or comb binding.
 struct BindingHoles {
   BitImage cells;  ///< Holes and their rims, and the edge of the sheet beside them; of the size of the cells.
-  int count = 0;
+  int count = 0;   ///< Holes, or wires.
 };
 
 /// Finds a row of at least eight dark holes of one size at one distance, straight along one side of the page and near

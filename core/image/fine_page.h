@@ -31,6 +31,7 @@ struct InkSettings {
 
 /// The page with `kFineFactor` times as many pixels along a side, by cubic interpolation.
 GreyImage enlarged(const GreyImage&, const RunContext&);
+/// Ink, every pixel as kFineFactor x kFineFactor ones.
 BitImage enlarged(const BitImage&, const RunContext&);
 
 /// The page with as much of its ink as lies on `ink`, a part of that of the page.

@@ -28,9 +28,10 @@ std::int16_t* LanesOfValues::add() {
   return &*(values_.end() - lanes_);
 }
 
-void LanesOfValues::leastOf(std::vector<std::int16_t>& out) const {
-  out.assign(lanes_, std::numeric_limits<std::int16_t>::max());
-  for (int k = 0; k < count(); ++k) lessOf(values_.data() + std::ptrdiff_t{k} * lanes_, out.data(), lanes_);
+std::vector<std::int16_t> LanesOfValues::leastOf() const {
+  std::vector<std::int16_t> least(lanes_, std::numeric_limits<std::int16_t>::max());
+  for (int k = 0; k < count(); ++k) lessOf(values_.data() + std::ptrdiff_t{k} * lanes_, least.data(), lanes_);
+  return least;
 }
 
 void LanesOfValues::sortTo(int rank) {

@@ -19,7 +19,7 @@ class LanesOfValues {
   int count() const { return static_cast<int>(values_.size()) / lanes_; }  ///< Of a lane.
   int value(int k, int lane) const { return values_[std::ptrdiff_t{k} * lanes_ + lane] + kMiddle; }
   /// The least value of every lane, less kMiddle.
-  void leastOf(std::vector<std::int16_t>& out) const;
+  std::vector<std::int16_t> leastOf() const;
   /// From here on value `rank` of every lane is the one that has so many smaller ones before it when sorted.
   void sortTo(int rank);
 

@@ -19,6 +19,7 @@ struct LogParams {
                                       ///< clips the bright.
   bool operator==(const LogParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const LogParams&);
 
 /// y = a log(1 + x), clipped to 0..255, for x in 0..255 (000 Eq 1 with the singularity at 0 mended; algorithms: the

@@ -66,6 +66,7 @@ struct PreparedPage {
   bool isUntouched() const { return !grey; }
 };
 
+/// What is wrong with its corners or its inks, if anything.
 std::optional<Error> validate(const PreparationParams&);
 
 /// Makes the grey page that all later stages read. A grey scan of which nothing is left out stays bit by bit as it is.

@@ -22,6 +22,7 @@ struct PageChoice {
   double pdfDpi = 300.0;  ///< [dpi] kCoarsestPdfDpi..kFinestPdfDpi. Of the pages of a PDF.
   bool operator==(const PageChoice&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const PageChoice&);
 
 /// What is known of an image file from its header alone, before any large allocation.
@@ -55,6 +56,7 @@ struct Scan {
 /// path empty; the hash stands for the size.
 /// @pre width and height > 0.
 Scan blankScan(int widthPx, int heightPx, double dpi);
+/// Whether it is such a page.
 bool isBlank(const Scan&);
 
 /// The frame of a scan at a resolution; an absent one means the assumed resolution (conventions.h).

@@ -26,6 +26,7 @@ inline constexpr int kSheetEdgeCells = 7;       ///< The sheet's edge and its sh
 class ShadedPaper {
  public:
   ShadedPaper(const cv::Mat1b& sheet, const SheetCells& cells);
+  /// Whether a patch is the sheet itself in shade.
   bool isOne(const cv::Mat1b& patch) const;
   /// Whether the drawing goes on upon a patch.
   bool isDrawnOn(const cv::Mat1b& patch) const;

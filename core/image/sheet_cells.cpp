@@ -49,7 +49,7 @@ class CellSamples {
       for (int x = 0; x < cellPx_; x += stride_) addPlace(grey_.row(y), x);
     }
     row_ = row;
-    levels_.leastOf(darkest_);
+    darkest_ = levels_.leastOf();
     levels_.sortTo(paperRank());
     steps_.sortTo(steps_.count() / 2);
     lastSteps_.sortTo(lastSteps_.count() / 2);

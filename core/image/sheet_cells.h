@@ -11,6 +11,7 @@ namespace batten {
 
 /// A picture in squares of a few pixels: what the sheet of paper in it is found by.
 struct SheetCells {
+  /// [px] side of a cell; cells across and down.
   int sizePx = 1, columns = 0, rows = 0;
   bool hasTint = false;  ///< Of a grey picture the second and third of `colour` are 0.
   cv::Mat3f colour;      ///< Grey, red less grey, blue less grey; without ink.

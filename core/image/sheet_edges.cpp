@@ -75,8 +75,7 @@ cv::Vec3f medianOf(const FromSide& from, int place, int first, int last) {
     for (int k = 0; k < channels; ++k) values[k][c] = cell[k];
   }
   cv::Vec3f median(0.0f, 0.0f, 0.0f);
-  for (int k = 0; k < channels; ++k)
-    median[k] = upperMedian(std::span(values[k]).first(static_cast<std::size_t>(count)));
+  for (int k = 0; k < channels; ++k) median[k] = upperMedian(std::span(values[k]).first(count));
   return median;
 }
 

@@ -20,6 +20,7 @@ class RowBetweenCells {
  public:
   /// @param values one a cell, row by row; must outlive this.
   RowBetweenCells(std::span<const float> values, int columns, int cellPx, int y);
+  /// [as the values] At the centre of pixel x.
   double at(int x) const;
 
  private:

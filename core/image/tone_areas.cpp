@@ -196,8 +196,8 @@ std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& 
   cv::Mat1w paper;
   cv::resize(paperOver(cells.mean, static_cast<int>(windowPx / kToneCellPx) + 1), paper, look->flat.size(), 0, 0,
              cv::INTER_LINEAR);
-  flattenTo(
-      look->flat, searched, [&paper](int x, int y) { return paper(y, x) / GreyImage::kGreyUnit; }, context);
+  look->flat = flattened(
+      searched, [&paper](int x, int y) { return paper(y, x) / GreyImage::kGreyUnit; }, context);
   if (context.isCancelled() || !lookAtGround(*look, context)) return std::nullopt;
   const cv::Mat1b shaded = withFades(parted, *look);
   if (context.isCancelled()) return std::nullopt;

@@ -108,15 +108,16 @@ bool mayBeShaded(const ToneCells& cells) {
   return cv::countNonZero(solid) > 0;
 }
 
-void flattenTo(cv::Mat1b& flat, const GreyImage& page, const std::function<double(int x, int y)>& paperAt,
-               const RunContext& context) {
-  flat.create(page.height, page.width);
+cv::Mat1b flattened(const GreyImage& page, const std::function<double(int x, int y)>& paperAt,
+                    const RunContext& context) {
+  cv::Mat1b flat(page.height, page.width);
   parallelFor(context, page.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < page.width; ++x)
         flat(y, x) =
             static_cast<std::uint8_t>(std::min(255.0, 255.0 * page.level(x, y) / std::max(1.0, paperAt(x, y)) + 0.5));
   });
+  return flat;
 }
 
 std::optional<ToneLook> inkOfPage(const GreyImage& page, const RunContext& context) {
@@ -129,8 +130,8 @@ std::optional<ToneLook> inkOfPage(const GreyImage& page, const RunContext& conte
   for (int y = 0; y < page.height; ++y)
     for (int x = 0; x < page.width; ++x) look.ink(y, x) = ink->at(x, y) ? 255 : 0;
   const PaperBackground& paper = thresholds->paper;
-  flattenTo(
-      look.flat, page, [&paper](int x, int y) { return paper.at(x + 0.5, y + 0.5); }, context);
+  look.flat = flattened(
+      page, [&paper](int x, int y) { return paper.at(x + 0.5, y + 0.5); }, context);
   return context.isCancelled() ? std::nullopt : std::optional(std::move(look));
 }
 

@@ -42,8 +42,7 @@ struct ToneLook {
 /// The ink of a page by automatic thresholds, and its brightness. Absent: there is none, or cancelled.
 std::optional<ToneLook> inkOfPage(const GreyImage&, const RunContext&);
 /// The brightness of a page where the paper is of another: @param paperAt grey 0..255 of the paper at a place in px.
-void flattenTo(cv::Mat1b& flat, const GreyImage& page, const std::function<double(int x, int y)>& paperAt,
-               const RunContext&);
+cv::Mat1b flattened(const GreyImage& page, const std::function<double(int x, int y)>& paperAt, const RunContext&);
 /// Adds what is known of lines and of the ground below them. False: no ink is wider than the lines, or cancelled.
 bool lookAtLines(ToneLook&, const RunContext&);
 /// The ground and its lines alone, where the brightness is another; what is near lines stays. False: cancelled.

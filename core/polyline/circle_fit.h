@@ -10,7 +10,7 @@ namespace batten {
 
 struct Circle {
   Vec2 centre = Vec2::Zero();
-  double radius = 0.0;
+  double radius = 0.0;  ///< [unit of the points]
 };
 
 /// The circle for which |p|^2 = 2 c.p + (r^2 - |c|^2) holds best by least squares, in the unit of the points (I. Kasa,

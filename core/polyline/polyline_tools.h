@@ -46,7 +46,7 @@ std::vector<Vec2> directions(std::span<const Vec2> points, bool closed, int reac
 /// and r2 the second derivative at s = 0.
 struct LocalQuadratic {
   Vec2 r0 = Vec2::Zero(), r1 = Vec2::Zero(), r2 = Vec2::Zero();
-  double residualRms = 0.0;
+  double residualRms = 0.0;  ///< [unit of the points] By weight.
   std::optional<int> order;  ///< 2 parabola, 1 line, 0 mean (too few different positions); absent: no points.
   Vec2 at(double s) const { return r0 + s * (r1 + 0.5 * s * r2); }
   Vec2 derivative(double s) const { return r1 + s * r2; }

@@ -11,7 +11,7 @@ namespace batten {
 /// unknowns.
 struct BandRow {
   static constexpr int kHalfWidth = 5;  ///< Of the matrices that such rows make.
-  int first = 0;
+  int first = 0;                        ///< Column of v[0].
   std::array<double, kHalfWidth + 1> v{};
 };
 
@@ -48,7 +48,7 @@ class BandedMatrix {
     multiply(x, y);
     return y;
   }
-  /// y = this x.
+  /// y = this x, in memory that the caller keeps from step to step.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   /// The open matrix of `count` unknowns from `first` on (modulo n), without what couples them to the others. Cyclic
   /// matrices: count <= n - halfWidth.

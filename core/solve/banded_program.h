@@ -17,7 +17,7 @@ struct ProgramOver {
   BandedMatrix a;
   Eigen::VectorXd b;
   Rows rows;
-  std::vector<double> bounds;
+  std::vector<double> bounds;  ///< One a row.
   /// What the diagonal grows by, as a share of itself, where a system cannot be factorised.
   double ridge = 1e-13;
   double leastPivot = 1e-15;  ///< See BandedCholesky::factor.

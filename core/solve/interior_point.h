@@ -33,7 +33,7 @@ concept QuadraticProgram = requires(const P& p, typename P::Factor& factor, cons
 };
 
 struct InteriorPointLimits {
-  int iterations = 40;
+  int iterations = 40;            ///< At most.
   double complementarity = 1e-3;  ///< In units of the objective.
   double residual = 1e-4;  ///< In standard deviations of the constrained quantities, where the objective is chi2.
   double abortAbove = std::numeric_limits<double>::infinity();  ///< Stop when the objective is proven to exceed this.

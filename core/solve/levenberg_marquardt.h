@@ -32,11 +32,11 @@ class LevenbergProblem {
 };
 
 struct LevenbergOptions {
-  int iterations = 40;
+  int iterations = 40;                             ///< At most.
   int attempts = std::numeric_limits<int>::max();  ///< Dampings tried in one iteration.
   double damping = 1e-3;                           ///< To begin with; relative to what the problem damps by.
   double success = 5.0, failure = 4.0;             ///< The damping is divided by the one, or multiplied by the other.
-  double leastDamping = 1e-12;
+  double leastDamping = 1e-12;                     ///< It is not lowered further.
   double mostDamping = std::numeric_limits<double>::infinity();  ///< No attempt is made at this one or above.
   double leastPromise = 0.0;    ///< Relative: after a failed step that promised less, no higher damping is tried.
   double smallDecrease = 1e-4;  ///< Relative: a step that lowers the cost by less is a small one.
@@ -52,8 +52,8 @@ struct LevenbergRun {
   /// isReached(). NoProgress (isHopeless() too), IterationLimit (also when cancelled); Degenerate: the first state is
   /// impossible.
   Termination why = Termination::IterationLimit;
-  int iterations = 0;  ///< Models made, the one without a successful step included.
-  double cost = 0.0;
+  int iterations = 0;    ///< Models made, the one without a successful step included.
+  double cost = 0.0;     ///< Of the state that the problem has kept.
   double damping = 0.0;  ///< For a later run from here.
 };
 

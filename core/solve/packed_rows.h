@@ -18,7 +18,7 @@ class PackedRows {
   PackedRows(std::span<const BandRow> rows, int unknowns);
 
   Eigen::Index count() const { return static_cast<Eigen::Index>(source_.size()); }
-  /// out[i] = row i . x.
+  /// out[i] = row i . x, in memory that the caller keeps from step to step.
   void times(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
   /// x += the sum of weight[i] * row i'.
   void addTransposed(const Eigen::VectorXd& weight, Eigen::VectorXd& x) const;

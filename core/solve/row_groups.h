@@ -50,7 +50,7 @@ class RowGroups {
     std::size_t size = 0;  ///< Unknowns.
   };
   std::span<const int> indexOf(const Group& group) const {
-    return std::span(index_).subspan(static_cast<std::size_t>(group.firstIndex), group.size);
+    return std::span(index_).subspan(group.firstIndex, group.size);
   }
   const Group& groupOf(Eigen::Index row) const;
 

@@ -17,7 +17,7 @@ constexpr double kFewestDecades = 4.0;  // on an axis whose labels are powers of
 /// Two degrees share a colour; the even ones are dashed, finer than the target that is chosen.
 QPen penOfTarget(int degree, const Theme& theme) {
   const auto colours = static_cast<int>(theme.targets.size());
-  QPen pen(theme.targets[static_cast<std::size_t>(std::clamp((degree - 1) / 2, 0, colours - 1))], 1.4);
+  QPen pen(theme.targets[std::clamp((degree - 1) / 2, 0, colours - 1)], 1.4);
   if (degree % 2 == 0) pen.setDashPattern({3, 2});
   return pen;
 }

@@ -34,7 +34,7 @@ struct FairData {
 struct FrameStation {
   double u = 0.0;                               ///< [px] Parameter of the frame curve.
   double kappa = 0.0, slope = 0.0, bend = 0.0;  ///< [1/px, 1/px^2, 1/px^3] kp, kp', kp''.
-  BandRow kappaRow, slopeRow, bendRow;
+  BandRow kappaRow, slopeRow, bendRow;          ///< Their change by the coefficients of d.
 };
 
 /// The same from derivatives 0..4 of the curve, which runs at about unit speed, and the basis rows of these orders.
@@ -46,7 +46,7 @@ double frameCurvature(const PlaneDerivatives&);
 struct FairBlock {
   double u = 0.0, offset = 0.0;  ///< [px] Parameter of the frame curve, distance to its left.
   double weight = 0.0;           ///< Of the mean: 1 for a block full of ordinary points.
-  BandRow row;
+  BandRow row;                   ///< The basis functions at `u`.
 };
 
 /// The linear problem for offsets from a curve.
@@ -58,8 +58,8 @@ struct FairFrame {
   std::vector<FrameStation> checks;   ///< Where signs are asked for; see checkStations.
   BandedMatrix h;                     ///< Data term.
   Eigen::VectorXd g;
-  double squares = 0.0;  ///< Sum of squared residuals of the single points about the base curve.
-  int pointCount = 0;
+  double squares = 0.0;                         ///< Sum of squared residuals of the single points about the base curve.
+  int pointCount = 0;                           ///< Single points in `squares`.
   double weightedSquares = 0.0, weights = 0.0;  ///< The same by weight; sum of the weights.
 };
 
@@ -92,6 +92,7 @@ struct Reframed {
 /// The parameter on the curve of one on the base; between the places linear, and on beyond their ends.
 /// @pre two places at least.
 double parameterAfter(const std::vector<ParameterPair>& places, double before);
+/// Absent when it has no finite length, and when cancelled.
 std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to,
                                 CancelCheck);
 /// base + d N with the same knots and parameter.
@@ -99,7 +100,7 @@ std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eige
 
 /// The position base + d N and its first derivative.
 struct OffsetPoint {
-  Vec2 point, velocity;
+  Vec2 point, velocity;  ///< [px, px per px of the parameter]
 };
 OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, double u);
 

@@ -27,8 +27,8 @@ NoiseTrace noiseTrace(const FairFrame&, const Eigen::VectorXd& c, double s0);
 /// Variance along a piece over what its weights say.
 struct LocalNoise {
   struct Place {
-    double u = 0.0;  ///< Parameter.
-    double factor = 1.0;
+    double u = 0.0;       ///< Parameter.
+    double factor = 1.0;  ///< [-] Variance over that of the weights.
   };
   std::vector<Place> places;  ///< Ascending in u.
   double at(double u) const;  ///< 1 where nothing is known.

@@ -23,7 +23,7 @@ struct FairPiece {
   std::optional<CutoffTable> table;  ///< Absent: without a frame.
   Eigen::VectorXd rough;             ///< Offsets from the pilot by the cut-off of the piece.
   double squares = 0.0;              ///< Of the residuals of single points about the result.
-  int pointCount = 0;
+  int pointCount = 0;                ///< How many they are.
   std::optional<Result<ConstructedPiece>> result;
 };
 

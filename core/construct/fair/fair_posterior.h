@@ -31,7 +31,7 @@ struct CutoffTable {
   int blocks = 0;                    ///< Of data.
   std::array<double, kCount> rss{};  ///< [px^2] weighted sum of squared residuals of the blocks.
   std::array<double, kCount> dof{};  ///< Trace of the hat matrix.
-  std::array<bool, kCount> valid{};
+  std::array<bool, kCount> valid{};  ///< All is finite, and `dof` below the number of blocks.
 };
 CutoffTable cutoffTable(const FairFrame&, CancelCheck);
 
@@ -48,6 +48,7 @@ CutoffChoice chooseCutoffs(const std::vector<std::optional<CutoffTable>>&, std::
 /// Local prior by empirical Bayes, starting from the cut-off or from `tau2` (same number of stations).
 std::optional<FairPosterior> localPosterior(const FairFrame&, double s0, std::vector<double> tau2, int rounds,
                                             double widthPx, CancelCheck);
+/// [1/px^6 px] The prior density that cuts off at this wavelength, the same at every station of the penalty.
 std::vector<double> uniformPrior(const FairFrame&, double s0, double cutoffPx);
 
 }  // namespace batten

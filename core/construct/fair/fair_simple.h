@@ -26,9 +26,9 @@ struct WeightedPoint {
 std::vector<WeightedPoint> blockMeans(const FairFrame&);
 
 struct CircleFit {
-  Vec2 centre = Vec2::Zero();
-  double radius = 0.0;   ///< [px]
-  double squares = 0.0;  ///< [px^2] Weighted sum of squared distances.
+  Vec2 centre = Vec2::Zero();  ///< [px]
+  double radius = 0.0;         ///< [px]
+  double squares = 0.0;        ///< [px^2] Weighted sum of squared distances.
 };
 /// Geometric least squares circle (Gauss-Newton from the algebraic one). Absent for points on a line.
 std::optional<CircleFit> fitCircle(std::span<const WeightedPoint>);
@@ -37,8 +37,8 @@ std::optional<CircleFit> fitCircle(std::span<const WeightedPoint>);
 UniformQuintic circleCurve(const CircleFit&, const Vec2& first, bool left);
 
 struct LineFit {
-  Vec2 point = Vec2::Zero(), direction = Vec2::UnitX();
-  double squares = 0.0;  ///< [px^2] The same.
+  Vec2 point = Vec2::Zero(), direction = Vec2::UnitX();  ///< [px, unit vector]
+  double squares = 0.0;                                  ///< [px^2] The same.
 };
 /// Total least squares line. Absent when all points are one.
 std::optional<LineFit> fitLine(std::span<const WeightedPoint>);

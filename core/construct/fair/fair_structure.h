@@ -17,17 +17,17 @@ struct FairExtremum {
   double halfWidth = 16.0;  ///< [px] it may move within u +- halfWidth.
   double stretch = 60.0;    ///< [px] half of the stretch over which the unconstrained fit bends this way.
   bool maximum = true;
-  double kappa = 0.0;
+  double kappa = 0.0;  ///< [1/px] Signed curvature there.
   int id = 0;
-  double removalCost = 0.0;  ///< [chi2] known so far; a lower bound when its quadratic program was cut short.
-  bool costKnown = false;
+  double removalCost = 0.0;       ///< [chi2] known so far; a lower bound when its quadratic program was cut short.
+  bool costKnown = false;         ///< Whether `removalCost` was found.
   std::optional<int> constraint;  ///< Id of the user's constraint for it.
 };
 
 /// The user's constraint for the extremum nearest to a parameter of the frame.
 struct PlacedConstraint {
-  double u = 0.0;
-  bool keep = true;
+  double u = 0.0;    ///< Parameter in the frame.
+  bool keep = true;  ///< False: the extremum is to go.
   int id = 0;
 };
 

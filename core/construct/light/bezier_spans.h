@@ -24,6 +24,7 @@ struct PlaceTable {
   };
   std::vector<Place> places;
 };
+/// Their values at one place, 0..1 of the span.
 PlaceTable::Place bernsteinPlace(int degree, double at);
 /// `count` places at equal steps, both ends of the span included. @pre count >= 2.
 PlaceTable placeTable(int degree, int count);

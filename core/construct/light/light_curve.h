@@ -45,13 +45,13 @@ enum class LightObstacle {
 
 struct LightReport {
   LightKind kind = LightKind::Dense;
-  int points = 0;  ///< Control points that are free: of a closed curve each once, arc or circle 3.
-  int pointsBefore = 0;
+  int points = 0;        ///< Control points that are free: of a closed curve each once, arc or circle 3.
+  int pointsBefore = 0;  ///< Of the dense curve.
   double worst = 0.0;    ///< Largest distance from the dense curve.
   int extrema = 0;       ///< Of the light curve.
   int extremaAsked = 0;  ///< At the most: the significant ones of the dense curve.
-  int inflections = 0;
-  int iterations = 0;  ///< Of Levenberg-Marquardt, failed tries included.
+  int inflections = 0;   ///< Of the light curve.
+  int iterations = 0;    ///< Of Levenberg-Marquardt, failed tries included.
   int tries = 0;
   int sections = 1, sectionsDense = 0;  ///< Of a chain; those that nothing lighter was found for are as they were.
   LightObstacle obstacle = LightObstacle::None;

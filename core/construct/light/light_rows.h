@@ -20,7 +20,9 @@ struct PlaceState {
 /// @pre the derivatives are filled. Where C' vanishes the rest is not finite.
 void completePlace(PlaceState&);
 
+/// Of the curvature.
 DerivativeGradients kappaGradient(const PlaceState&);
+/// Of the curvature's slope.
 DerivativeGradients slopeGradient(const PlaceState&);
 /// Of the speed.
 DerivativeGradients speedGradient(const PlaceState&);

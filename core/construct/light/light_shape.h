@@ -13,7 +13,7 @@ namespace batten {
 /// A curve while it is being fitted: one span of degree 2..7, or a B-spline of degree 5 with simple knots (C4). Only
 /// the ratios of the span lengths matter.
 struct LightShape {
-  int degree = 5;
+  int degree = 5;  ///< 2..7
   bool closed = false;
   std::vector<Vec2> points;        ///< Spans + degree of them; closed: as many as spans.
   std::vector<double> logLengths;  ///< One a span: logarithm of its share of the domain.
@@ -26,7 +26,9 @@ struct LightShape {
   }
   /// Knots of a span, the span's start at 0. Lengths as exp(logLengths), or the ones given.
   SpanKnots knotsOf(int span, const std::vector<double>& lengths) const;
+  /// The degree + 1 control points that a span depends on.
   std::array<Vec2, kSpanPoints> pointsOf(int span) const;
+  /// [-] exp(logLengths).
   std::vector<double> lengths() const;
 
   /// As a clamped curve over the domain [0, length].

@@ -60,8 +60,7 @@ void LightSystem::placesOf(const LightShape& shape, int span) {
   for (int k = 0; k < perSpan_; ++k) {
     Place& place = places_[first + k];
     const PlaceTable::Place& table = table_.places[k];
-    PlaceSums sums;
-    sumPoints(table.columns, bezier, shape.degree + 1, sums);
+    const PlaceSums sums = sumPoints(table.columns, bezier, shape.degree + 1);
     double scale = 1.0;
     for (std::size_t order = 0; order < 4; ++order) {
       place.state.d[order] = scale * Vec2(sums[2 * order], sums[2 * order + 1]);

@@ -137,9 +137,11 @@ BATTEN_HOT_LOOP void mixLanes(int degree, const double* __restrict atStart, cons
 
 }  // namespace
 
-void sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
-               int points, PlaceSums& sums) {
+PlaceSums sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
+                    int points) {
+  PlaceSums sums;
   addPoints(columns.front().data(), bezier.front().data(), points, sums.data());
+  return sums;
 }
 
 void sumRows(const WeighedRow* rows, int count, int columns, LocalSquares& sums) {

@@ -22,8 +22,8 @@ inline constexpr int kUnknownLanes = 2 * kXLanes + kLengthLanes;  // all of them
 /// Position and three derivatives of `points` Bezier points at a place of which these are the columns, x and y in turn:
 /// summed point by point.
 using PlaceSums = std::array<double, 8>;
-void sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
-               int points, PlaceSums& sums);
+PlaceSums sumPoints(const std::array<PlaceSums, kSpanPoints>& columns, const std::array<Vec2, kSpanPoints>& bezier,
+                    int points);
 
 /// A row of a system with its weight (squared) and its weighted residual.
 struct WeighedRow {
@@ -36,11 +36,13 @@ struct LocalSquares {
   std::array<std::array<double, kRowWidth>, kRowWidth> squares;
   std::array<double, kRowWidth> gradient;
 };
+/// `sums` is the memory of a span: what it held is lost.
 void sumRows(const WeighedRow* rows, int count, int columns, LocalSquares& sums);
 
 /// How the Bezier points of a span depend on its control points and on lengths.
 struct SpanDependence {
   std::array<std::array<double, kXLanes>, kSpanPoints> byPoint;  ///< Bezier points by control points.
+  /// Their coordinates by lengths of spans.
   std::array<std::array<double, kLengthLanes>, kSpanPoints> xByLength, yByLength;
 };
 using UnknownRow = std::array<double, kUnknownLanes>;
@@ -53,6 +55,7 @@ void carrySquares(const LocalSquares& local, const SpanDependence&, int points, 
 /// bezierOfSpan for as many sets of knots as there are lanes: knots[k][lane].
 using KnotLanes = std::array<std::array<double, kLengthLanes>, 2 * kMostLightDegree>;
 using PointLanes = std::array<std::array<double, kLengthLanes>, kSpanPoints>;
+/// @param x,y the memory that keeps them, of which degree + 1 rows are written.
 void bezierOfLanes(int degree, const KnotLanes& knots, const std::array<Vec2, kSpanPoints>& points, PointLanes& x,
                    PointLanes& y);
 

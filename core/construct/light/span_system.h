@@ -27,7 +27,7 @@ class SpanSystem {
   std::array<int, kLengthsOfSpan> lengthIndex{};  ///< Which spans' lengths those are,
   int lengthCount = 0;                            ///< 0: a single span, whose Bezier points are its control points,
   int ownLength = 0;                              ///< and which of them is the span's own.
-  double length = 1.0;
+  double length = 1.0;                            ///< Of the span.
   int degree = 5;
   double share = 1.0;  ///< Of a row in the mean of all places.
 

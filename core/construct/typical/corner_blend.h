@@ -10,7 +10,7 @@ namespace batten {
 
 /// Where a rounding meets the side of a corner.
 struct BlendEnd {
-  Vec2 point = Vec2::Zero();
+  Vec2 point = Vec2::Zero();     ///< [mm]
   Vec2 tangent = Vec2::UnitX();  ///< Unit, in the direction of travel.
   double kappa = 0.0;            ///< [1/mm]
   double kappaSlope = 0.0;       ///< [1/mm^2] d kappa / d s.
@@ -25,8 +25,8 @@ enum class BlendContact { G2, G3 };
 /// degree 7 with the change of curvature, too (G3). Its free lengths are chosen such that the curvature rises to one
 /// peak and falls again, and the peak is low.
 struct CornerBlend {
-  NurbsCurve curve;  ///< Over 0..1.
-  double smallestRadiusMm = 0.0;
+  NurbsCurve curve;               ///< Over 0..1.
+  double smallestRadiusMm = 0.0;  ///< [mm] At the peak of the curvature.
 };
 /// @return absent where the directions do not meet ahead of the first and behind the second place, or the turn is below
 /// 0.01 or above 3.0 radians.

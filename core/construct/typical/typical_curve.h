@@ -12,11 +12,11 @@ namespace batten {
 /// A typical curve (002): the cubic whose control polygon has edges l, h l, h^2 l, each turned by phi against the one
 /// before.
 struct TypicalCurve {
-  Vec2 start = Vec2::Zero();
-  double angleRad = 0.0;  ///< Direction of the first edge.
-  double edge = 0.0;      ///< l [mm] > 0
-  double ratio = 1.0;     ///< h > 0
-  double turnRad = 0.0;   ///< phi, positive to the left, |phi| < pi / 2.
+  Vec2 start = Vec2::Zero();  ///< [mm]
+  double angleRad = 0.0;      ///< Direction of the first edge.
+  double edge = 0.0;          ///< l [mm] > 0
+  double ratio = 1.0;         ///< h > 0
+  double turnRad = 0.0;       ///< phi, positive to the left, |phi| < pi / 2.
 
   std::array<Vec2, 4> controlPoints() const;
   double startCurvature() const;  ///< 2 h sin(phi) / (3 l) [1/mm]

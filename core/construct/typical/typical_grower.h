@@ -10,9 +10,9 @@ namespace batten {
 
 /// The stretch of a line that one growing chain covers.
 struct GrowingStretch {
-  std::size_t firstJoint = 0, lastJoint = 0;
-  std::vector<Vec2> points;
-  bool isOne = false;  ///< Between two places of the user: one segment, however well it fits.
+  std::size_t firstJoint = 0, lastJoint = 0;  ///< Indices into TypicalLine::joints.
+  std::vector<Vec2> points;                   ///< [px] Those of the line between the two.
+  bool isOne = false;                         ///< Between two places of the user: one segment, however well it fits.
 };
 
 /// Where a stretch of growing curves starts.
@@ -29,6 +29,7 @@ struct GrownCurves {
   bool rested = true;              ///< Every fit whose curve was kept came to rest.
   std::vector<GrowingStep> steps;  ///< Where they are asked for.
 };
+/// Grows typical curves over a stretch, one after the other, each as far as it fits.
 GrownCurves growStretch(const TypicalLine& line, const ConstructParams& params, const GrowingStretch& stretch,
                         const GrowingStart& start, StepRecord, const RunContext& context);
 

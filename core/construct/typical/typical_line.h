@@ -29,12 +29,14 @@ struct TypicalLine {
   Vec2 toPiece(const Vec2& p) const { return origin + p; }
 };
 
+/// Its joints lie on the true and fair fit where there is one, else on stations.
 TypicalLine typicalLine(const ConstructPiece&, const ConstructParams&, const RunContext&);
 /// The points of a piece in order from the start of the line; many are taken together in groups, without bias.
 std::vector<Vec2> pointsAlong(const ConstructPiece&, const TypicalLine&);
 
 /// A path as one B-spline of degree 5 where its piece lies, knots of multiplicity 4.
 Result<NurbsCurve> pathCurve(const TypicalPath&, const TypicalLine&);
+/// One note for each element of a path, in px of the piece.
 std::vector<SegmentNote> segmentNotes(const TypicalPath&, const TypicalLine&);
 
 }  // namespace batten

@@ -46,9 +46,11 @@ struct PathElement {
   double shape = 0.0;    ///< Free: log h. Else the slack of the condition, before it is made positive.
 
   double turn() const;  ///< |phi|
+  /// log h.
   double logRatio() const;
   /// d logRatio / d (logTurn, shape).
   std::array<double, 2> logRatioSlopes() const;
+  /// Sets `shape` to what gives this log h, or the nearest that the trend allows.
   void setLogRatio(double logRatio);
   /// Holds the curvature monotone in the way it goes now; a curve with an extremum inside keeps its nearer border.
   void setTrend(Trend);
@@ -66,8 +68,11 @@ struct TypicalPath {
   bool endsTypical() const { return !elements.empty() && elements.back().typical; }
   /// Computes the states that follow from others. False where the unknowns make no path.
   bool update();
+  /// Element e as a typical curve. @pre it is one.
   TypicalCurve typical(std::size_t e) const;
+  /// [px] Length of the first derivative of element e as a Hermite piece.
   double hermiteLength(std::size_t e) const;
+  /// Element e, of either kind, as a quintic over 0..1.
   Quintic quintic(std::size_t e) const;
   /// Divides an element at t in 0..1: exactly where it is typical, nearly where it is not.
   void split(std::size_t e, double t);

@@ -14,6 +14,7 @@ struct JointRun {
   std::size_t first = 0, last = 0;
 };
 
+/// In their order along the line.
 std::vector<JointRun> bendingRuns(std::span<const Joint> joints);
 
 /// A first path along joints that roughly follow the line: typical curves wherever it clearly bends one way, Hermite

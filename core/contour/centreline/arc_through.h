@@ -12,7 +12,7 @@ namespace batten {
 /// An arc of a circle or a straight line that passes near the origin of its frame, about along the frame's x axis:
 /// y = a + b x + c (x^2 + y^2).
 struct LocalArc {
-  Eigen::Vector3d abc = Eigen::Vector3d::Zero();
+  Eigen::Vector3d abc = Eigen::Vector3d::Zero();  ///< [px, -, 1/px]
 
   Vec2 gradientAt(const Vec2& p) const { return {abc[1] + 2.0 * abc[2] * p.x(), 2.0 * abc[2] * p.y() - 1.0}; }
   Vec2 normalAt(const Vec2& p) const { return gradientAt(p).normalized(); }

@@ -8,9 +8,9 @@ namespace batten {
 /// Pixels across a stroke, in fours; those that only make the last four full have weight 0.
 struct StrokePixels {
   const double* distance = nullptr;  ///< [px] along the normal.
-  const double* weight = nullptr;
-  const double* grey = nullptr;  ///< [grey]
-  int count = 0;                 ///< A multiple of four.
+  const double* weight = nullptr;    ///< [-] >= 0
+  const double* grey = nullptr;      ///< [grey]
+  int count = 0;                     ///< A multiple of four.
 };
 
 /// A stroke of even darkness on even paper, between two borders.
@@ -22,9 +22,9 @@ struct StrokeBorders {
 
 /// What the model leaves of each pixel, and its derivatives by the two borders; room for count numbers each.
 struct BorderResiduals {
-  double* left = nullptr;
-  double* byLow = nullptr;
-  double* byHigh = nullptr;
+  double* left = nullptr;    ///< [grey] Measured less modelled.
+  double* byLow = nullptr;   ///< [grey/px]
+  double* byHigh = nullptr;  ///< [grey/px]
 };
 
 /// Sums over the pixels for a step of both borders.

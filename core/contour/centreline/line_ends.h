@@ -15,6 +15,7 @@ struct PointOfLine {
   int line = 0, point = 0;
 };
 
+/// The points of all lines by cells of `cellPx`.
 inline PointGrid<PointOfLine> gridOfLines(const std::vector<Contour>& lines, double cellPx) {
   PointGrid<PointOfLine> grid(cellPx);
   for (int i = 0; i < std::ssize(lines); ++i) {

@@ -211,15 +211,14 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
 
 // Whether the way from the end on to the line met is as dark as the two.
 bool EndLeader::isInked(const LineEnd& end, const std::vector<Vec2>& way) const {
-  const std::size_t own = static_cast<std::size_t>(end.anchor - end.last);
+  const int own = end.anchor - end.last;
   // A pencil pales towards its end.
-  if (way.size() <= own + 1 || !point(end, end.anchor).sigmaPx) return true;
+  if (std::ssize(way) <= own + 1 || !point(end, end.anchor).sigmaPx) return true;
   const Vec2 aside = leftNormal(end.out) * (kPaperWidths * end.widthPx + kPaperPx);
   const double paper = std::max(levelAt(way.front() + aside), levelAt(way.front() - aside));
   const double ink = std::max(levelAt(way.front()), levelAt(way.back()));
   const double palest = ink + kMostPaler * std::max(0.0, paper - ink);
-  return std::all_of(way.begin() + static_cast<std::ptrdiff_t>(own), way.end(),
-                     [&](const Vec2& at) { return levelAt(at) <= palest; });
+  return std::all_of(way.begin() + own, way.end(), [&](const Vec2& at) { return levelAt(at) <= palest; });
 }
 
 // Straight on where that meets a line well across; else as the line bends.

@@ -49,9 +49,9 @@ struct LedThrough {
 };
 
 struct SkeletonNode {
-  Vec2 centre = Vec2::Zero();
-  double radius = 0.0;  ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
-  std::vector<int> ends;
+  Vec2 centre = Vec2::Zero();  ///< [px]
+  double radius = 0.0;         ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
+  std::vector<int> ends;       ///< Of edges, 2 * edge + side.
   std::optional<LedThrough> led = {};  ///< Not valid any more where other ends have come.
 
   const LedThrough* leading() const { return led && ends.size() == led->discs.size() ? &*led : nullptr; }

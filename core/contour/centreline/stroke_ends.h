@@ -33,6 +33,7 @@ double cutOddsOf(const std::vector<FreeEnds>& ends);
 /// half a width before the end of the ink.
 void placeEnds(StrokeCourse& course, const FreeEnds& ends, double cutOdds);
 
+/// The course as a line of the drawing, without points that run back or nearly coincide.
 Contour contourOf(const StrokeCourse& course);
 
 }  // namespace batten

@@ -48,6 +48,7 @@ struct StrokePathSet {
 /// EdgeParams). Deterministic order. Empty when cancelled.
 StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                     const RunContext& context);
+/// Its paths alone.
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context);
 

@@ -12,7 +12,7 @@ namespace batten {
 
 /// A corner candidate on a line, with its measurements.
 struct CornerEvidence {
-  int pointIndex = 0;
+  int pointIndex = 0;                        ///< Of the line's points.
   double angleRad = 0.0;                     ///< Change of direction, signed as Turning.
   Vec2 positionPx = Vec2::Zero();            ///< Where its two sides meet, or the point itself.
   bool isLocated = false;                    ///< The sides meet.

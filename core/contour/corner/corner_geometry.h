@@ -46,6 +46,7 @@ inline constexpr double kFarthestTipPx = 60.0;
 /// Where the two sides of a contour meet when extended. At most `outer` px of each side are used.
 /// @param grey if given, the pixels around the corner of an outline are fitted, too (corner_pixels.h).
 struct CornerFix {
+  /// [px]
   Vec2 position = Vec2::Zero();
   double angleRad = 0.0;  ///< By which the direction of travel turns.
   double zonePx = 4.0;    ///< [px] nearer points are unreliable: rounded by blur, or shifted by the other side.

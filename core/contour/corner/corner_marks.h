@@ -46,6 +46,7 @@ struct CornerParams {
       true;  ///< Extend both neighbouring lines and put the corner where they meet; off: the contour point itself.
   bool operator==(const CornerParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const CornerParams&);
 
 /// A corner of a line: of a mark that found its line, or one that is certain without a mark.
@@ -64,7 +65,7 @@ struct Piece : PieceLine {
   int index = 0;                      ///< Position within the contour.
   int firstPoint = 0, lastPoint = 0;  ///< Of the contour; of a closed one the last may run past the seam.
   bool isPen = false;                 ///< Of a pen stroke: `refined` tells the drawn points.
-  double lengthPx = 0.0;
+  double lengthPx = 0.0;              ///< [px] Along its points.
 };
 
 /// A pair of marks that concern the same corner or neighbouring corners, as indices.

@@ -11,10 +11,10 @@ namespace batten {
 
 /// A place that looks like a corner.
 struct CornerSuggestion {
-  int contour = 0;
-  int pointIndex = 0;
+  int contour = 0;     ///< Index into the contour set.
+  int pointIndex = 0;  ///< Nearest point of the contour.
   Vec2 positionPx = Vec2::Zero();
-  double turningAngleRad = 0.0;
+  double turningAngleRad = 0.0;  ///< [rad] Change of direction, signed as Turning.
   double certainty = 0.0;  ///< 0..1 (CornerJudge; of a like corner on a stroke kCertainCorner). From that on it is
                            ///< set without a mark.
 };

@@ -12,7 +12,7 @@ namespace batten {
 
 struct FaintMarks {
   BitImage ink;
-  int count = 0;
+  int count = 0;  ///< Pieces in it.
 };
 
 /// Pieces of `marks` shorter than three pen widths that would be no ink at the threshold of the strokes around them:

@@ -112,10 +112,10 @@ constexpr double kDepthStepPx = 8.0;  // along a side: an edge of a sheet does n
 EdgePiece edgePieceOf(int contour, int side, const Contour& line, const Page& page) {
   EdgePiece piece{contour, extentFrom(side, line, page), {}};
   const double length = piece.extent.most.x() - piece.extent.least.x();
-  piece.depths.assign(static_cast<std::size_t>(length / kDepthStepPx) + 1, 0.0);
+  piece.depths.assign(static_cast<int>(length / kDepthStepPx) + 1, 0.0);
   for (const ContourPoint& point : line.points) {
     const Vec2 p = seenFrom(side, point.at, page);
-    double& depth = piece.depths[static_cast<std::size_t>((p.x() - piece.extent.least.x()) / kDepthStepPx)];
+    double& depth = piece.depths[static_cast<int>((p.x() - piece.extent.least.x()) / kDepthStepPx)];
     depth = std::max(depth, p.y());
   }
   return piece;
@@ -128,7 +128,7 @@ bool isBeyond(const EdgePiece& piece, const Contour& other, int side, const Page
     const double last = static_cast<double>(piece.depths.size()) - 1.0;
     const double at = std::clamp(p.x() / kDepthStepPx, 0.0, last);
     return p.x() > -alone && p.x() < piece.extent.most.x() - piece.extent.least.x() + alone &&
-           p.y() < piece.depths[static_cast<std::size_t>(at)] + alone;
+           p.y() < piece.depths[static_cast<int>(at)] + alone;
   });
 }
 

@@ -42,6 +42,7 @@ std::vector<double> endFeatures(const EndPair& pair, const EndView& view, bool i
 inline constexpr double kDirectionFrom = 6.0, kDirectionTo = 1.0;
 /// Where a strip ends and the unit direction in which it does, out of it, from the chord between two places inside.
 Vec2 directionOut(const Strip& strip, int side, double fromInside, double toInside);
+/// The place of a strip at its start (side 0) or its end (1).
 const Vec2& tipOf(const Strip& strip, int side);
 
 }  // namespace batten

@@ -15,7 +15,7 @@ using MergeShares = std::map<int, double>;
 
 /// A place of a strip. All lengths of the rooms of intent are in stroke widths.
 struct StripSample {
-  Vec2 at = Vec2::Zero();
+  Vec2 at = Vec2::Zero();       ///< [stroke widths]
   Vec2 tangent = Vec2::Zero();  ///< Unit direction of travel.
   int strokes = 1;              ///< Pieces that it is the mean of; 0: laid over a gap.
 };
@@ -32,6 +32,7 @@ struct Strip {
   double length() const { return static_cast<double>(samples.size()) - (closed ? 0.0 : 1.0); }
 };
 
+/// Copies of the positions, for the functions of core/polyline. [stroke widths]
 std::vector<Vec2> positionsOf(const std::vector<StripSample>&);
 /// Sets the tangents from the positions: chords over two steps to either side.
 void setTangents(Strip&);

@@ -16,10 +16,10 @@ int overdrawnPlaces(const StrokePieceSet& set, const std::vector<StripPair>& pai
 
 /// What a pair of strips looked like in a round: for learning weights.
 struct SeenPair {
-  int round = 0;
-  bool isSide = true;
+  int round = 0;       ///< From 0.
+  bool isSide = true;  ///< Side by side; else end to end.
   std::vector<int> piecesA, piecesB;
-  std::vector<double> features;
+  std::vector<double> features;  ///< sideFeatures() or endFeatures().
 };
 
 /// Weights other than the learned ones, and what was seen with them; where null, nothing is told.

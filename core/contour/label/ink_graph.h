@@ -37,9 +37,9 @@ struct InkPixel {
 struct InkChain {
   std::vector<InkPixel> pixels;
   std::array<std::optional<int>, 2> node = {};  ///< Absent: the chain is a ring.
-  bool isAlive = true;
+  bool isAlive = true;                          ///< False: dropped or spliced into another.
   bool isRing = false;
-  std::optional<int> path = {};
+  std::optional<int> path = {};  ///< Index of the ink path that holds it.
 };
 
 /// A free end (one chain) or a junction of the skeleton (more); touching junction pixels are one node. The rim, where a
@@ -49,7 +49,7 @@ struct InkNode {
   Vec2 centre = Vec2::Zero();  ///< [px]
   double radius = 0.0;         ///< [px] of the largest disc of ink at one of its pixels.
   InkLabel label = InkLabel::Stroke;
-  bool isRim = false;
+  bool isRim = false;  ///< Where a line runs into a solid.
   std::vector<int> ends;
   bool isJunction() const { return ends.size() > 1; }
   /// [px] of the ink at the junction.

@@ -216,7 +216,7 @@ bool isSwelling(const ShapeRegion& r, const InkGraph& graph, double widestPenPx)
 
 // [px] On a page of several pens, that of the lines that meet in a knot; no less than the page's.
 double penAt(const ShapeRegion& r, const InkGraph& graph, double penPx) {
-  constexpr double kKnotArea = 3.0;  // in squared widths; what is longer than a knot may be a filled band or bar
+  constexpr double kKnotArea = 3.0;  // in squared widths; what is longer than a knot may be a filled ribbon or bar
   if (static_cast<double>(r.areaPx) >= kKnotArea * r.widthPx() * r.widthPx()) return penPx;
   constexpr double kLineWidths = 8.0;  // shorter ones may be lobes, bars and the grain of a tone
   std::vector<std::pair<double, double>> widths;

@@ -13,8 +13,8 @@ namespace {
 constexpr double kUneven = 0.15;  // share of its area that one width may leave unexplained
 // A path so many pens wide and no longer than so many of its own widths is a bar among thin strokes.
 constexpr double kBarWidths = 2.5, kShortWidths = 8.0;
-// A path so many pens wide is a filled band, if hardly any of its piece is as wide: a second pen draws more than that.
-constexpr double kBandWidths = 6.0, kBandShare = 0.25;
+// A path so many pens wide is a filled ribbon if hardly any of its piece is as wide: a second pen draws more than that.
+constexpr double kRibbonWidths = 6.0, kRibbonShare = 0.25;
 constexpr double kOwnPen = 10.0;      // widths of paths that show the pen of a piece
 constexpr double kLimbWidths = 12.0;  // shorter paths that hang on a shape may be its limbs
 constexpr double kSamePen = 1.5;      // ratio of widths
@@ -59,10 +59,10 @@ double penOf(const LabelledPiece& piece, const InkGraph& graph, std::optional<do
 class Labeller {
  public:
   Labeller(InkGraph& graph, const PiecesOfPage& page)
-      : graph_(graph), page_(page), penOf_(graph.paths().size()), isBand_(graph.paths().size(), false) {
+      : graph_(graph), page_(page), penOf_(graph.paths().size()), isRibbon_(graph.paths().size(), false) {
     for (const LabelledPiece& piece : page.pieces) {
       for (const int path : piece.paths) penOf_[path] = piece.penPx;
-      noteBands(piece);
+      noteRibbons(piece);
     }
   }
 
@@ -70,7 +70,7 @@ class Labeller {
     for (std::size_t i = 0; i < penOf_.size(); ++i) {
       const InkPath& s = graph_.paths()[i];
       const bool isBar = s.widthPx && *s.widthPx >= kBarWidths * penOf_[i] && s.elongation() < kShortWidths;
-      explained_.push_back(isExplained(s) && !isBar && !isBand_[i]);
+      explained_.push_back(isExplained(s) && !isBar && !isRibbon_[i]);
     }
     for (std::size_t i = 0; i < penOf_.size(); ++i) {
       InkPath& s = graph_.paths()[i];
@@ -91,8 +91,8 @@ class Labeller {
   }
 
  private:
-  void noteBands(const LabelledPiece& piece) {
-    const double least = kBandWidths * piece.penPx;
+  void noteRibbons(const LabelledPiece& piece) {
+    const double least = kRibbonWidths * piece.penPx;
     std::vector<int> broad;
     double broadPx = 0.0;
     for (const int number : piece.paths) {
@@ -101,8 +101,8 @@ class Labeller {
       broad.push_back(number);
       broadPx += s.elongation() >= kStrokeWidths ? s.lengthPx : 0.0;
     }
-    if (broadPx > kBandShare * piece.strokesPx) return;
-    for (const int number : broad) isBand_[number] = true;
+    if (broadPx > kRibbonShare * piece.strokesPx) return;
+    for (const int number : broad) isRibbon_[number] = true;
   }
 
   // [px] of the pen of a junction's piece, or of the widest stroke that meets there.
@@ -233,7 +233,7 @@ class Labeller {
   InkGraph& graph_;
   const PiecesOfPage& page_;
   std::vector<double> penOf_;  ///< Of each path.
-  std::vector<bool> isBand_;
+  std::vector<bool> isRibbon_;
   std::vector<bool> explained_;
 };
 

@@ -38,6 +38,7 @@ struct PiecesOfPage {
 /// The least value that half of the weight lies at or below; absent: there is no value.
 std::optional<double> weightedMedian(std::vector<std::pair<double, double>> valueAndWeight);
 
+/// Measures the pieces of the ink whose paths the graph holds.
 PiecesOfPage measurePieces(const InkGraph&, const RunPieces&);
 
 /// Labels paths, junctions and skeleton pixels. A path is a stroke when one pen width explains it along at least

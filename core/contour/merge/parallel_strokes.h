@@ -24,7 +24,7 @@ enum class SideEnd {
 /// A stretch of a line beside which, on one side, the same or another line runs within reach in about its direction.
 /// Every such pair is seen twice, once from either line.
 struct ParallelStretch {
-  int line = 0;
+  int line = 0;  ///< Of the lines given.
   SideEnd begin = SideEnd::Never, end = SideEnd::Never;
   double stepPx = 1.0;          ///< Between the places where it was measured.
   int firstStep = 0;            ///< Where it begins, in steps from the line's start; on a ring it may run past that.

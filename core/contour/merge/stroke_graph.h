@@ -14,7 +14,7 @@ struct GraphEdge {
   MeanLine line;
   std::array<std::optional<int>, 2> node;  ///< At the start and the end; none: the line ends there.
   double length = 0.0;                     ///< [px]
-  bool alive = true;
+  bool alive = true;                       ///< False: dropped or joined with another.
 };
 
 /// Mean lines as a graph: edges, and for every node the ends that meet there.

@@ -24,7 +24,7 @@ void meetAtTurns(std::vector<MeanLine>& lines, const std::vector<Vec2>& turns, d
 /// Position and direction of a line at its end, the unit direction pointing into the line. Mean lines are distorted at
 /// their very ends, so both are extrapolated from further inside.
 struct EndTangent {
-  Vec2 at = Vec2::Zero(), into = Vec2::Zero();
+  Vec2 at = Vec2::Zero(), into = Vec2::Zero();  ///< [px, unit vector]
 };
 /// The start (side 0) or the end (1) of a line, fitted over about 1.5 distances.
 EndTangent endTangent(const MeanLine& line, int side, double distancePx);

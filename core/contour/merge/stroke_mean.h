@@ -13,7 +13,7 @@ namespace batten {
 /// A point of a line that is moved to the mean of the strokes beside it.
 struct MeanPoint {
   struct Source {
-    int line = 0, index = 0;
+    int line = 0, index = 0;  ///< Of the lines given; of its points.
   };
   Vec2 at = Vec2::Zero();       ///< [px]
   Vec2 tangent = Vec2::Zero();  ///< Unit direction of travel.

@@ -29,6 +29,7 @@ struct SegmentParams {
                               ///< the local parabola.
   bool operator==(const SegmentParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const SegmentParams&);
 
 /// A regression segment: the line fitted to a group of points. Image frame or model frame, as its holder says.

@@ -8,7 +8,7 @@ struct ResponseRow {
   static constexpr int kPerPx = 32;  ///< Entries a pixel; linear between them.
   const float* values = nullptr;     ///< Part and slope, part and slope ... at the distances k / kPerPx - range.
   double range = 0.0;                ///< [px]
-  int columns = 0;
+  int columns = 0;                   ///< Entries of the table.
 
   struct Value {
     double part;   ///< 0..1: how much of the pixel is ink.

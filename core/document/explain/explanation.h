@@ -15,8 +15,8 @@ namespace batten {
 
 /// A stretch of a curve that has no ink under it.
 struct InventedStretch {
-  int curve = 0;  ///< Index into FairedSet::curves.
-  double lengthPx = 0.0;
+  int curve = 0;             ///< Index into FairedSet::curves.
+  double lengthPx = 0.0;     ///< [px] Along the curve.
   std::vector<Vec2> linePx;  ///< Its course, a point about every pixel; at least two.
 };
 

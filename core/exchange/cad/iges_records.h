@@ -12,11 +12,11 @@ namespace batten {
 
 /// A file of IGES, taken apart into what its sections hold.
 struct IgesDirectoryEntry {
-  int type = 0, form = 0;
+  int type = 0, form = 0;                     ///< Numbers of the kind of entity, as IGES has them.
   int parameterLine = 0, parameterLines = 0;  ///< Where its data begin, counted from 1, and how many lines they take.
   std::optional<int> matrix;                  ///< Directory line of its transformation.
-  int level = 0;
-  int status = 0;  ///< Eight digits: blank, subordinate, use, hierarchy.
+  int level = 0;                              ///< Layer; negative: a list of several.
+  int status = 0;                             ///< Eight digits: blank, subordinate, use, hierarchy.
   std::string label;
   std::size_t line = 0;  ///< In the file, from 1, for messages.
 };
@@ -39,6 +39,7 @@ Result<std::vector<std::string>> parametersOf(const IgesRecords&, const IgesDire
 /// A number as IGES writes it: "1.5D+02" as well as "150."; a field left empty is 0. nullopt for anything else.
 std::optional<double> igesNumber(std::string_view field);
 
+/// BadParameter: what is wrong, and in which line of the file, counted from 1.
 tl::unexpected<Error> igesDamaged(std::size_t line, const std::string& what);
 
 }  // namespace batten

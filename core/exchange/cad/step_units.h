@@ -9,7 +9,7 @@ namespace batten {
 
 struct StepUnits {
   std::optional<double> mmPerUnit;  ///< Absent: the file states no unit of length that can be read.
-  double radiansPerUnit = 1.0;
+  double radiansPerUnit = 1.0;      ///< Of plane angle.
 };
 
 /// The units of a file, by the first of its contexts that states them.

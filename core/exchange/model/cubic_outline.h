@@ -13,9 +13,9 @@ namespace batten {
 struct CubicOutline {
   std::vector<CubicRun> runs;  ///< More than one where the curves leave a gap.
   bool closed = false;         ///< One run that ends exactly where it starts.
-  int cubics = 0;
-  double largestError = 0.0;  ///< As measured, see cubic_path.h.
-  double largestJump = 0.0;   ///< Likewise; seams and joints of pieces count where the curves have one curvature there.
+  int cubics = 0;              ///< In all runs.
+  double largestError = 0.0;   ///< As measured, see cubic_path.h.
+  double largestJump = 0.0;  ///< Likewise; seams and joints of pieces count where the curves have one curvature there.
 };
 
 /// The pieces of a line as runs without a gap; pieces share the threads. Where a piece begins where the last one ends,

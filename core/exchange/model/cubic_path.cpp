@@ -12,6 +12,7 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/cubic.h"
 #include "core/curve/curvature.h"
+#include "core/curve/foot_step.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -214,11 +215,11 @@ class Approximation {
     double best = (*nearest - p).norm();
     for (int i = 0; i < 8; ++i) {
       const auto d = curve_.derivatives(u, 1);
-      best = std::min(best, (d[0] - p).norm());
-      const double square = d[1].squaredNorm();
-      if (square == 0.0) break;
-      const double next = std::clamp(u + (p - d[0]).dot(d[1]) / square, from, to);
-      // Gauss-Newton: what is left is of second order, and the distance changes by the square of that.
+      const Vec2 offset = d[0] - p;
+      best = std::min(best, offset.norm());
+      // Without the second derivative, which would cost more than it saves: what is left is of second order, and the
+      // distance changes by the square of that.
+      const double next = std::clamp(u + footStep(offset, d[1], Vec2::Zero()), from, to);
       const bool settled = std::abs(next - u) <= kSettled * (to - from);
       u = next;
       if (settled) break;

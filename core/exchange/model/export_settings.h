@@ -54,6 +54,7 @@ bool holdsWidths(const ExportSettings&);
 /// Whether pieces stay together: as the settings say, else in all but DXF, IGES, STEP and 3DM.
 bool isJoined(const ExportSettings&);
 
+/// [mm] The length of one unit.
 double millimetresPer(LengthUnit);
 const char* nameOf(LengthUnit);  ///< "mm" or "in".
 

@@ -26,6 +26,7 @@ struct StrokeMiddle {
   bool closed = false;  ///< The last place is the first one's.
 };
 
+/// The stretches of a line whose pieces have widths and meet. Not complete when cancelled.
 std::vector<StrokeMiddle> strokeMiddles(const ExportCurve&, CancelCheck check = {});
 
 }  // namespace batten

@@ -24,8 +24,4 @@ struct WidthOutline {
 /// @param tolerance [mm] of the cubics from the borders. > 0.
 WidthOutline widthOutline(const ExportCurve&, double tolerance, CancelCheck check = {});
 
-/// [mm] How far borders are from where the widths of a line put them: distance from its nearest place, less half the
-/// width there. Infinite if the line has no width.
-double distanceFromWidth(const std::vector<std::array<Vec2, 4>>& border, const ExportCurve&, CancelCheck check = {});
-
 }  // namespace batten

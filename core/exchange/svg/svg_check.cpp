@@ -12,7 +12,7 @@
 #include "core/exchange/model/cubic_outline.h"
 #include "core/exchange/model/file_text.h"
 #include "core/exchange/model/read_back.h"
-#include "core/exchange/model/width_outline.h"
+#include "core/exchange/model/width_distance.h"
 #include "core/exchange/svg/svg_writer.h"
 
 namespace batten {

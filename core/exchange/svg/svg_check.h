@@ -11,7 +11,7 @@ namespace batten {
 
 /// What an SVG of ours holds when it is read back.
 struct SvgCheck {
-  int curves = 0, cubics = 0;
+  int curves = 0, cubics = 0;        ///< Paths of curves, and cubics in them.
   double largestErrorMm = 0.0;       ///< Largest distance of points of the paths from the exact curves.
   int outlines = 0;                  ///< Filled outlines of strokes.
   double largestWidthErrorMm = 0.0;  ///< Largest distance of their borders from half the width beside the curves.

@@ -25,7 +25,7 @@ struct SvgText {
   std::string text;
   double largestErrorMm = 0.0;  ///< Measured, not the bound asked for.
   int cubics = 0;
-  int outlines = 0;
+  int outlines = 0;          ///< Filled outlines of strokes.
   double largestJump = 0.0;  ///< Of the curvature where cubics meet, measured and relative: see cubic_path.h.
 };
 /// SVG in mm (width and height in mm, 1 user unit = 1 mm unless asked otherwise, y down), one <path> per curve of the

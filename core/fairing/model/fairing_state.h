@@ -41,7 +41,7 @@ struct FairingSample {
 
 /// A curve on its way, with all that the next step needs.
 struct FairingState {
-  std::vector<Vec2> points;
+  std::vector<Vec2> points;  ///< Control points. [mm]
   SpanCurve curve;
   EqualArc arc;
   std::vector<FairingSample> samples;

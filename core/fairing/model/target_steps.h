@@ -24,8 +24,8 @@ int extremaAsked(const FairingSetup& setup, const FairingObjective& objective);
 
 /// A curve on the way from a target to the sketch.
 struct TargetStep {
-  double weight = 0.0;  ///< [1/mm] Of the distance from the sketch.
-  std::vector<Vec2> points;
+  double weight = 0.0;       ///< [1/mm] Of the distance from the sketch.
+  std::vector<Vec2> points;  ///< Control points. [mm]
   std::vector<SpanPlace> feet;
   double damping = 1e-3;  ///< As FairingLimits::damping.
   double misfit = 0.0;    ///< Of the profile, squared.

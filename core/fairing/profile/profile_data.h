@@ -29,6 +29,7 @@ void judgeProfile(TargetProfile&, const ProfileData&, const std::vector<double>&
 /// rescaled to 1, or where the curve bends both ways and its radius has no end, of their curvatures.
 double similarityToSketch(const NurbsCurve& modified, const NurbsCurve& sketched);
 
+/// 0 of none. @pre `b` has as many values as `a`.
 double meanSquareDifference(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace batten

@@ -34,6 +34,7 @@ struct TargetParams {
   std::vector<double> splits;
   bool operator==(const TargetParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const TargetParams&);
 
 /// A part of a curve by shares of its arc length. On a closed curve `to` may lie beyond 1: over the seam.

@@ -26,7 +26,7 @@ class MonotoneSearch {
   const std::vector<double>& curvature() const { return kappa_; }
 
   struct Outcome {
-    std::vector<Vec2> points;
+    std::vector<Vec2> points;  ///< Control points. [mm]
     bool found = false;        ///< Sampled densely, the curvature turns back at the structure's extrema only.
     double deviationMm = 0.0;  ///< From the sketch, both ways.
     int iterations = 0;

@@ -17,10 +17,10 @@ namespace batten {
 /// A curve that may be taken in place of the sketched one.
 struct StructureCandidate {
   std::shared_ptr<const FairingSetup> setup;  ///< Over whose knots it is.
-  std::vector<Vec2> points;
-  int extrema = 0;           ///< Of the usual prominence.
-  double deviationMm = 0.0;  ///< From the sketched curve, both ways.
-  int allExtrema = 0;        ///< However small: the curvature turns back there.
+  std::vector<Vec2> points;                   ///< Control points. [mm]
+  int extrema = 0;                            ///< Of the usual prominence.
+  double deviationMm = 0.0;                   ///< From the sketched curve, both ways.
+  int allExtrema = 0;                         ///< However small: the curvature turns back there.
 };
 
 /// The candidate as a result: objective, extrema and deviation are filled in.

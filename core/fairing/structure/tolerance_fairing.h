@@ -20,7 +20,7 @@ Result<FairedCurve> fairWithinTolerance(const std::shared_ptr<const FairingSetup
 /// The smallest misfit with every sample's distance from the sketch bounded, by a logarithmic barrier (interior point)
 /// from control points inside the bound. Slower than one weight, but sure to use the whole corridor.
 struct BoundedRun {
-  std::vector<Vec2> points;
+  std::vector<Vec2> points;  ///< Control points. [mm]
   Termination why = Termination::IterationLimit;
   int iterations = 0;
 };

@@ -18,8 +18,8 @@ std::vector<double> naturalSplits(const NurbsCurve&, bool closed, double toleran
 
 /// Splits, and the smallest tolerance of which they are the natural ones.
 struct SpanLevel {
-  double fromMm = 0.0;  ///< 0: of every tolerance below those of the next level.
-  std::vector<double> splits;
+  double fromMm = 0.0;         ///< 0: of every tolerance below those of the next level.
+  std::vector<double> splits;  ///< 0..1 of the arc length, ascending.
 };
 /// Those of all tolerances, from the largest tolerance down: what differs from the level before. Never empty.
 std::vector<SpanLevel> naturalSpanLevels(const NurbsCurve&, bool closed);

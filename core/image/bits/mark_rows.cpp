@@ -164,13 +164,14 @@ class RowSearch {
   const BitImage& ink_;
 };
 
-// Marks by squares of the page.
+// Marks by squares of the page, to look around one as far as it asks and until enough is seen; a PointGrid
+// (core/polyline) looks one cell around, and to its end.
 class MarkGrid {
  public:
   MarkGrid(const Marks& marks, int width) : marks_(marks), columns_(width / kCellPx + 1) {
     for (int i = 0; i < std::ssize(marks.all); ++i) {
-      const auto cell = static_cast<std::size_t>(cellOf(marks.all[i].middle));
-      if (cell >= cells_.size()) cells_.resize(cell + 1);
+      const int cell = cellOf(marks.all[i].middle);
+      if (cell >= std::ssize(cells_)) cells_.resize(cell + 1);
       cells_[cell].push_back(i);
     }
   }

@@ -30,6 +30,7 @@ struct FilterParams {
   int maxChangePx = 8;
   bool operator==(const FilterParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const FilterParams&);
 
 struct FilterReport {

@@ -24,6 +24,7 @@ struct RunPieces {
 enum class Connectivity { Four, Eight };
 /// The piece that a pixel lies in; absent on paper.
 std::optional<int> pieceAt(const RunPieces& pieces, int x, int y);
+/// The pieces of all ink of an image. Not complete when cancelled.
 RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context);
 
 /// Sets the pixels of a run.

@@ -19,7 +19,7 @@ enum class InkKind { Paper, Neutral, Hued };
 /// What a pixel shows of an ink.
 struct InkLook {
   InkKind kind = InkKind::Paper;
-  float hueDeg = 0.0f;
+  float hueDeg = 0.0f;    ///< [deg] 0..360; of Hued alone.
   float darkness = 0.0f;  ///< 0..1
   InkColour colour() const {
     return {kind == InkKind::Hued ? std::optional(static_cast<double>(hueDeg)) : std::nullopt};
@@ -30,6 +30,7 @@ struct InkLook {
 class LookReader {
  public:
   LookReader(const PaperColour& paper, int width, int height) : paper_(paper), width_(width), height_(height) {}
+  /// Goes to row y; to be called before at().
   void setRow(int y);
   InkLook at(int x, const Rgb8&) const;
 

@@ -27,6 +27,7 @@ struct InkChoice {
   bool isAll() const { return keep.empty() && drop.empty(); }
   bool operator==(const InkChoice&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const InkChoice&);
 
 /// Whether two inks lie within a range of hues of one another.

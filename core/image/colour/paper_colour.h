@@ -16,7 +16,7 @@ struct PaperColour {
   /// Per channel (red, green, blue): ratio to the grey = sum of c[i] * {1, u, v, u u, u v, v v}, u and v = 0..1 across
   /// and down the page.
   std::array<std::array<double, 6>, 3> ratio{};
-  int cellPx = 32, columns = 0, rows = 0;
+  int cellPx = 32, columns = 0, rows = 0;  ///< [px] side of a cell; cells across and down.
   std::vector<float> bright;  ///< [grey 0..255] columns * rows: the brighter part of every cell and its neighbours.
   std::vector<float> level;   ///< [grey 0..255] the same of every cell by itself, where it holds paper.
   double paperLevel = 255.0;  ///< [grey] Median of the bright cells of the page.

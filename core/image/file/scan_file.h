@@ -27,7 +27,7 @@ Error noSuchPage(const std::filesystem::path& path, int page, int pages);
 struct ReadingCost {
   int widthPx = 0, heightPx = 0;
   std::uint64_t memoryBytes = 0;  ///< At its peak.
-  std::uint64_t fileBytes = 0;
+  std::uint64_t fileBytes = 0;    ///< Size of the file.
 };
 /// Why a picture is too large to be read, with what to do.
 /// @param memoryBytes that reading may take; absent means what the machine has free.

@@ -18,7 +18,7 @@ struct TiffTags {
   };
   std::optional<double> dpi;
   std::optional<Orientation> orientation;
-  std::optional<double> focal35Mm;
+  std::optional<double> focal35Mm;  ///< [mm] Focal length, of film of 35 mm.
   /// The header with what is stated here.
   ScanHeader in(ScanHeader header) const;
 };

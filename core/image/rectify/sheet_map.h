@@ -15,6 +15,7 @@ class SheetMap {
   SheetMap(const SheetCorners&, double widthPx, double heightPx);
   explicit SheetMap(const Rectification& r) : SheetMap(r.cornersPx, r.widthPx, r.heightPx) {}
 
+  /// [px] Where a place of the page lies on the picture.
   Vec2 toPicture(const Vec2& page) const;
   /// Absent: that place of the picture lies on or beyond the horizon of the sheet's plane.
   std::optional<Vec2> toPage(const Vec2& picture) const;

@@ -26,6 +26,7 @@ struct RulingLattice {
   std::vector<bool> isSeen;  ///< From first to last: line by line.
 
   double toX() const { return fromX + 2.0 * halfWidth; }
+  /// [grid] y of line k at x.
   double at(double k, double x) const;
 };
 

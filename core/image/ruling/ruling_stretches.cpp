@@ -272,7 +272,7 @@ class SlopeScores {
       std::array<std::vector<LinePixel>, kBands> bands;
       for (const LinePixel& p : pixels[s])
         bands[std::clamp(static_cast<int>(p.y / bandHeight), 0, kBands - 1)].push_back(p);
-      std::vector<int> bins(static_cast<std::size_t>(bandHeight + 2.0 * offset) + 2);
+      std::vector<int> bins(static_cast<int>(bandHeight + 2.0 * offset) + 2);
       for (int b = 0; b < kBands; ++b) {
         if (!isMuch(static_cast<int>(bands[b].size()), static_cast<float>(least))) continue;  // none of its bins either
         for (int i = 0; i <= 2 * steps_ && !context.isCancelled(); ++i) {
@@ -378,13 +378,13 @@ RulingStretches findRulingStretches(const PlaneView& grey, const RunContext& con
   if (context.isCancelled() || !scores.hasLines()) return out;
   out.slope = scores.commonSlope();
   const double offset = 0.5 * kSteepest * out.stripWidth + 2.0, least = kLeastOfStrip * out.stripWidth;
-  std::vector<int> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);
+  std::vector<int> bins(static_cast<int>(out.height + 2.0 * offset) + 2);
   for (int s = 0; s < kStrips; ++s) {
     const RulingFan& fan = out.fans.emplace_back(scores.fanOf(s));
     const double middle = (s + 0.5) * out.stripWidth;
     std::fill(bins.begin(), bins.end(), 0);
     for (const LinePixel& p : pixels[s])
-      ++bins[static_cast<std::size_t>(p.y - slopeIn(fan, p.y, out.height) * (p.x - middle) + offset)];
+      ++bins[static_cast<int>(p.y - slopeIn(fan, p.y, out.height) * (p.x - middle) + offset)];
     out.strips.push_back(peaksOf(bins, least, offset));
     for (RulingStretch& stretch : out.strips.back()) {
       stretch.place -= out.slope * middle;

@@ -23,6 +23,7 @@ struct RulingFan {
 /// Where thin dark lines run through strips of a plane: some columns side by side.
 struct RulingStretches {
   double slope = 0.0;  ///< The one direction that most of the lines share.
+  /// [grid] Of the plane.
   double width = 0.0, height = 0.0;
   double fromX = 0.0, stripWidth = 0.0;            ///< [grid] Where the first strip begins.
   std::vector<std::vector<RulingStretch>> strips;  ///< Per strip, in order of place.

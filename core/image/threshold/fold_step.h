@@ -17,7 +17,7 @@ inline constexpr double kLeastFoldStep = 4.0;  ///< [grey]
 
 /// Grey along normals of a course: rows of 2 * half + 1 values, one row every `stepPx`.
 struct FoldStrip {
-  int half = 0, rows = 0;
+  int half = 0, rows = 0;   ///< [px] to either side of the course; rows.
   double stepPx = 2.0;      ///< Between rows.
   std::vector<float> grey;  ///< [grey] Row by row.
   const float* row(int i) const { return grey.data() + std::ptrdiff_t{i} * (2 * half + 1); }
@@ -35,7 +35,7 @@ FoldStrip foldStripAlong(const GreyImage& image, const FoldCourse& course, int h
 /// A step that changes linearly along the course, and which rows of the strip show it.
 struct FoldStepFit {
   double middle = 0.0, slope = 0.0;  ///< [grey], [grey per row]
-  std::vector<std::uint8_t> shows;
+  std::vector<std::uint8_t> shows;   ///< Per row: not 0 where the step is seen.
   double at(int i, int rows) const { return middle + slope * (i - 0.5 * rows); }
 };
 

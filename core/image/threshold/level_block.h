@@ -31,7 +31,7 @@ void fillStraight(float first, float slope, int begin, LevelBlock::Row& out);
 
 /// What the weaker level asks for: a part of the contrast, at least the limit, never more than the contrast itself.
 struct FaintContrast {
-  float reach, limit;
+  float reach, limit;  ///< [-] part of the contrast; [grey]
   /// Greatest and least alone, in this order of operands: only then are loops of it made ones of vectors.
   float of(float contrast) const {
     const float share = reach * contrast;

@@ -11,6 +11,7 @@
 #include "core/base/statistics.h"
 #include "core/image/bits/neighbourhood_filter.h"
 #include "core/image/push_pull.h"
+#include "core/image/threshold/half_levels.h"
 #include "core/image/threshold/region_surface.h"
 
 namespace batten {
@@ -138,23 +139,14 @@ HalfLevels halfLevels(const Plane& grey, const PageEdges& edges, const PaperBack
     bySign.add(static_cast<double>(p.strength), depths.back());
   }
   found.areMixed = bySign.areMixed();
-  std::array<double, kRegions> sum{}, weight{};
-  std::array<int, kRegions> votes{};
+  RegionHalfLevels regions;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const EdgePoint& p = edges.crests[i];
     if (found.areMixed && depths[i] > 0.0) continue;
-    const int r = regionOf(p.x, p.y, grey.width, grey.height);
-    sum[r] += static_cast<double>(p.strength) * depths[i];
-    weight[r] += static_cast<double>(p.strength);
-    ++votes[r];
+    const auto strength = static_cast<double>(p.strength);
+    regions.add(regionOf(p.x, p.y, grey.width, grey.height), strength * depths[i], strength);
   }
-  std::vector<float> value(kRegions, 0.0f), confidence(kRegions, 0.0f);
-  for (std::size_t r = 0; r < kRegions; ++r) {
-    if (votes[r] < kMinVotes || weight[r] <= 0.0) continue;
-    value[r] = static_cast<float>(sum[r] / weight[r]);
-    confidence[r] = static_cast<float>(votes[r]) / (static_cast<float>(votes[r]) + kVotesOfConfidence);
-  }
-  found.ofRegion = pushPull(value, confidence, kRegionsPerSide, kRegionsPerSide);
+  found.ofRegion = regions.filled();
   return found;
 }
 

@@ -13,13 +13,10 @@
 
 namespace batten {
 
-/// Edge pixels that an estimate needs at least, and those that make it half certain.
-inline constexpr int kMinVotes = 15;
-inline constexpr float kVotesOfConfidence = 60.0f;  // make it half certain
-
 /// Depths at the crests of edges, by their signs.
 struct SignedDepths {
   double darker = 0.0, brighter = 0.0;  ///< Sums, weighted by the strength of the crests; neither is negative.
+  /// @param depth [grey] positive: brighter than the paper.
   void add(double strength, double depth) { (depth > 0.0 ? brighter : darker) += strength * std::fabs(depth); }
   /// Ink and highlights, as white chalk on toned paper: the edges of the highlights tell nothing of the ink.
   bool areMixed() const {

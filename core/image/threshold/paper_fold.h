@@ -13,13 +13,15 @@ namespace batten {
 
 /// A nearly straight course over the page: origin + t * along + (d + bend(t)) * normal, image frame, px.
 struct FoldCourse {
-  Vec2 origin = Vec2::Zero();
+  Vec2 origin = Vec2::Zero();  ///< [px]
   Vec2 along = Vec2::UnitX(),
        normal = Vec2::UnitY();   ///< Unit, at right angles; the normal points to the brighter side.
   double from = 0.0, to = 0.0;   ///< t where the course enters and leaves the page.
   std::array<double, 4> bend{};  ///< Cubic in t / max(|from|, |to|).
 
+  /// [px] What t is divided by in `bend`.
   double scale() const;
+  /// [px] bend(t) along the normal.
   double bendAt(double t) const;
   Vec2 at(double t, double d) const { return origin + t * along + (d + bendAt(t)) * normal; }
 };
@@ -31,6 +33,7 @@ struct PaperFold {
   FoldCourse course;
   double spacing = 16.0;  ///< [px] between stations along the course, the first at course.from.
   int reach = 8;          ///< [px] the profile covers -reach..reach across the course.
+  /// How many there are.
   int stations = 0;
   std::vector<float> depth;    ///< [grey, never negative] per station: the step.
   std::vector<float> profile;  ///< [grey, never positive where the step is] stations * taps().

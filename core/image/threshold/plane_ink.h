@@ -16,7 +16,7 @@ struct ShrunkenPage {
   const Plane& grey;
   const PaperBackground& paper;
   const RegionValues& contrasts;  ///< [grey] Of the 64 regions, added to the paper.
-  int shrink;
+  int shrink;                     ///< Pixels of the page along one of the plane.
 };
 
 /// Where the smoothed plane is darker than the paper and the contrast there. Most of it is brighter than any level near

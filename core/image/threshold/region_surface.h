@@ -24,6 +24,7 @@ class RegionSurface {
     float first = 0.0f, slope = 0.0f;  ///< Value of its first pixel, and what each next one adds.
   };
   using RowLines = std::array<RowLine, kRegionsPerSide + 1>;
+  /// The stretches of row y, from the left.
   RowLines linesOfRow(int y) const;
   /// The stretch that pixel x lies on.
   int stretchAt(int x) const;

@@ -12,9 +12,9 @@
 #include "core/base/statistics.h"
 #include "core/image/bits/ink_grain.h"
 #include "core/image/plane.h"
-#include "core/image/push_pull.h"
 #include "core/image/threshold/find_folds.h"
 #include "core/image/threshold/grey_parts.h"
+#include "core/image/threshold/half_levels.h"
 #include "core/image/threshold/otsu_thresholds.h"
 #include "core/image/threshold/page_edges.h"
 #include "core/image/threshold/paper_cells.h"
@@ -136,26 +136,17 @@ struct Contrasts {
 /// Half level of every region from its own crests; regions without are filled from those that have some.
 Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& depths, double strength) {
   Contrasts out;
-  std::array<double, kRegions> sum{}, weight{};
-  std::array<int, kRegions> votes{};
+  RegionHalfLevels regions;
   for (std::size_t i = 0; i < edges.crests.size(); ++i) {
     if (!depths.counts(i)) continue;
     const EdgePoint& p = edges.crests[i];
-    const int r = regionOf(p.x, p.y, grey.width, grey.height);
-    sum[r] += static_cast<double>(p.strength * depths.atCrests[i]);
-    weight[r] += static_cast<double>(p.strength);
-    ++votes[r];
+    regions.add(regionOf(p.x, p.y, grey.width, grey.height), static_cast<double>(p.strength * depths.atCrests[i]),
+                static_cast<double>(p.strength));
   }
-  std::vector<float> value(kRegions, 0.0f), confidence(kRegions, 0.0f);
-  for (std::size_t r = 0; r < kRegions; ++r) {
-    out.measured[r] = votes[r] >= kMinVotes && weight[r] > 0.0;
-    if (!out.measured[r]) continue;
-    value[r] = static_cast<float>(sum[r] / weight[r]);
-    confidence[r] = static_cast<float>(votes[r]) / (static_cast<float>(votes[r]) + kVotesOfConfidence);
-  }
-  const std::vector<float> filled = pushPull(value, confidence, kRegionsPerSide, kRegionsPerSide);
+  const std::vector<float> filled = regions.filled();
   const double least = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
-  for (std::size_t r = 0; r < kRegions; ++r) {
+  for (int r = 0; r < kRegions; ++r) {
+    out.measured[r] = regions.isMeasured(r);
     const double level = std::min(static_cast<double>(filled[r]), kDustShare * depths.mean) * strength;
     out.contrast[r] = std::min(level, least);
   }

@@ -43,12 +43,13 @@ struct ThresholdParams {
   std::array<std::optional<double>, kRegions> grid{};
   bool operator==(const ThresholdParams&) const = default;
 };
+/// First invalid field, with its range, if any.
 std::optional<Error> validate(const ThresholdParams&);
 
 /// The paper's grey on a coarse grid: cell (i, j) is centred at px ((i + .5) * cellPx, (j + .5) * cellPx); between
 /// centres bilinear, beyond them constant. Empty when flattening is off.
 struct PaperBackground {
-  int cellPx = 8;
+  int cellPx = 8;  ///< [px] Side of a cell.
   int columns = 0;
   int rows = 0;
   std::vector<float> grey;       ///< [grey 0..255] columns * rows.

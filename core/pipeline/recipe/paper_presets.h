@@ -22,6 +22,7 @@ struct PaperPreset {
 
 /// 000, 001, 002, 004 and "default". 003 describes the targets of 000: it has no way of its own.
 std::span<const PaperPreset> paperPresets();
+/// @return nullptr if there is none of that id.
 const PaperPreset* findPaperPreset(std::string_view id);
 std::string paperPresetNames();  ///< "000, 001, 002, 004, default"
 

@@ -20,13 +20,13 @@ namespace batten::table {
 
 /// What the user reads about a parameter.
 struct Words {
-  std::string name, label, unit, help;
+  std::string name, label, unit, help;  ///< As in Parameter.
   bool expert = false;
 };
 
 /// Range and look of a number.
 struct Range {
-  double minimum = 0.0, maximum = 1.0, step = 0.0;
+  double minimum = 0.0, maximum = 1.0, step = 0.0;  ///< As in Parameter.
   int decimals = 0;
   bool logarithmic = false;
 };
@@ -38,10 +38,12 @@ struct Word {
   T value;
 };
 
+/// BadParameter: what a parameter cannot be, and what it must be.
 inline tl::unexpected<Error> refuse(const std::string& name, std::string_view text, const std::string& expected) {
   return fail(ErrorCode::BadParameter, name + " cannot be " + quotedText(text) + ": " + expected + ".");
 }
 
+/// An entry with its words, without range, reader and writer.
 inline Parameter described(StageId stage, Words words, ParameterType type) {
   Parameter p;
   p.stage = stage;
@@ -54,11 +56,13 @@ inline Parameter described(StageId stage, Words words, ParameterType type) {
   return p;
 }
 
+/// What a number must be, for messages: "it must be a number from 0 to 100 px".
 inline std::string rangeText(const Parameter& p) {
   return "it must be " + std::string(p.type == ParameterType::Integer ? "a whole number" : "a number") + " from " +
          numberToText(p.minimum) + " to " + numberToText(p.maximum) + (p.unit.empty() ? "" : " " + p.unit);
 }
 
+/// A switch: read as true, on, yes or 1 and their opposites.
 template <class Field>
 Parameter boolean(StageId stage, Words words, Field field) {
   Parameter p = described(stage, std::move(words), ParameterType::Boolean);
@@ -78,6 +82,7 @@ Parameter boolean(StageId stage, Words words, Field field) {
   return p;
 }
 
+/// Gives an entry its range and look.
 inline void setRange(Parameter& p, const Range& range) {
   p.minimum = range.minimum;
   p.maximum = range.maximum;
@@ -86,6 +91,7 @@ inline void setRange(Parameter& p, const Range& range) {
   p.logarithmic = range.logarithmic;
 }
 
+/// A number; what lies beyond the range is refused.
 template <class Field>
 Parameter real(StageId stage, Words words, Range range, Field field) {
   Parameter p = described(stage, std::move(words), ParameterType::Real);
@@ -100,6 +106,7 @@ Parameter real(StageId stage, Words words, Range range, Field field) {
   return p;
 }
 
+/// A whole number; what lies beyond the range is refused.
 template <class Field>
 Parameter integer(StageId stage, Words words, Range range, Field field) {
   Parameter p = described(stage, std::move(words), ParameterType::Integer);
@@ -114,6 +121,7 @@ Parameter integer(StageId stage, Words words, Range range, Field field) {
   return p;
 }
 
+/// One of several words.
 template <class T, class Field>
 Parameter choice(StageId stage, Words words, std::vector<Word<T>> all, Field field) {
   Parameter p = described(stage, std::move(words), ParameterType::Choice);

@@ -46,6 +46,7 @@ struct Parameter {
 
 /// All parameters, grouped by stage in the order of the panels. Built once.
 std::span<const Parameter> parameterTable();
+/// @return nullptr if there is none of that name.
 const Parameter* findParameter(std::string_view name);
 /// Sets one parameter by name. An unknown name lists the nearest known one.
 Result<void> setParameter(Recipe&, std::string_view name, std::string_view value);

@@ -15,6 +15,7 @@ namespace batten {
 /// value.
 using RecipeJson = nlohmann::ordered_json;
 
+/// BadParameter.
 tl::unexpected<Error> refuseRecipe(std::string message, std::string detail = {});
 
 /// A JSON value as the text that the setters of the parameter table take.

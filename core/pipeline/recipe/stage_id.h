@@ -28,6 +28,7 @@ inline constexpr std::array kStages = {StageId::Thresholds, StageId::Binary,   S
 constexpr std::size_t indexOf(StageId stage) { return static_cast<std::size_t>(stage); }
 /// "thresholds", "binary", … as --dump and reports name them.
 std::string_view name(StageId);
+/// Absent: no stage has this name.
 std::optional<StageId> stageFromName(std::string_view);
 
 }  // namespace batten

@@ -48,8 +48,7 @@ TEST_F(SpanKernels, DerivativesAtAPlaceAreSummedPointByPoint) {
     const PlaceTable::Place place = bernsteinPlace(degree, 0.5 + 0.4 * any());
     std::array<Vec2, kSpanPoints> bezier;
     for (Vec2& point : bezier) point = Vec2(any(), any());
-    PlaceSums sums;
-    sumPoints(place.columns, bezier, degree + 1, sums);
+    const PlaceSums sums = sumPoints(place.columns, bezier, degree + 1);
     for (std::size_t order = 0; order < 4; ++order) {
       Vec2 sum = Vec2::Zero();
       for (int k = 0; k <= degree; ++k) sum += place.rows[order][k] * bezier[k];

@@ -83,8 +83,8 @@ double shareOfShapesAmongFineLines(double broadPx) {
   return shareOfShapes(labelsOf(page.ink(2)));
 }
 
-// A filled band is as even as a stroke, but a second pen would have drawn more.
-TEST(InkLabels, AFilledBandAmongFineLinesIsAShape) {
+// A filled ribbon is as even as a stroke, but a second pen would have drawn more.
+TEST(InkLabels, AFilledRibbonAmongFineLinesIsAShape) {
   EXPECT_NEAR(shareOfShapesAmongFineLines(300.0), 6000.0 / (6000.0 + 3.0 * (2960.0 + 240.0)), 0.05);
   EXPECT_LT(shareOfShapesAmongFineLines(1500.0), 0.01);
 }

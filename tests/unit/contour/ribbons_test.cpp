@@ -34,9 +34,9 @@ ContourSet lineBeside(int y, float widthPx) {
 TEST(Ribbons, AFillingIsMostOfItsRibbon) {
   const BitImage ribbon = bar(20, kRibbonTop, 580, kRibbonBottom), none(kRibbonPage, 120);
   const ContourSet line = lineBeside(44, 8.0f);
-  const BitImage pill = bar(280, 58, 330, 72), band = bar(20, 52, 580, kRibbonBottom);
+  const BitImage pill = bar(280, 58, 330, 72), filling = bar(20, 52, 580, kRibbonBottom);
   EXPECT_EQ(fillingsOfRibbons(pill, ribbon, none, line, {}).count(), 0);
-  EXPECT_EQ(fillingsOfRibbons(band, ribbon, none, line, {}), band);
+  EXPECT_EQ(fillingsOfRibbons(filling, ribbon, none, line, {}), filling);
   EXPECT_EQ(fillingsOfRibbons(pill, ribbon, bar(330, 0, 340, 20), line, {}).count(), 0) << "a shape elsewhere";
   EXPECT_EQ(fillingsOfRibbons(pill, ribbon, bar(330, 50, 400, 70), line, {}), pill) << "a shape goes on in it";
 }
@@ -51,9 +51,9 @@ TEST(Ribbons, PillsOfOneRibbonCountTogether) {
 // Two fifths of the ribbon, 16 px wide: two lines of 5 px hold no such disc, two of 8 px do.
 TEST(Ribbons, ASolidIsWiderThanTheLinesBesideIt) {
   const BitImage ribbon = bar(20, kRibbonTop, 580, kRibbonBottom), none(kRibbonPage, 120);
-  const BitImage band = bar(20, 50, 580, 66);
-  EXPECT_EQ(fillingsOfRibbons(band, ribbon, none, lineBeside(47, 5.0f), {}), band);
-  EXPECT_EQ(fillingsOfRibbons(band, ribbon, none, lineBeside(46, 8.0f), {}).count(), 0);
+  const BitImage filling = bar(20, 50, 580, 66);
+  EXPECT_EQ(fillingsOfRibbons(filling, ribbon, none, lineBeside(47, 5.0f), {}), filling);
+  EXPECT_EQ(fillingsOfRibbons(filling, ribbon, none, lineBeside(46, 8.0f), {}).count(), 0);
   EXPECT_EQ(fillingsOfRibbons(bar(20, 50, 140, 66), ribbon, none, lineBeside(47, 5.0f), {}).count(), 0)
       << "less than a quarter of the ribbon around";
 }

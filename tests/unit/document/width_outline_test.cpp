@@ -12,6 +12,7 @@
 #include "core/curve/arc_length.h"
 #include "core/document/export_builder.h"
 #include "core/exchange/export_file.h"
+#include "core/exchange/model/width_distance.h"
 #include "core/exchange/svg/svg_reader.h"
 #include "core/exchange/svg/svg_shapes.h"
 #include "tests/support/render_page.h"

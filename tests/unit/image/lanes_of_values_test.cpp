@@ -28,8 +28,7 @@ TEST(LanesOfValues, FindsTheValueOfARankInEveryLane) {
           }
         }
         ASSERT_EQ(values.count(), count);
-        std::vector<std::int16_t> least;
-        values.leastOf(least);
+        const std::vector<std::int16_t> least = values.leastOf();
         values.sortTo(rank);
         for (int i = 0; i < lanes; ++i) {
           std::sort(plain[i].begin(), plain[i].end());

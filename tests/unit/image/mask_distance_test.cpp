@@ -27,7 +27,7 @@ void expectNaive(const BitImage& mask) {
   for (int y = -1; y <= mask.height; y += 3) {
     for (int x = -1; x <= mask.width; x += 2) ASSERT_EQ(distance.squared(x, y), naive(mask, x, y)) << x << " " << y;
   }
-  // The bands that were given up come anew.
+  // The strips that were given up come anew.
   for (int y = mask.height - 1; y >= 0; y -= 61)
     ASSERT_EQ(distance.squared(mask.width / 2, y), naive(mask, mask.width / 2, y)) << y;
 }
@@ -43,7 +43,7 @@ TEST(MaskDistance, IsTheDistanceToTheNearestPixelOutside) {
   }
 }
 
-TEST(MaskDistance, APageOfManyBandsIsAskedInAnyOrder) {
+TEST(MaskDistance, APageOfManyStripsIsAskedInAnyOrder) {
   BitImage mask(40, 700);
   for (int y = 10; y < 690; ++y) {
     for (int x = 3; x < 37; ++x) mask.set(x, y, (x - 20) * (x - 20) + (y % 97 - 40) * (y % 97 - 40) > 30);
