@@ -140,8 +140,7 @@ void removeJog(StrokeCourse& c, int at, int reach) {
     if (!slant || *slant > kGentleSlant) continue;
     const auto places = courseThrough(c, crossing, kJogOffWidths);
     if (!places) continue;
-    layOver(c, crossing, *places);
-    for (int k = begin; k <= end; ++k) c.points[wrapIndex(k, n)].measured = false;
+    layOver(c, crossing, *places);  // as well known as its sides: the points count as placed
     return;
   }
 }
