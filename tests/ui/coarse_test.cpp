@@ -201,18 +201,23 @@ TEST_F(LargePage, TheCoarseResultComesFirstAndGoesWhenTheFullOneIsThere) {
   EXPECT_FALSE(session().coarseCurves());
   EXPECT_EQ(session().curves().size(), 12u);
 
-  // A full run that waits for nothing else; the coarse one is done in between.
-  const int before = coarse.count();
+  // A full run that waits for nothing else; the coarse one is done in between. On a busy machine it is chance which one
+  // comes first.
+  constexpr int kTries = 8;
   Recipe recipe = session().recipe();
   recipe.threshold.mode = ThresholdMode::Manual;
-  recipe.threshold.manualLevel = 140.0;
-  session().change(QStringLiteral("Threshold"), recipe);
   bool wasSeen = false;
-  ASSERT_TRUE(waitUntil([&] {
-    wasSeen = wasSeen || session().coarseInk();
-    return !session().isBusy() && !session().hasRunningJobs();
-  }));
-  EXPECT_GT(coarse.count() + (wasSeen ? 1 : 0), before);
+  for (int i = 0; i < kTries && !wasSeen; ++i) {
+    const int before = coarse.count();
+    recipe.threshold.manualLevel = 140.0 + i;
+    session().change(QStringLiteral("Threshold"), recipe);
+    ASSERT_TRUE(waitUntil([&] {
+      wasSeen = wasSeen || session().coarseInk();
+      return !session().isBusy() && !session().hasRunningJobs();
+    }));
+    wasSeen = wasSeen || coarse.count() > before;
+  }
+  EXPECT_TRUE(wasSeen);
   EXPECT_FALSE(session().coarseInk());
   EXPECT_FALSE(session().isStale(StageId::Faired));
 
