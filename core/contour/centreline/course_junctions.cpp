@@ -22,8 +22,9 @@ constexpr double kBlotTurnRad = std::numbers::pi / 4.5;  // a sharper turn is a 
 constexpr double kSameWayRad = std::numbers::pi / 6.0;   // the sides of a crossing that only steps aside
 constexpr double kGentleSlant = 0.15;                    // [tangent] of a crossing
 constexpr double kMostCrossWidths = 4.0;                 // [stroke widths] that a crossing may be long to either side
-constexpr double kJogSine = 0.2;        // of the angle to the course as seen from a width to either side
-constexpr double kJogOffWidths = 0.35;  // [stroke widths] that a jog is left by at the most
+constexpr double kJogSine = 0.2;  // of the angle to the course as seen from a width to either side
+constexpr double kLeastJogWidths = 0.15, kLeastJogPx = 0.5;  // aside at the least
+constexpr double kJogOffWidths = 0.35;                       // [stroke widths] that a jog is left by at the most
 
 double reachOf(const StrokeCourse& c) { return std::max(kLeastApproachPx, kApproachWidths * c.widthPx); }
 
@@ -129,15 +130,18 @@ double slantAt(const StrokeCourse& c, int i, int reach, int near) {
   return length > 0.0 ? std::abs(cross(here, around)) / length : 0.0;
 }
 
-// Lays a gentle course over a jog, as short a one as there is.
+// Lays a gentle course over a jog, as short a one as there is. Where the sides lie aside of each other by less it may
+// be the noise of the page, which the fit weighs.
 void removeJog(StrokeCourse& c, int at, int reach) {
   const int n = c.count(), most = static_cast<int>(std::lround(kMostCrossWidths * c.widthPx));
+  const double leastAsidePx = kLeastJogWidths * c.widthPx + kLeastJogPx;
   for (int half = reach; half <= most; ++half) {
     const int begin = at - half, end = at + half;
     if (c.closed ? 2 * (half + reach) > n : begin < reach || end >= n - reach) return;
     const Crossing crossing = between(c, begin, end, false);
     const std::optional<double> slant = slantOf(crossing);
     if (!slant || *slant > kGentleSlant) continue;
+    if (*slant * (crossing.after->at - crossing.before->at).norm() < leastAsidePx) continue;
     const auto places = courseThrough(c, crossing, kJogOffWidths);
     if (!places) continue;
     layOver(c, crossing, *places);  // as well known as its sides: the points count as placed
@@ -194,7 +198,7 @@ void layThroughJunctions(StrokeCourse& c) {
 
 void removeJogs(StrokeCourse& c) {
   const int n = c.count(), reach = std::max(3, static_cast<int>(std::lround(c.widthPx)));
-  const int near = std::max(1, static_cast<int>(std::lround(0.25 * c.widthPx)));
+  const int near = std::max(2, static_cast<int>(std::lround(0.25 * c.widthPx)));
   if (n < 4 * reach) return;
   const int first = c.closed ? 0 : 2 * reach, last = c.closed ? n - 1 : n - 1 - 2 * reach;
   for (int i = first; i <= last; ++i) {

@@ -89,7 +89,7 @@ TEST(Blots, AStrokeThatSwellsSlowlyKeepsItsMiddle) {
 
 TEST(Jogs, AStrokeSetOnAnewBesideItsEndGoesOnGently) {
   const double y = 80.0;
-  for (const double aside : {2.0, 3.0}) {
+  for (const double aside : {2.0, 3.6, 4.5}) {
     const Contour line = lineOf({stroke({{40.0, y - 0.5 * aside}, {205.0, y - 0.5 * aside}}, 9.0),
                                  stroke({{195.0, y + 0.5 * aside}, {360.0, y + 0.5 * aside}}, 9.0)});
     ASSERT_GT(line.lengthPx, 300.0) << aside;
