@@ -72,10 +72,15 @@ Crossing crossingAt(const StrokeCourse& c, int begin, int last) {
   return between(c, begin, end);
 }
 
+// Whether a stroke goes on beyond a crossing as before it, but for a turn of less than this.
+bool goesOnWithin(const Crossing& crossing, double turnRad) {
+  return crossing.before && crossing.after &&
+         crossing.before->direction.dot(crossing.after->direction) >= std::cos(turnRad);
+}
+
 // Tangent of the angle at which a crossing leaves the mean direction of its sides; nothing where these turn.
 std::optional<double> slantOf(const Crossing& crossing) {
-  if (!crossing.before || !crossing.after) return std::nullopt;
-  if (crossing.before->direction.dot(crossing.after->direction) < std::cos(kSameWayRad)) return std::nullopt;
+  if (!goesOnWithin(crossing, kSameWayRad)) return std::nullopt;
   const Vec2 along = (crossing.before->direction + crossing.after->direction).normalized();
   const Vec2 chord = crossing.after->at - crossing.before->at;
   const double length = chord.dot(along);
@@ -97,13 +102,14 @@ bool isOnInk(const StrokeCourse& c, int i, const Vec2& at, double offWidths) {
 std::optional<std::vector<Vec2>> courseThrough(const StrokeCourse& c, const Crossing& x, double offWidths) {
   const int count = x.end - x.begin + 1;
   const bool isOpenStart = !c.closed && x.begin == 0, isOpenEnd = !c.closed && x.end == c.count() - 1;
+  const bool isBetween = x.before && x.after;
+  const double derivative =
+      isBetween ? endDerivative((x.after->at - x.before->at).norm(), x.before->direction, x.after->direction) : 0.0;
   std::vector<Vec2> places(count);
   for (int k = 0; k < count; ++k) {
     Vec2& at = places[k];
-    if (x.before && x.after) {
+    if (isBetween) {
       const double t = static_cast<double>(k + 1) / (count + 1), u = 1.0 - t;
-      const double derivative =
-          endDerivative((x.after->at - x.before->at).norm(), x.before->direction, x.after->direction);
       at = u * u * (1.0 + 2.0 * t) * x.before->at + t * t * (1.0 + 2.0 * u) * x.after->at +
            derivative * t * u * (u * x.before->direction - t * x.after->direction);
     } else if (x.before && isOpenEnd) {
@@ -176,9 +182,7 @@ void hideBlots(StrokeCourse& c) {
     if (begin <= 0 || end + 1 >= n) continue;
     const auto isInk = [](const CoursePoint& p) { return p.part == StrokePart::Ink; };
     if (!std::all_of(c.points.begin() + begin - 1, c.points.begin() + end + 2, isInk)) continue;
-    const auto before = approachAt(c, begin - 1, -1, reachOf(c)), after = approachAt(c, end + 1, 1, reachOf(c));
-    if (!before || !after) continue;
-    if (std::acos(std::clamp(before->direction.dot(after->direction), -1.0, 1.0)) > kBlotTurnRad) continue;
+    if (!goesOnWithin(between(c, begin, end), kBlotTurnRad)) continue;
     for (int k = begin; k <= end; ++k) c.points[k].part = StrokePart::Junction;
   }
 }

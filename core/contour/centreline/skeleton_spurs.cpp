@@ -16,10 +16,9 @@ namespace {
 constexpr double kFatCorner = 1.15;        // of the usual radius: the ink inside an acute corner is fatter
 constexpr double kCornerSpur = 5.0 / 3.0;  // of a spur: so much longer is the branch to the tip of an acute corner
 constexpr double kWidestTip = 2.5;         // of the usual radius: two strokes side by side, and no blot
-constexpr double kStrokeBreadth =
-    0.7;  // of the radius of its neighbours: less has the branch to a corner of 70 degrees or more
-constexpr double kStrokeOut = 0.8;        // of a spur's length: a stroke stands out of the ink it leaves by so much
-constexpr double kLeastEdgeWidths = 3.0;  // [stroke widths] shorter edges have no direction
+constexpr double kStrokeBreadth = 0.7;     // of its neighbours' radius: the branch to a corner of 70 degrees has less
+constexpr double kStrokeOut = 0.8;         // of a spur's length: a stroke stands out of the ink it leaves by so much
+constexpr double kLeastEdgeWidths = 3.0;   // [stroke widths] shorter edges have no direction
 // Out of the disc and as far again; 3 px keep a single step of a skeleton below 20 degrees where strokes are thin.
 constexpr double kCornerReachRadii = 2.0, kCornerReachPx = 3.0;
 constexpr double kAcute = 0.26;  // cos 75 deg
