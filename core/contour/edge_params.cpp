@@ -30,4 +30,8 @@ std::optional<Error> validate(const ContourParams& p) {
   return std::nullopt;
 }
 
+bool hasOwnLengths(const ContourParams& params) {
+  return params.minLengthPx > 0.0 || params.minWidths != ContourParams{}.minWidths;
+}
+
 }  // namespace batten

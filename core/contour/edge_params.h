@@ -49,5 +49,7 @@ struct ContourParams {
 };
 /// First invalid field, with its range, if any.
 std::optional<Error> validate(const ContourParams&);
+/// Whether the user says how short a line may be.
+bool hasOwnLengths(const ContourParams&);
 
 }  // namespace batten

@@ -29,7 +29,7 @@
 #include "core/contour/outline/texture_holes.h"
 #include "core/contour/outline/tonal_holes.h"
 #include "core/contour/outline/uneven_ink.h"
-#include "core/image/binarize.h"
+#include "core/contour/untraced_ink.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
@@ -150,11 +150,6 @@ void append(ContourSet& to, ContourSet&& from) {
   std::move(from.junctions.begin(), from.junctions.end(), std::back_inserter(to.junctions));
 }
 
-// Whether the user says how short a line may be.
-bool hasOwnLengths(const ContourParams& params) {
-  return params.minLengthPx > 0.0 || params.minWidths != ContourParams{}.minWidths;
-}
-
 // What a page is made of, before sub-pixel placement of the outlines; centre lines come placed.
 struct FoundLines {
   ContourSet set;
@@ -242,75 +237,6 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   return found;
 }
 
-// Where lines cross that are wider than the paper between them no stroke has a middle of its own: the borders of the
-// net are followed instead. Ink with fewer holes is none.
-Result<ContourSet> bordersOfNets(const BitImage& ink, const ContourParams& params, const RunContext& context) {
-  constexpr int kFewestHoles = 9;  // of a net: three lines across three are the least that could be a grid
-  ContourParams meshes = params;
-  // The borders of a mesh are short where the lines are wide.
-  if (!hasOwnLengths(params)) meshes.minWidths = 0.0;
-  Result<ContourSet> set = bordersOf(ink, true, meshes, std::nullopt, nullptr, context);
-  if (!set) return set;
-  const auto holes = std::count_if(set->contours.begin(), set->contours.end(), [](const Contour& c) { return c.hole; });
-  if (holes < kFewestHoles) {
-    set->contours.clear();
-  } else {
-    addNote(*set, "The lines are too close together to be told apart; the borders of their ink were traced.");
-  }
-  return set;
-}
-
-// The ink that the lines stand for, by their lengths and widths and by the areas within outlines, of all ink.
-double explainedInk(const ContourSet& set, const BitImage& ink) {
-  double area = 0.0;
-  for (const Contour& c : set.contours) {
-    if (c.kind == ContourKind::Outline) {
-      area += (c.hole ? -1.0 : 1.0) * std::fabs(c.areaPx);
-      continue;
-    }
-    double width = 0.0;
-    for (const float w : strokeWidthsOf(c.points))
-      width += static_cast<double>(w) / static_cast<double>(std::ssize(c.points));
-    area += c.lengthPx * width;
-  }
-  return area / std::max(1.0, static_cast<double>(ink.count()));
-}
-
-constexpr double kLeastExplained = 0.5;  // of the ink
-
-// Whether lines can be held against the ink: of merged and intended lines one stands for several strokes, and what the
-// user wants of the ink holds.
-bool isOfAllInk(const EdgeParams& edges, const ContourParams& params) {
-  const bool isChosen = !edges.choices.empty() || !edges.painted.empty();
-  return edges.mode == EdgeMode::Automatic && edges.mergeWidths <= 0.0 && !edges.intent && !isChosen &&
-         !hasOwnLengths(params);
-}
-
-// Whether lines may have gone lost in a net: none came, they stand for too little of the ink, or the meshes of an
-// outline were dropped as short.
-bool mayHaveLostANet(const ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params) {
-  if (set.contours.empty()) return true;
-  if (!isOfAllInk(edges, params)) return false;
-  return explainedInk(set, ink) < kLeastExplained ||
-         set.report.droppedHolesPx > kMeshShare * static_cast<double>(ink.count());
-}
-
-// Says so where most of the ink is not traced. Margins have a note of their own.
-void noteUntraced(ContourSet& set, const BitImage& ink) {
-  const double share = explainedInk(set, ink);
-  if (set.contours.empty() || set.report.droppedMargins > 0 || share >= kLeastExplained) return;
-  addNote(set, "Only " + std::to_string(std::lround(100.0 * std::max(0.0, share))) + " % of the ink is traced: " +
-                   (set.report.droppedShort > 0 ? "contours.min_widths=0 keeps short lines, and " : "") +
-                   "edges.mode=outline traces the borders of all ink.");
-}
-
-// Whether the borders of a net show what the lines do not: a net has many more meshes than lines, torn strokes and
-// strokes that were dropped as short have not.
-bool isMoreOfIt(const ContourSet& net, const ContourSet& lines) {
-  constexpr std::ptrdiff_t kMeshesPerLine = 10;  // n lines across n have n / 2 to each; few of them came
-  return std::ssize(net.contours) > kMeshesPerLine * std::ssize(lines.contours);
-}
-
 std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
@@ -327,10 +253,10 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
                                    const EdgeParams& edges, const ContourParams& params, const RunContext& context) {
   Result<FoundLines> found = findLines(ink, grey, page, edges, params, context);
   if (!found) return fail(found.error());
-  if (edges.mode == EdgeMode::Automatic && mayHaveLostANet(found->set, ink, edges, params)) {
-    Result<ContourSet> net = bordersOfNets(ink, params, context);
+  if (edges.mode == EdgeMode::Automatic) {
+    auto net = bordersOfLostNet(found->set, ink, edges, params, context);
     if (!net) return fail(net.error());
-    if (isMoreOfIt(*net, found->set)) found->set = std::move(*net);
+    if (*net) found->set = std::move(**net);
   }
   noteChoices(found->set, found->regions, edges.choices, found->blots, page != nullptr ? kFineFactor : 1.0, context);
   // A line of several strokes lies beside their ink.

@@ -82,4 +82,17 @@ class OpenSession {
   bool isReady = false;
 };
 
+/// An arc, a wave and a closed line, so that targets fit one and not the other.
+inline QImage mixedPage() {
+  return drawnPage({640, 400}, [](QPainter& painter) {
+    QPainterPath arc({40, 120});
+    arc.quadTo({160, 20}, {300, 110});
+    painter.drawPath(arc);
+    painter.drawEllipse(360, 40, 220, 130);
+    QPainterPath wave({60, 320});
+    wave.cubicTo({200, 180}, {380, 460}, {600, 230});
+    painter.drawPath(wave);
+  });
+}
+
 }  // namespace batten::test

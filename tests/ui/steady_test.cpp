@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stays in its place while its contents change, what a key does not do, and what the window says of it.
+// What stays in its place while its contents change, and the order in which the keys walk through it.
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
-#include <QAction>
 #include <QDir>
 #include <QLabel>
 #include <QLayout>
-#include <QLineEdit>
 #include <QListWidget>
-#include <QPainter>
-#include <QPainterPath>
-#include <QStackedWidget>
 #include <QUndoStack>
 #include <algorithm>
 #include <map>
@@ -25,26 +20,12 @@
 #include "ui/new_drawing_dialog.h"
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/targets/target_tile.h"
-#include "ui/session/profile_library.h"
-#include "ui/session/recipe_journal.h"
 
 namespace batten {
 namespace {
 
+using test::mixedPage;
 using test::waitUntil;
-
-/// An arc, a wave and a closed line, so that targets fit one and not the other.
-QImage mixedPage() {
-  return test::drawnPage({640, 400}, [](QPainter& painter) {
-    QPainterPath arc({40, 120});
-    arc.quadTo({160, 20}, {300, 110});
-    painter.drawPath(arc);
-    painter.drawEllipse(360, 40, 220, 130);
-    QPainterPath wave({60, 320});
-    wave.cubicTo({200, 180}, {380, 460}, {600, 230});
-    painter.drawPath(wave);
-  });
-}
 
 class Steady : public test::WindowFixture {
  protected:
@@ -232,45 +213,6 @@ TEST_F(Steady, ANarrowListKeepsTheNamesAndLeavesTheControlPointsOut) {
     EXPECT_TRUE(list->shownName(row).startsWith(QStringLiteral("Curve"))) << list->shownName(row).toStdString();
 }
 
-TEST_F(Steady, DigitsApplyNoTargetWhereNoneIsShownAndSaySo) {
-  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
-  const Recipe before = session().recipe();
-  for (const PanelStage stage : {PanelStage::Scan, PanelStage::Threshold, PanelStage::CleanUp, PanelStage::Edges,
-                                 PanelStage::Corners, PanelStage::Export}) {
-    window_->setStage(stage);
-    pressInCanvas(Qt::Key_3);
-    EXPECT_EQ(session().recipe(), before) << label(stage).toStdString();
-    EXPECT_TRUE(find<QLabel>("status.hint")->text().contains(QStringLiteral("Targets are applied")))
-        << label(stage).toStdString();
-  }
-  window_->setStage(PanelStage::Fairing);
-  pressInCanvas(Qt::Key_3);
-  EXPECT_NE(session().recipe(), before);
-  ASSERT_TRUE(settle());
-}
-
-TEST_F(Steady, TheFinderSaysWhyAnActionIsNotAvailable) {
-  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
-  const auto saidOf = [this](const QString& letters) {
-    window_->action(ActionId::FindAction)->trigger();
-    auto* edit = find<QLineEdit>("palette.edit");
-    QTest::keyClicks(edit, letters);
-    auto* list = find<QListWidget>("palette.list");
-    EXPECT_GT(list->count(), 0);
-    const QString said = list->count() > 0 ? list->item(0)->data(Qt::AccessibleTextRole).toString() : QString();
-    QTest::keyClick(edit, Qt::Key_Escape);
-    return said;
-  };
-  EXPECT_EQ(saidOf(QStringLiteral("Redo")), QStringLiteral("Redo. Nothing was undone."));
-  EXPECT_EQ(saidOf(QStringLiteral("Compute again")), QStringLiteral("Compute again. Nothing was stopped."));
-  window_->action(ActionId::FindAction)->trigger();
-  auto* list = find<QListWidget>("palette.list");
-  for (int i = 0; i < list->count(); ++i)
-    EXPECT_FALSE(list->item(i)->data(Qt::AccessibleTextRole).toString().contains(QStringLiteral("Not available")))
-        << list->item(i)->text().toStdString();
-  QTest::keyClick(find<QLineEdit>("palette.edit"), Qt::Key_Escape);
-}
-
 TEST_F(Steady, AnErrorCoversTheOfferOfUnsavedWorkOnlyUntilItIsDismissed) {
   ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
   {
@@ -341,22 +283,6 @@ TEST_F(Steady, TheDarkThemeHasADarkDeskAndTheSamePage) {
   EXPECT_GT(qGray(light.pixel(desk)), 180);
   EXPECT_EQ(dark.pixel(page), light.pixel(page)) << "what was drawn keeps its look";
   window_->setThemeChoice(ThemeChoice::Light);
-}
-
-TEST_F(Steady, WhatIsGreyedSaysWhy) {
-  ASSERT_NO_FATAL_FAILURE(openPage(mixedPage()));
-  Recipe recipe = session().recipe();
-  recipe.fairing.mode = FairingMode::Target;
-  session().change(QStringLiteral("Fairing"), recipe);
-  ASSERT_TRUE(settle());
-  for (const PanelStage stage : kPanelStages) {
-    window_->setStage(stage);
-    QCoreApplication::processEvents();
-    for (const auto* button : find<QWidget>("inspector")->findChildren<QAbstractButton*>()) {
-      if (!button->isVisible() || button->isEnabled()) continue;
-      EXPECT_FALSE(button->toolTip().isEmpty()) << label(stage).toStdString() << ": " << button->text().toStdString();
-    }
-  }
 }
 
 TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {

@@ -7,8 +7,7 @@
 #include <limits>
 
 #include "core/base/angle.h"
-#include "core/curve/closest_point.h"
-#include "core/curve/foot_step.h"
+#include "core/construct/typical/typical_feet.h"
 #include "core/solve/dense_solve.h"
 #include "core/solve/residual_blocks.h"
 
@@ -32,10 +31,6 @@ constexpr int kMostSteps = 400;            // curves of a stretch: ends what doe
 /// Points behind a curve's start that are looked at, and the line [of the curve's size, and px] in which its own lie.
 constexpr std::size_t kBehind = 2;
 constexpr double kReachOfSize = 1.5, kReachPx = 10.0;  // the line
-// Feet of points on a curve 0..1: those of the points beside its ends lie a little beyond.
-constexpr int kFootSteps = 15;
-constexpr double kLongestFootStep = 0.5, kFirstFoot = -0.3, kLastFoot = 1.5;  // [parameter]
-constexpr double kFootSettled = 1e-8;                                         // [parameter]
 // Unknowns of the first curve of a chain, by which they are held where the points say nothing.
 constexpr double kFirstPointPx = 0.3;                         ///< [px] standard deviation of a point
 constexpr double kFirstAngleRad = 0.1, kFirstLogKappa = 0.4;  ///< as the seed is known, from a few directions
@@ -56,32 +51,6 @@ constexpr int kMostGrowths = 60;                             ///< Of one curve.
 constexpr double kSmallestRatio = 0.3, kLargestRatio = 3.0;  ///< Of a grown curve's edges: beyond, it is a spiral.
 
 double sizeOf(const TypicalCurve& c) { return c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio); }
-
-std::complex<double> asComplex(const Vec2& v) { return {v.x(), v.y()}; }
-Vec2 asVector(const std::complex<double>& z) { return {z.real(), z.imag()}; }
-
-/// How far a point lies from a curve, to its left, and the parameter of its foot.
-struct CurveFoot {
-  double distance = 0.0, t = 0.0;
-};
-std::vector<CurveFoot> feetOn(const TypicalCurve& c, std::span<const Vec2> points) {
-  const std::complex<double> z = std::polar(c.ratio, c.turnRad), edge = std::polar(c.edge, c.angleRad);
-  std::vector<CurveFoot> feet;
-  double t = 0.0;
-  for (const Vec2& p : points) {
-    std::complex<double> d1, away;
-    for (int i = 0; i < kFootSteps; ++i) {
-      const std::complex<double> w = 1.0 + t * (z - 1.0);
-      away = asComplex(c.start) + edge * t * (w * w + w + 1.0) - asComplex(p);
-      d1 = 3.0 * edge * w * w;
-      const double step = footStep(asVector(away), asVector(d1), asVector(6.0 * edge * w * (z - 1.0)));
-      t = std::clamp(t + std::clamp(step, -kLongestFootStep, kLongestFootStep), kFirstFoot, kLastFoot);
-      if (std::abs(step) < kFootSettled) break;
-    }
-    feet.push_back({-(std::conj(d1) * away).imag() / std::max(std::abs(d1), 1e-300), t});
-  }
-  return feet;
-}
 
 class Grower {
  public:

@@ -7,106 +7,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
+#include <string>
+#include <vector>
 
-#include "core/image/binarize.h"
 #include "core/image/page_preparation.h"
-#include "tests/support/colour_page.h"
 #include "tests/support/hatching_page.h"
+#include "tests/unit/image/ruled_page.h"
 
 namespace batten {
 namespace {
 
-using test::ColourPage;
+using test::covered;
+using test::drawing;
 using test::InkLayer;
-using test::renderColourPage;
-
-constexpr int kRuledWidth = 760, kRuledHeight = 900;
-constexpr std::array<double, 3> kPen{0.12, 0.12, 0.12};
-
-/// Share of a pixel that lies within half of `width` of the zero line of a field whose gradient has unit length.
-float covered(double away, double width) {
-  return static_cast<float>(std::clamp(0.5 * width - std::fabs(away) + 0.5, 0.0, 1.0));
-}
-
-std::vector<float> layer(const std::function<float(double, double)>& at) {
-  std::vector<float> coverage;
-  for (int y = 0; y < kRuledHeight; ++y) {
-    for (int x = 0; x < kRuledWidth; ++x) coverage.push_back(at(x + 0.5, y + 0.5));
-  }
-  return coverage;
-}
-
-struct Ruling {
-  double spacing = 31.0, width = 1.6, turnedDeg = 0.0, bendPx = 0.0, perspective = 0.0;
-  bool runsDown = false;
-};
-
-/// How far a place lies from the nearest line of the ruling.
-double offLine(const Ruling& r, double x, double y) {
-  const double angle = r.turnedDeg * std::numbers::pi / 180.0;
-  const double u = x - 0.5 * kRuledWidth, v = y - 0.5 * kRuledHeight;
-  double across = r.runsDown ? std::cos(angle) * u + std::sin(angle) * v : -std::sin(angle) * u + std::cos(angle) * v;
-  const double along = r.runsDown ? v / kRuledHeight : u / kRuledWidth;
-  across += r.bendPx * 4.0 * along * along;
-  const double spacing = r.spacing * (1.0 + r.perspective * along);
-  return across - spacing * std::round(across / spacing);
-}
-
-std::vector<float> ruling(const Ruling& r) {
-  return layer([&](double x, double y) { return covered(offLine(r, x, y), r.width); });
-}
-
-/// Two rings and a wave, 5 px wide.
-double offDrawing(double x, double y) {
-  const double rings =
-      std::min(std::fabs(std::hypot(x - 380.0, y - 330.0) - 210.0), std::fabs(std::hypot(x - 300.0, y - 420.0) - 90.0));
-  const double slope = 70.0 * std::cos(x / 60.0) / 60.0;
-  const double wave = std::fabs(y - 720.0 - 70.0 * std::sin(x / 60.0)) / std::sqrt(1.0 + slope * slope);
-  return x > 60.0 && x < 700.0 ? std::min(rings, wave) : rings;
-}
-std::vector<float> drawing() {
-  return layer([](double x, double y) { return covered(offDrawing(x, y), 5.0); });
-}
-
-Scan paperWith(const std::vector<InkLayer>& inks, double noise = 1.5) {
-  ColourPage page;
-  page.width = kRuledWidth;
-  page.height = kRuledHeight;
-  page.paperLeft = {236, 236, 236};
-  page.paperRight = {222, 222, 222};
-  page.noise = noise;
-  return renderColourPage(page, inks);
-}
-
-std::array<double, 3> light(double passes) { return {passes, passes, passes}; }
-
-BitImage inkOf(const GreyImage& grey) {
-  const auto thresholds = findThresholds(grey, {}, {}, {});
-  return *binarize(grey, *thresholds, {}, {});
-}
-
-/// Ink farther than this from the drawing, and drawing without ink.
-struct Wrong {
-  int beside = 0;
-  double missed = 0.0;
-};
-Wrong wrongInk(const BitImage& ink) {
-  Wrong wrong;
-  int all = 0, missed = 0;
-  for (int y = 0; y < ink.height; ++y) {
-    for (int x = 0; x < ink.width; ++x) {
-      const double off = offDrawing(x + 0.5, y + 0.5);
-      if (off > 5.0 && ink.at(x, y)) ++wrong.beside;
-      if (off > 1.5) continue;
-      ++all;
-      missed += ink.at(x, y) ? 0 : 1;
-    }
-  }
-  wrong.missed = static_cast<double>(missed) / all;
-  return wrong;
-}
+using test::inkOf;
+using test::kPen;
+using test::kRuledHeight;
+using test::kRuledWidth;
+using test::layer;
+using test::light;
+using test::offDrawing;
+using test::offLine;
+using test::paperWith;
+using test::Ruling;
+using test::ruling;
+using test::Wrong;
+using test::wrongInk;
 
 TEST(Rulings, AreFoundWithTheirSpacing) {
   const struct {
@@ -286,90 +213,6 @@ TEST(Rulings, OfADottedLineAllDotsAreItsOwn) {
             ".......................ooo.....................");
   EXPECT_EQ(marked(otherInkOnLine(inked("##################.###.....################"), 8.0)), std::string(43, '.'));
   EXPECT_EQ(marked(otherInkOnLine(inked("...##....##....##....##....##....##....##"), 8.0)), std::string(41, '.'));
-}
-
-TEST(Rulings, DrawingsHaveNone) {
-  const auto within = [](double x, double y, double x0, double y0, double x1, double y1) {
-    return x > x0 && x < x1 && y > y0 && y < y1;
-  };
-  const struct {
-    const char* name;
-    std::vector<float> ink;
-  } cases[] = {
-      {"rings and a wave", drawing()},
-      {"hatching", layer([&](double x, double y) {
-         return within(x, y, 100, 200, 420, 700) ? covered(offLine({.spacing = 14.0, .turnedDeg = 4.0}, x, y), 2.0)
-                                                 : 0.0f;
-       })},
-      {"a railing", layer([&](double x, double y) {
-         return within(x, y, 30, 500, 730, 800) ? covered(offLine({.spacing = 35.0, .runsDown = true}, x, y), 3.0)
-                                                : 0.0f;
-       })},
-      {"a grille", layer([&](double x, double y) {
-         const double spacing = 22.0;
-         return within(x, y, 250, 380, 560, 620) ? covered(offLine({.spacing = spacing}, x, y), 3.0) : 0.0f;
-       })},
-      {"siding of a house, drawn by hand", layer([&](double x, double y) {
-         const double sway = 5.0 * std::sin(x / 47.0 + y / 9.0) + 4.0 * std::sin(y * 0.37);
-         return covered(offLine({.spacing = 40.0}, x, y + sway), 3.0);
-       })},
-      {"spokes", layer([&](double x, double y) {
-         const double angle = std::atan2(y - 450.0, x - 380.0), away = std::hypot(x - 380.0, y - 450.0);
-         const double step = std::numbers::pi / 18.0;
-         const double off = away * (angle - step * std::round(angle / step));
-         return away < 330.0 ? covered(off, 2.0) : 0.0f;
-       })},
-      {"three lines over the page", layer([&](double x, double y) {
-         return within(x, y, 20, 300, 740, 420) ? covered(offLine({.spacing = 38.0}, x, y), 2.0) : 0.0f;
-       })},
-      {"rows of letters", layer([&](double x, double y) {
-         // Bowls and stems on even lines, a space after every sixth.
-         const double row = std::fmod(y, 18.0) - 9.0, letter = std::floor(x / 9.0), at = x - 9.0 * letter - 4.0;
-         const auto kind = static_cast<int>(letter + 5.0 * std::floor(y / 18.0)) % 6;
-         if (kind == 5 || std::fabs(row) > 5.0) return 0.0f;
-         const double bowl = std::fabs(std::hypot(at, row) - 3.0), stem = std::fabs(at + 2.0);
-         const double bar = std::fabs(at) < 3.0 ? std::fabs(row - (kind - 2.0)) : 9.0;
-         return covered(kind == 0 ? bowl : kind == 1 ? std::min(stem, bowl) : std::min(stem, bar), 1.4);
-       })},
-      {"rows of dots", layer([&](double x, double y) {
-         return covered(std::hypot(std::remainder(x, 10.0), std::remainder(y, 10.0)), 6.0);
-       })},
-      {"a net at 45 degrees", layer([&](double x, double y) {
-         return std::max(covered(offLine({.spacing = 7.071, .turnedDeg = 45.0}, x, y), 1.0),
-                         covered(offLine({.spacing = 7.071, .turnedDeg = -45.0}, x, y), 1.0));
-       })},
-      {"blank paper", layer([](double, double) { return 0.0f; })}};
-  for (const auto& c : cases) {
-    EXPECT_TRUE(findRulings(paperWith({{c.ink, kPen}}).grey, {}).empty()) << c.name;
-    EXPECT_TRUE(findRulings(paperWith({{c.ink, light(0.7)}}, 4.0).grey, {}).empty()) << c.name << ", pencil";
-  }
-}
-
-TEST(Rulings, HatchingTooFineForARulingIsNone) {
-  // Oblique: a line of the ruling, three pixels wide, meets ink in nearly every column.
-  for (const double offset : {0.0, 0.7}) {
-    const test::Hatching oblique{.angleDeg = 45.0, .spacingPx = 4.2426, .offsetPx = offset};
-    EXPECT_TRUE(findRulings(test::hatchingPage(oblique), {}).empty()) << offset;
-  }
-  // Every other of its lines is far enough from the next.
-  EXPECT_TRUE(findRulings(test::hatchingPage({.angleDeg = 90.0, .spacingPx = 4.5}), {}).empty());
-}
-
-TEST(Rulings, TeethOfACombAreNone) {
-  for (const int spacing : {5, 10, 25}) {
-    GreyImage comb(600, 400, 235 * 257);
-    for (int y = 10; y < 390; ++y) {
-      for (int x = 5; x < 595; ++x)
-        if ((x - 5) % spacing < 2 || (y >= 200 && y < 203)) comb.row(y)[x] = 20 * 257;
-    }
-    EXPECT_TRUE(findRulings(comb, {}).empty()) << spacing;
-    // Without what joins them, and with a line across that runs to the border, the lines are ruled.
-    for (int y = 0; y < 400; ++y) {
-      for (int x = 0; x < 600; ++x)
-        comb.row(y)[x] = (x - 5) % spacing < 2 || (y >= 200 && y < 203) ? 20 * 257 : 235 * 257;
-    }
-    EXPECT_FALSE(findRulings(comb, {}).empty()) << spacing << ", from border to border";
-  }
 }
 
 TEST(Rulings, AreKeptWhenAsked) {

@@ -4,15 +4,14 @@
 #include <QElapsedTimer>
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <QPainter>
 #include <QScrollArea>
 #include <QSpacerItem>
-#include <QStyledItemDelegate>
 #include <QTimer>
 #include <algorithm>
 #include <utility>
 
 #include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/stages/curves/curve_row.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/piece_choice.h"
@@ -23,102 +22,15 @@
 namespace batten {
 namespace {
 
-constexpr int kCurveRow = 26;          // [px] Height.
 constexpr int kLeastRows = 10;         ///< That are seen without scrolling in the list itself, where there are as many.
 constexpr int kFewRows = 4;            ///< A drawing of so many curves gets a list as short as they are.
 constexpr int kMostKept = 20;          ///< For more rows no room is kept: a high panel would scroll because of it.
 constexpr double kShareOfPanel = 0.4;  ///< That the list may take of a high one.
-constexpr int kEyeWidth = 26;          // [px] At the left.
-constexpr int kIconSize = 14;          // px
 constexpr int kApart = 8;              ///< Between a name, which may be cut, and its figures.
 constexpr int kTellEveryMs = 200;      // While results come in, the list is brought up to date this often.
 constexpr int kNoRow = -1;             ///< What Qt takes for none.
-constexpr int kRightMargin = 6;        // px
-constexpr int kBadgeWidth = 52, kBadgeHeight = 18, kBadgeGap = 6;  // px
-enum Role {
-  IncludedRole = Qt::UserRole,
-  FiguresRole,
-  WarnsRole,
-  BadgeRole = CurveList::kBadgeRole,
-  SimilarityRole,
-  OwnTipRole,
-  OwnTextRole,
-  ExtremaRole,  ///< The figures in columns of their own; empty where there are none.
-  PointsRole,
-  SameRole,
-  ShapeRole
-};
 
-int heightOfRows(int rows) { return kCurveRow * std::max(1, rows) + 2; }
-
-/// Of M: fair, nearly so, or far from it.
-QColor fairnessColour(double similarity, const Theme& theme) {
-  constexpr double kFairSimilarity = 0.99, kNearlyFair = 0.95;  // from here on
-  return similarity >= kFairSimilarity ? theme.good : similarity >= kNearlyFair ? theme.mute : theme.amber;
-}
-
-class CurveDelegate : public QStyledItemDelegate {
- public:
-  explicit CurveDelegate(CurveList& list) : QStyledItemDelegate(&list), list_(list) {}
-  QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {120, kCurveRow}; }
-  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-    const Theme& theme = themeOf(option.palette);
-    painter->save();
-    painter->setRenderHint(QPainter::Antialiasing);
-    const QRectF box = QRectF(option.rect).adjusted(0, 1, 0, -1);
-    if (option.state & (QStyle::State_Selected | QStyle::State_MouseOver)) {
-      painter->setPen(Qt::NoPen);
-      painter->setBrush(option.state & QStyle::State_Selected ? theme.selection : theme.hover);
-      painter->drawRoundedRect(box, 5, 5);
-    }
-    if (option.state & QStyle::State_HasFocus) drawFocusRing(*painter, box, 5, theme);
-    const bool included = index.data(IncludedRole).toBool();
-    const QIcon eye = themedIcon(included ? QStringLiteral("eye") : QStringLiteral("eye-off"), option.palette);
-    eye.paint(painter, iconBox(option, 6));
-    painter->setFont(uiFont(12));
-    painter->setPen(included ? theme.text : theme.mute);
-    const QString badge = index.data(BadgeRole).toString();
-    const QString name = list_.shownName(index.row());
-    painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, name);
-    if (index.data(WarnsRole).toBool()) {
-      const int after = kEyeWidth + painter->fontMetrics().horizontalAdvance(name) + 6;
-      themedIcon(QStringLiteral("warning"), option.palette).paint(painter, iconBox(option, after));
-    }
-    painter->setPen(theme.mute);
-    paintFigures(*painter, box.adjusted(0, 0, -kRightMargin, 0), index);
-    if (!badge.isEmpty()) {
-      const double right = box.right() - kRightMargin - list_.columns().figures() - kBadgeGap;
-      paintBadge(*painter, {right - kBadgeWidth, box.center().y() - kBadgeHeight / 2.0, kBadgeWidth, kBadgeHeight},
-                 badge, fairnessColour(index.data(SimilarityRole).toDouble(), theme));
-    }
-    painter->restore();
-  }
-
- private:
-  /// In columns, so that numbers stand below each other.
-  void paintFigures(QPainter& painter, const QRectF& box, const QModelIndex& index) const {
-    const CurveList::Columns& columns = list_.columns();
-    const QString extrema = index.data(ExtremaRole).toString();
-    if (extrema.isEmpty())
-      return painter.drawText(box, Qt::AlignVCenter | Qt::AlignRight, index.data(FiguresRole).toString());
-    if (columns.hasPoints) painter.drawText(box, Qt::AlignVCenter | Qt::AlignRight, index.data(PointsRole).toString());
-    painter.drawText(box.adjusted(0, 0, -columns.points, 0), Qt::AlignVCenter | Qt::AlignRight, extrema);
-    if (index.data(SameRole).toBool())
-      painter.drawText(box.adjusted(box.width() - columns.figures(), 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft,
-                       QStringLiteral("="));
-  }
-  static void paintBadge(QPainter& painter, const QRectF& box, const QString& text, const QColor& colour) {
-    painter.setPen(QPen(colour, 1.2));
-    painter.setBrush(Qt::NoBrush);
-    painter.drawRoundedRect(box, kBadgeHeight / 2.0, kBadgeHeight / 2.0);
-    painter.setFont(uiFont(11));
-    painter.drawText(box, Qt::AlignCenter, text);
-  }
-  static QRect iconBox(const QStyleOptionViewItem& option, int x) {
-    return {option.rect.left() + x, option.rect.top() + (kCurveRow - kIconSize) / 2, kIconSize, kIconSize};
-  }
-  CurveList& list_;
-};
+int heightOfRows(int rows) { return CurveRow::kHeight * std::max(1, rows) + 2; }
 
 }  // namespace
 
@@ -130,7 +42,7 @@ CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
       worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("curves.list"));
   setAccessibleName(tr("Curves"));
-  setItemDelegate(new CurveDelegate(*this));
+  setItemDelegate(new CurveRow(*this));
   setMouseTracking(true);
   setUniformItemSizes(true);
   setFrameShape(QFrame::NoFrame);
@@ -194,14 +106,14 @@ void CurveList::refresh() {
     const QString spoken = whyStill.isEmpty() || !curve.included ? right : tr("unchanged, %1").arg(counts);
     const QString length = tr("Length %1").arg(millimetres(figures.lengthMm));
     item(i)->setText(name);
-    item(i)->setData(IncludedRole, curve.included);
-    item(i)->setData(FiguresRole, right);
-    item(i)->setData(ExtremaRole, curve.included ? tr("%1 extr.").arg(figures.extrema) : QString());
-    item(i)->setData(PointsRole, curve.included ? tr(" · %1 pts").arg(figures.controlPoints) : QString());
-    item(i)->setData(SameRole, curve.included && !whyStill.isEmpty());
-    item(i)->setData(ShapeRole, shape);
+    item(i)->setData(CurveRow::IncludedRole, curve.included);
+    item(i)->setData(CurveRow::FiguresRole, right);
+    item(i)->setData(CurveRow::ExtremaRole, curve.included ? tr("%1 extr.").arg(figures.extrema) : QString());
+    item(i)->setData(CurveRow::PointsRole, curve.included ? tr(" · %1 pts").arg(figures.controlPoints) : QString());
+    item(i)->setData(CurveRow::SameRole, curve.included && !whyStill.isEmpty());
+    item(i)->setData(CurveRow::ShapeRole, shape);
     const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
-    item(i)->setData(WarnsRole, !warning.isEmpty());
+    item(i)->setData(CurveRow::WarnsRole, !warning.isEmpty());
     QStringList said;
     const QString origin = curveOrigin(session_, i);
     const QString whence = origin.isEmpty() ? QString() : name + QStringLiteral(", ") + origin;
@@ -209,8 +121,8 @@ void CurveList::refresh() {
     const QString fairingSays = curve.included && faired != whyStill ? faired : QString();
     for (const QString& one : {whence, whyStill, fairingSays, warning, length})
       if (!one.isEmpty()) said << one;
-    item(i)->setData(OwnTipRole, said.join(QLatin1Char('\n')));
-    item(i)->setData(OwnTextRole,
+    item(i)->setData(CurveRow::OwnTipRole, said.join(QLatin1Char('\n')));
+    item(i)->setData(CurveRow::OwnTextRole,
                      (QStringList{name + QStringLiteral(", ") + spoken} + said).join(QStringLiteral(". ")));
   }
   setCurrentRow(session_.selectedCurve().value_or(kNoRow));
@@ -223,7 +135,7 @@ void CurveList::refresh() {
 
 // As many rows as a share of the panel holds: what stands below does not move when other parts of the panel grow.
 void CurveList::fitHeight() {
-  const int share = scroll_ ? static_cast<int>(kShareOfPanel * scroll_->viewport()->height()) / kCurveRow : 0;
+  const int share = scroll_ ? static_cast<int>(kShareOfPanel * scroll_->viewport()->height()) / CurveRow::kHeight : 0;
   const int rows = std::max(kLeastRows, share), shown = std::min(count(), rows);
   setFixedHeight(heightOfRows(shown));
   // Nor when a setting brings or takes curves: the room for them stays once there were more than a few.
@@ -245,12 +157,14 @@ void CurveList::measure() {
   Columns columns;
   int shortest = 0;
   for (int i = 0; i < count(); ++i) {
-    widen(columns.extrema, item(i)->data(ExtremaRole).toString());
-    widen(columns.points, item(i)->data(PointsRole).toString());
-    if (item(i)->data(SameRole).toBool()) widen(columns.same, QStringLiteral("= "));
-    if (item(i)->data(ExtremaRole).toString().isEmpty()) widen(columns.words, item(i)->data(FiguresRole).toString());
-    if (item(i)->data(WarnsRole).toBool()) columns.warning = kIconSize + 6;
-    if (!item(i)->data(BadgeRole).toString().isEmpty()) columns.badge = kBadgeWidth + kBadgeGap;
+    widen(columns.extrema, item(i)->data(CurveRow::ExtremaRole).toString());
+    widen(columns.points, item(i)->data(CurveRow::PointsRole).toString());
+    if (item(i)->data(CurveRow::SameRole).toBool()) widen(columns.same, QStringLiteral("= "));
+    if (item(i)->data(CurveRow::ExtremaRole).toString().isEmpty())
+      widen(columns.words, item(i)->data(CurveRow::FiguresRole).toString());
+    if (item(i)->data(CurveRow::WarnsRole).toBool()) columns.warning = CurveRow::kIconSize + 6;
+    if (!item(i)->data(CurveRow::BadgeRole).toString().isEmpty())
+      columns.badge = CurveRow::kBadgeWidth + CurveRow::kBadgeGap;
     widen(shortest, shortNameOf(item(i)->text()));
   }
   columns_ = columns;
@@ -268,13 +182,13 @@ QString CurveList::shortNameOf(const QString& name) {
 }
 
 int CurveList::nameRoom() const {
-  return viewport()->width() - kEyeWidth - columns_.warning - columns_.badge - columns_.figures() - kApart -
-         kRightMargin;
+  return viewport()->width() - CurveRow::kEyeWidth - columns_.warning - columns_.badge - columns_.figures() - kApart -
+         CurveRow::kRightMargin;
 }
 
 QString CurveList::shownName(int row) const {
   if (row < 0 || row >= count()) return {};
-  const QString whole = item(row)->text(), shape = item(row)->data(ShapeRole).toString();
+  const QString whole = item(row)->text(), shape = item(row)->data(CurveRow::ShapeRole).toString();
   const QString name = shortNameOf(whole);
   // The number is what canvas, files and report call the curve by: it is the last to go.
   if (columns_.isNumberOnly) return name.section(QLatin1Char(' '), -1);
@@ -296,15 +210,15 @@ void CurveList::showFairness() {
     const TracedCurve& curve = curves[i];
     const bool isKnown = known_ && i < std::ssize(*known_) && curve.included &&
                          (*known_)[i].curve == judgedCurve(curve, judged_) && (*known_)[i].fairness;
-    item(i)->setData(BadgeRole, isKnown ? fairnessBadge(*(*known_)[i].fairness) : QString());
-    item(i)->setData(SimilarityRole, isKnown ? (*known_)[i].fairness->similarity : 0.0);
+    item(i)->setData(CurveRow::BadgeRole, isKnown ? fairnessBadge(*(*known_)[i].fairness) : QString());
+    item(i)->setData(CurveRow::SimilarityRole, isKnown ? (*known_)[i].fairness->similarity : 0.0);
     const QString why = isKnown ? fairnessSentence(*(*known_)[i].fairness) : QString();
     QStringList said;
-    const QString own = item(i)->data(OwnTipRole).toString();
+    const QString own = item(i)->data(CurveRow::OwnTipRole).toString();
     for (const QString& one : {own, why})
       if (!one.isEmpty()) said << one;
     item(i)->setData(Qt::ToolTipRole, said.isEmpty() ? QVariant() : said.join(QLatin1Char('\n')));
-    QString spoken = item(i)->data(OwnTextRole).toString();
+    QString spoken = item(i)->data(CurveRow::OwnTextRole).toString();
     if (isKnown) spoken += QStringLiteral(". ") + why;
     item(i)->setData(Qt::AccessibleTextRole, spoken);
   }
@@ -401,7 +315,7 @@ void CurveList::keyPressEvent(QKeyEvent* event) {
 void CurveList::mousePressEvent(QMouseEvent* event) {
   const int row = indexAt(event->pos()).row();
   const auto curves = session_.curves();
-  if (row >= 0 && row < std::ssize(curves) && event->pos().x() < kEyeWidth)
+  if (row >= 0 && row < std::ssize(curves) && event->pos().x() < CurveRow::kEyeWidth)
     return setIncluded(session_, row, !curves[row].included);
   QListWidget::mousePressEvent(event);
 }
