@@ -16,6 +16,7 @@
 
 #include "tests/bench/traced_lines.h"
 #include "tests/support/dense_page.h"
+#include "tests/support/ink_page.h"
 
 using namespace batten;
 using namespace batten::test;
@@ -227,8 +228,7 @@ CrossingScore scoreOf(const std::vector<Drawn>& drawn, std::uint32_t seed, bool 
   std::vector<Line> truth;
   double widest = 0.0;
   for (const Drawn& d : drawn) {
-    const std::vector<float> one = coverageOf({d.points}, d.widthPx, kWidth, kHeight);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
+    inkOver(cover, coverageOf({d.points}, d.widthPx, kWidth, kHeight));
     truth.push_back(d.points);
     widest = std::max(widest, d.widthPx);
   }

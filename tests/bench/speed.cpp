@@ -15,6 +15,7 @@
 #include "core/fairing/fairing.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/bench/large_page_speed.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 
 using namespace batten;
@@ -30,9 +31,7 @@ const Scan& page() {
   static const Scan scan = [] {
     std::vector<float> coverage =
         strokeCoverage(truthShape("car", kWidth, kHeight).outline(), true, 9.0, kWidth, kHeight);
-    const std::vector<float> ring =
-        strokeCoverage(truthShape("ellipse", kWidth, kHeight).outline(), true, 7.0, kWidth, kHeight);
-    for (std::size_t i = 0; i < coverage.size(); ++i) coverage[i] = std::max(coverage[i], ring[i]);
+    inkOver(coverage, strokeCoverage(truthShape("ellipse", kWidth, kHeight).outline(), true, 7.0, kWidth, kHeight));
     return renderPage(std::move(coverage), kWidth, kHeight, gradatedPage(1));
   }();
   return scan;

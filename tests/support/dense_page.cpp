@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/support/angles.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 
 namespace batten::test {
@@ -117,10 +118,7 @@ std::vector<std::vector<Vec2>> hatchLines(const Vec2& middle, double angleDeg, i
 
 std::vector<float> coverageOf(const std::vector<std::vector<Vec2>>& lines, double widthPx, int width, int height) {
   std::vector<float> cover(std::ptrdiff_t{width} * height, 0.0f);
-  for (const auto& line : lines) {
-    const std::vector<float> one = strokeCoverage(line, false, widthPx, width, height);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
-  }
+  for (const auto& line : lines) inkOver(cover, strokeCoverage(line, false, widthPx, width, height));
   return cover;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 
 namespace batten::test {
@@ -306,23 +307,10 @@ void LabelPage::area(const std::vector<std::vector<Vec2>>& outlines) {
 GreyImage LabelPage::grey(unsigned seed) const {
   std::vector<float> cover;
   for (const Pixel& p : pixels_) cover.push_back(p.cover);
-  PageStyle style;
-  style.paperLeft = style.paperRight = 240.0;
-  style.inkLevel = 30.0;
-  style.blurPx = 0.8;
-  style.noise = 6.0;
-  style.seed = seed;
-  return renderPage(std::move(cover), width_, height_, style).grey;
+  return renderPage(std::move(cover), width_, height_, penPage(6.0, seed)).grey;
 }
 
-BitImage LabelPage::ink(unsigned seed) const {
-  const GreyImage page = grey(seed);
-  BitImage ink(width_, height_);
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) ink.set(x, y, page.level(x, y) < 135.0);
-  }
-  return ink;
-}
+BitImage LabelPage::ink(unsigned seed) const { return penInk(grey(seed)); }
 
 double LabelPage::Score::balanced() const {
   if (!hasStrokes) return shapes;

@@ -7,6 +7,7 @@
 
 #include "core/contour/centreline/centreline.h"
 #include "tests/support/angles.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"
 
@@ -73,27 +74,15 @@ void drawOver(std::vector<PenPath>& strokes, const IntendedLine& line, int count
 Scan overdrawnScan(const std::vector<PenPath>& strokes) {
   constexpr int kSide = kOverdrawnPagePx;
   std::vector<float> cover(std::ptrdiff_t{kSide} * kSide, 0.0f);
-  for (const PenPath& s : strokes) {
-    const std::vector<float> one = strokeCoverage(s, false, kOverdrawnPenPx, kSide, kSide);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
-  }
-  PageStyle style;
-  style.paperLeft = style.paperRight = 240.0;
-  style.inkLevel = 30.0;
-  style.blurPx = 0.8;
-  style.noise = 5.0;
-  return renderPage(std::move(cover), kSide, kSide, style);
+  for (const PenPath& s : strokes) inkOver(cover, strokeCoverage(s, false, kOverdrawnPenPx, kSide, kSide));
+  return renderPage(std::move(cover), kSide, kSide, penPage(5.0));
 }
 
 ContourSet traceOverdrawn(const std::vector<PenPath>& strokes, double mergeWidths) {
-  constexpr int kSide = kOverdrawnPagePx;
   const GreyImage grey = overdrawnScan(strokes).grey;
-  BitImage ink(kSide, kSide);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) ink.set(x, y, grey.level(x, y) < 135.0);
   EdgeParams params;
   params.mergeWidths = mergeWidths;
-  Result<ContourSet> set = centrelines(ink, grey, params, {});
+  Result<ContourSet> set = centrelines(penInk(grey), grey, params, {});
   return set ? std::move(*set) : ContourSet{};
 }
 

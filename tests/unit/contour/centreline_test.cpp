@@ -9,12 +9,14 @@
 #include <random>
 
 #include "core/contour/centreline/skeleton.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"
 
 namespace batten {
 namespace {
 
+using test::InkPage;
 using Polyline = std::vector<Vec2>;
 
 Polyline strokeLine(const Vec2& a, const Vec2& b) {
@@ -34,32 +36,14 @@ Polyline strokeArc(const Vec2& centre, double radius, double from, double to) {
   return p;
 }
 
-struct Page {
-  BitImage ink;
-  GreyImage grey;
-};
-
-// Strokes inked over one another, scanned with blur .8 and noise 6.
-Page page(const std::vector<Polyline>& strokes, bool closed, double width, int w, int h, unsigned seed = 5) {
-  std::vector<float> cover(std::ptrdiff_t{w} * h, 0.0f);
-  for (const Polyline& s : strokes) {
-    const std::vector<float> one = test::strokeCoverage(s, closed, width, w, h);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
-  }
-  test::PageStyle style;
-  style.paperLeft = style.paperRight = 240.0;
-  style.inkLevel = 30.0;
-  style.blurPx = 0.8;
-  style.noise = 6.0;
-  style.seed = seed;
-  Page result{BitImage(w, h), test::renderPage(std::move(cover), w, h, style).grey};
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) result.ink.set(x, y, result.grey.level(x, y) < 135.0);
-  }
-  return result;
+// Strokes inked over one another, scanned with noise 6.
+InkPage page(const std::vector<Polyline>& strokes, bool closed, double width, int w, int h, unsigned seed = 5) {
+  std::vector<std::vector<float>> inks;
+  for (const Polyline& s : strokes) inks.push_back(test::strokeCoverage(s, closed, width, w, h));
+  return test::scannedInks(inks, w, h, 6.0, seed);
 }
 
-std::vector<Contour> centrelinesOf(const Page& p, const EdgeParams& params = {}) {
+std::vector<Contour> centrelinesOf(const InkPage& p, const EdgeParams& params = {}) {
   Result<ContourSet> set = centrelines(p.ink, p.grey, params, {});
   EXPECT_TRUE(set);
   std::vector<Contour> found = set ? set->contours : std::vector<Contour>{};
@@ -274,7 +258,7 @@ TEST(Centreline, GapsAreBridgedAndSaid) {
     if (p.x() < 190.0) left.push_back(p);
     if (p.x() > 207.0) right.push_back(p);
   }
-  const Page p = page({left, right}, false, 5.0, 400, 160);
+  const InkPage p = page({left, right}, false, 5.0, 400, 160);
   const auto joined = centrelinesOf(p);
   ASSERT_EQ(joined.size(), 1u);
   ASSERT_EQ(joined[0].bridges.size(), 1u);
@@ -293,7 +277,7 @@ TEST(Centreline, GapsAreBridgedAndSaid) {
 TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
   std::vector<Polyline> strokes;
   for (const double y : {97.0, 104.0, 110.0}) strokes.push_back(strokeLine({40, y}, {360, y}));
-  const Page p = page(strokes, false, 3.0, 400, 200);
+  const InkPage p = page(strokes, false, 3.0, 400, 200);
   EXPECT_EQ(centrelinesOf(p).size(), 3u);
   EdgeParams merge;
   merge.mergeWidths = 4.0;
@@ -316,7 +300,8 @@ TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
 }
 
 TEST(Centreline, SameResultWithAnyNumberOfThreads) {
-  const Page p = page({strokeArc({200, 200}, 120, 0.0, 5.0), strokeLine({20, 60}, {380, 350})}, false, 5.0, 400, 400);
+  const InkPage p =
+      page({strokeArc({200, 200}, 120, 0.0, 5.0), strokeLine({20, 60}, {380, 350})}, false, 5.0, 400, 400);
   RunContext one, four;
   one.threads = 1;
   four.threads = 4;
@@ -332,7 +317,7 @@ TEST(Centreline, SameResultWithAnyNumberOfThreads) {
 }
 
 TEST(Centreline, CancelIsObeyed) {
-  const Page p = page({strokeLine({20, 60}, {380, 350})}, false, 5.0, 400, 400);
+  const InkPage p = page({strokeLine({20, 60}, {380, 350})}, false, 5.0, 400, 400);
   RunContext context;
   context.cancel.cancel();
   const auto set = centrelines(p.ink, p.grey, {}, context);

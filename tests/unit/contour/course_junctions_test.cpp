@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/contour/centreline/centreline.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
@@ -16,19 +17,8 @@ constexpr int kPageWidth = 400, kPageHeight = 160;
 
 // What several pens have inked one over the other, scanned.
 Contour lineOf(const std::vector<std::vector<float>>& inks) {
-  std::vector<float> cover(std::ptrdiff_t{kPageWidth} * kPageHeight, 0.0f);
-  for (const std::vector<float>& ink : inks)
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], ink[i]);
-  test::PageStyle style;
-  style.paperLeft = style.paperRight = 240.0;
-  style.inkLevel = 30.0;
-  style.blurPx = 0.8;
-  style.noise = 4.0;
-  const GreyImage grey = test::renderPage(std::move(cover), kPageWidth, kPageHeight, style).grey;
-  BitImage ink(kPageWidth, kPageHeight);
-  for (int y = 0; y < kPageHeight; ++y)
-    for (int x = 0; x < kPageWidth; ++x) ink.set(x, y, grey.level(x, y) < 135.0);
-  const auto set = centrelines(ink, grey, {}, {});
+  const test::InkPage page = test::scannedInks(inks, kPageWidth, kPageHeight, 4.0);
+  const auto set = centrelines(page.ink, page.grey, {}, {});
   EXPECT_TRUE(set && !set->contours.empty());
   if (!set || set->contours.empty()) return {};
   return *std::ranges::max_element(set->contours, {}, [](const Contour& c) { return c.lengthPx; });

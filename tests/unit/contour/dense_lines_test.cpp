@@ -15,6 +15,7 @@
 #include "core/contour/centreline/skeleton.h"
 #include "core/contour/centreline/stroke_mask.h"
 #include "tests/support/dense_page.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
@@ -157,8 +158,7 @@ TEST(DenseLines, ABroadPencilStrokeAmongNarrowOnesHasOneLineInItsMiddle) {
     DenseLines narrow = above;
     narrow.insert(narrow.end(), below.begin(), below.end());
     std::vector<float> cover = test::coverageOf(narrow, kNarrowPx, kDenseWidth, kDenseHeight);
-    const std::vector<float> wide = test::coverageOf(broad, kBroadPx, kDenseWidth, kDenseHeight);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], wide[i]);
+    test::inkOver(cover, test::coverageOf(broad, kBroadPx, kDenseWidth, kDenseHeight));
     test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, seed);
     const DenseLines found = foundOn(densePage(std::move(cover), 165.0, seed));
     const test::DenseScore score = test::scoreDense(broad, found, 0.2 * kBroadPx, 0.1 * 300.0);

@@ -10,6 +10,7 @@
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/junction_pairing.h"
 #include "tests/support/dense_page.h"
+#include "tests/support/ink_page.h"
 
 namespace batten {
 namespace {
@@ -145,8 +146,7 @@ TEST(JunctionPairing, ABoldLineAcrossThinOnesKeepsItsMiddle) {
       test::coverageOf(test::hatchLines({320, 160}, 3.0, 1, 1.0, 560.0, 900.0), 12.0, kAcross, kDown);
   std::vector<std::vector<Vec2>> thin;
   for (const double x : {280.0, 320.0, 360.0}) thin.push_back(test::hatchLines({x, 160}, 80.0, 1, 1.0, 220.0, 0.0)[0]);
-  const std::vector<float> others = test::coverageOf(thin, 3.0, kAcross, kDown);
-  for (std::size_t i = 0; i < coverage.size(); ++i) coverage[i] = std::max(coverage[i], others[i]);
+  test::inkOver(coverage, test::coverageOf(thin, 3.0, kAcross, kDown));
   const Scan scan = test::scanOfLines(coverage, kAcross, kDown, 9);
   BitImage ink(kAcross, kDown);
   for (int y = 0; y < kDown; ++y)

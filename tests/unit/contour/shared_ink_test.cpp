@@ -12,6 +12,7 @@
 #include "core/contour/centreline/arc_through.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "tests/support/dense_page.h"
+#include "tests/support/ink_page.h"
 #include "tests/unit/contour/traced_page.h"
 
 namespace batten {
@@ -38,10 +39,8 @@ SharedLine arcAt(const Vec2& at, double angleDeg, double curvature, double lengt
 
 ContourSet traced(const std::vector<SharedLine>& lines, const std::vector<double>& widthsPx) {
   std::vector<float> cover(std::size_t{kSharedWidthPx} * kSharedHeightPx, 0.0f);
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    const std::vector<float> one = test::coverageOf({lines[k]}, widthsPx[k], kSharedWidthPx, kSharedHeightPx);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
-  }
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    test::inkOver(cover, test::coverageOf({lines[k]}, widthsPx[k], kSharedWidthPx, kSharedHeightPx));
   return tracedPage(test::scanOfLines(std::move(cover), kSharedWidthPx, kSharedHeightPx, kSharedSeed).grey);
 }
 

@@ -9,6 +9,7 @@
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
@@ -164,8 +165,7 @@ Scan fadingPage() {
       if ((x > 200 && x < 240) || (x > 440 && x < 480)) ink[y * kWidth + x] *= 0.25f;
     }
   }
-  const std::vector<float> other = coverage(200.0);
-  for (std::size_t i = 0; i < ink.size(); ++i) ink[i] = std::max(ink[i], other[i]);
+  test::inkOver(ink, coverage(200.0));
   return test::renderPage(ink, kWidth, kHeight, test::cleanPage());
 }
 

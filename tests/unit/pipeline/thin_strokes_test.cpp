@@ -11,6 +11,7 @@
 #include "core/pipeline/run/pipeline.h"
 #include "core/pipeline/run/stage_keys.h"
 #include "tests/support/angles.h"
+#include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
@@ -65,8 +66,7 @@ LetteredPage lettered(double height, double penPx, const test::PageStyle& style)
       Strokes letter = shapes[next++ % shapes.size()];
       for (std::vector<Vec2>& stroke : letter) {
         for (Vec2& p : stroke) p = corner + height * p;
-        const std::vector<float> own = test::strokeCoverage(stroke, false, penPx, kPageWidth, kPageHeight);
-        for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], own[i]);
+        test::inkOver(cover, test::strokeCoverage(stroke, false, penPx, kPageWidth, kPageHeight));
       }
       page.letters.push_back(std::move(letter));
     }
@@ -248,12 +248,11 @@ TEST(ThinStrokes, ArePlacedOnTheScan) {
 /// A junction is reported in pixels of the scan, and a choice beside it reaches as far as on any other page.
 TEST(ThinStrokes, AreLedThroughJunctionsAsChosen) {
   const Vec2 crossing(320.5, 210.5);
-  std::vector<float> cover(static_cast<std::size_t>(kPageWidth) * kPageHeight, 0.0f);
+  std::vector<float> cover(std::ptrdiff_t{kPageWidth} * kPageHeight, 0.0f);
   for (const double angle : {0.3, 1.5}) {
     const Vec2 along(std::cos(angle), std::sin(angle));
     const std::vector<Vec2> stroke = {crossing - 150.0 * along, crossing + 150.0 * along};
-    const std::vector<float> own = test::strokeCoverage(stroke, false, 2.0, kPageWidth, kPageHeight);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], own[i]);
+    test::inkOver(cover, test::strokeCoverage(stroke, false, 2.0, kPageWidth, kPageHeight));
   }
   test::PageStyle style = test::cleanPage();
   style.blurPx = 0.8;
