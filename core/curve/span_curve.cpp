@@ -92,7 +92,7 @@ template <int kDegree>
 SpanRow rowOf(const double* coefficients, int anyDegree, double tau, double width, int order) {
   constexpr int kMostOrder = 4;
   const int degree = kDegree == Eigen::Dynamic ? anyDegree : kDegree;
-  const std::size_t size = static_cast<std::size_t>(degree) + 1;
+  const std::size_t size = degree + 1;
   SpanRow result;
   double scale = 1.0;
   BATTEN_UNROLL
@@ -104,7 +104,7 @@ SpanRow rowOf(const double* coefficients, int anyDegree, double tau, double widt
     for (int k = d; k <= degree; ++k) {
       double factor = power;
       for (int i = 0; i < d; ++i) factor *= k - i;
-      const double* line = coefficients + static_cast<std::size_t>(k) * size;
+      const double* line = coefficients + k * size;
       for (std::size_t j = 0; j < size; ++j) sum[j] += factor * line[j];
       power *= tau;
     }

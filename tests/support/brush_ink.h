@@ -16,7 +16,7 @@ inline void dryInk(GreyImage& grey, const BitImage& ink, double mottle, unsigned
   constexpr int kPatchPx = 5;
   const int columns = grey.width / kPatchPx + 1;
   std::mt19937 random(seed);
-  std::vector<double> patch(static_cast<std::size_t>(columns) * (grey.height / kPatchPx + 1));
+  std::vector<double> patch(std::ptrdiff_t{columns} * (grey.height / kPatchPx + 1));
   for (double& p : patch) p = mottle * static_cast<double>(random() % 1000) / 500.0;
   for (int y = 0; y < grey.height; ++y) {
     for (int x = 0; x < grey.width; ++x) {

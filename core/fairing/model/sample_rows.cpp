@@ -101,7 +101,7 @@ template <class Body>
 void eachEntry(std::span<const int> index, int stride, BandedMatrix& matrix, const Body& body) {
   for (std::size_t b = 0; b < index.size(); ++b) {
     double* entries = &matrix.entry(index[b], 0);
-    const std::size_t diagonal = b * (static_cast<std::size_t>(stride) + 1);
+    const std::size_t diagonal = b * (stride + 1);
     for (std::size_t k = 0; k < index.size() - b; ++k) body(entries[index[b + k] - index[b]], diagonal + k);
   }
 }
@@ -220,9 +220,9 @@ void SampleRows::addTransposedSums(const Products& factors, Eigen::VectorXd& out
 
 void SampleRows::addSquares(const Squares& squares, CancelCheck check, BandedMatrix& stiffness,
                             BandedMatrix& mass) const {
-  std::vector<double> stiff(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_));
+  std::vector<double> stiff(std::ptrdiff_t{stride_} * stride_);
   std::vector<double> heavy(stiff.size());
-  const std::size_t width = static_cast<std::size_t>(stiffness.halfWidth()) + 1;
+  const std::size_t width = stiffness.halfWidth() + 1;
   eachRun([&](const Run& run, std::span<const int> index) {
     if (index.empty() || check.isCancelled()) return;
     const double* rows = row(run.begin, Curvature);

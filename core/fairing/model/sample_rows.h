@@ -59,10 +59,7 @@ class SampleRows {
     int begin, end, span;
   };
   const double* row(int sample, Row row) const { return &values_[offset(sample, row)]; }
-  std::size_t offset(int sample, Row row) const {
-    return (static_cast<std::size_t>(kRows) * static_cast<std::size_t>(sample) + static_cast<std::size_t>(row)) *
-           static_cast<std::size_t>(stride_);
-  }
+  std::ptrdiff_t offset(int sample, Row row) const { return (std::ptrdiff_t{kRows} * sample + row) * stride_; }
   template <class Body>
   void withStride(const Body& body) const;
   template <class Body>

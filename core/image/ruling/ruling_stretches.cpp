@@ -24,7 +24,7 @@ constexpr std::array<int, 2> kSides = {2, 5};  // [grid] where the paper beside 
 constexpr int kAlong = 2;                      // [grid] half the length over which grey is averaged along the lines
 constexpr float kLeastDepth = 2.0f;            // [grey]
 constexpr double kDepthPerNoise = 2.5;         // standard deviations of the grey across lines
-constexpr int kBands = 8;                      // across the lines of a strip, each with a slope of its own in a fan
+constexpr int kBelts = 8;                      // across the lines of a strip, each with a slope of its own in a fan
 constexpr double kClearlyBetter = 1.1;         // than the common direction: a fan that is no accident of noise
 constexpr int kNoiseStride = 7;                // [px] between two samples of the page
 
@@ -260,48 +260,48 @@ std::vector<RulingStretch> peaksOf(const std::vector<int>& bins, double least, d
   return peaks;
 }
 
-/// How well each slope suits the lines of each strip and band of a plane.
+/// How well each slope suits the lines of each strip and belt of a plane.
 class SlopeScores {
  public:
   SlopeScores(const PixelsOfStrips& pixels, const RulingStretches& plane, const RunContext& context)
       : steps_(static_cast<int>(std::ceil(kSteepest * plane.stripWidth / kShiftPerStep))),
-        scores_(kStrips * kBands, std::vector<double>(2 * steps_ + 1, 0.0)) {
-    const double least = kLeastOfStrip * plane.stripWidth, bandHeight = plane.height / kBands;
+        scores_(kStrips * kBelts, std::vector<double>(2 * steps_ + 1, 0.0)) {
+    const double least = kLeastOfStrip * plane.stripWidth, beltHeight = plane.height / kBelts;
     const double offset = 0.5 * kSteepest * plane.stripWidth + 2.0;
     parallelFor(context, kStrips, 1, [&](int s, int) {
-      std::array<std::vector<LinePixel>, kBands> bands;
+      std::array<std::vector<LinePixel>, kBelts> belts;
       for (const LinePixel& p : pixels[s])
-        bands[std::clamp(static_cast<int>(p.y / bandHeight), 0, kBands - 1)].push_back(p);
-      std::vector<int> bins(static_cast<int>(bandHeight + 2.0 * offset) + 2);
-      for (int b = 0; b < kBands; ++b) {
-        if (!isMuch(static_cast<int>(bands[b].size()), static_cast<float>(least))) continue;  // none of its bins either
+        belts[std::clamp(static_cast<int>(p.y / beltHeight), 0, kBelts - 1)].push_back(p);
+      std::vector<int> bins(static_cast<int>(beltHeight + 2.0 * offset) + 2);
+      for (int b = 0; b < kBelts; ++b) {
+        if (!isMuch(static_cast<int>(belts[b].size()), static_cast<float>(least))) continue;  // none of its bins either
         for (int i = 0; i <= 2 * steps_ && !context.isCancelled(); ++i) {
-          project(bands[b], slopeOf(i), (s + 0.5) * plane.stripWidth, offset - b * bandHeight, bins);
-          scores_[s * kBands + b][i] = scoreOf(bins, static_cast<float>(least));
+          project(belts[b], slopeOf(i), (s + 0.5) * plane.stripWidth, offset - b * beltHeight, bins);
+          scores_[s * kBelts + b][i] = scoreOf(bins, static_cast<float>(least));
         }
       }
     });
     for (int i = 1; i <= 2 * steps_; ++i)
-      if (sumOf(0, kStrips * kBands, i) > sumOf(0, kStrips * kBands, common_)) common_ = i;
+      if (sumOf(0, kStrips * kBelts, i) > sumOf(0, kStrips * kBelts, common_)) common_ = i;
   }
 
   /// Whether there are lines at all.
-  bool hasLines() const { return sumOf(0, kStrips * kBands, common_) > 0.0; }
+  bool hasLines() const { return sumOf(0, kStrips * kBelts, common_) > 0.0; }
   /// The slope that suits the whole plane.
   double commonSlope() const { return slopeOf(common_); }
 
   /// The lines of a strip: in the common direction, unless a fan suits them clearly better.
   RulingFan fanOf(int strip) const {
     RulingFan found{commonSlope(), 0.0};
-    const auto first = scores_.begin() + std::ptrdiff_t{strip} * kBands;
-    const auto isEmpty = [](const std::vector<double>& band) { return std::ranges::max(band) <= 0.0; };
-    if (std::all_of(first, first + kBands, isEmpty)) return found;
-    double top = kClearlyBetter * sumOf(strip * kBands, (strip + 1) * kBands, common_);
-    const std::vector<std::array<int, kBands>> away = stepsFromMiddle();
+    const auto first = scores_.begin() + std::ptrdiff_t{strip} * kBelts;
+    const auto isEmpty = [](const std::vector<double>& belt) { return std::ranges::max(belt) <= 0.0; };
+    if (std::all_of(first, first + kBelts, isEmpty)) return found;
+    double top = kClearlyBetter * sumOf(strip * kBelts, (strip + 1) * kBelts, common_);
+    const std::vector<std::array<int, kBelts>> away = stepsFromMiddle();
     for (int middle = 0; middle <= 2 * steps_; ++middle) {
       for (int fan = -steps_; fan <= steps_; ++fan) {
         double sum = 0.0;
-        for (int b = 0; b < kBands; ++b) sum += first[b][std::clamp(middle + away[fan + steps_][b], 0, 2 * steps_)];
+        for (int b = 0; b < kBelts; ++b) sum += first[b][std::clamp(middle + away[fan + steps_][b], 0, 2 * steps_)];
         if (sum <= top) continue;
         top = sum;
         found = {slopeOf(middle), kSteepest * fan / steps_};
@@ -312,12 +312,12 @@ class SlopeScores {
 
  private:
   double slopeOf(int step) const { return kSteepest * (step - steps_) / steps_; }
-  /// How many steps the bands of a strip lie from the middle one, fan by fan.
-  std::vector<std::array<int, kBands>> stepsFromMiddle() const {
-    std::vector<std::array<int, kBands>> away(2 * steps_ + 1);
+  /// How many steps the belts of a strip lie from the middle one, fan by fan.
+  std::vector<std::array<int, kBelts>> stepsFromMiddle() const {
+    std::vector<std::array<int, kBelts>> away(2 * steps_ + 1);
     for (int fan = -steps_; fan <= steps_; ++fan)
-      for (int b = 0; b < kBands; ++b)
-        away[fan + steps_][b] = static_cast<int>(std::floor(fan * ((2.0 * b + 1.0) / kBands - 1.0) + 0.5));
+      for (int b = 0; b < kBelts; ++b)
+        away[fan + steps_][b] = static_cast<int>(std::floor(fan * ((2.0 * b + 1.0) / kBelts - 1.0) + 0.5));
     return away;
   }
   double sumOf(int from, int to, int step) const {
@@ -327,7 +327,7 @@ class SlopeScores {
   }
 
   int steps_, common_ = 0;
-  std::vector<std::vector<double>> scores_;  ///< Per strip and band, slope by slope.
+  std::vector<std::vector<double>> scores_;  ///< Per strip and belt, slope by slope.
 };
 
 }  // namespace

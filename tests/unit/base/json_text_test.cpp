@@ -81,10 +81,10 @@ TEST(JsonText, TakesTimeInProportionToTheText) {
   for (int i = 0; i < kNames / kInAnObject; ++i) text += (i == 0 ? "" : ",") + one;
   const auto many = parseJson(text + "]", {}, {.bytes = 100'000'000});
   ASSERT_TRUE(many) << many.error().message;
-  EXPECT_EQ(many->size(), static_cast<std::size_t>(kNames / kInAnObject));
+  EXPECT_EQ(std::ssize(*many), kNames / kInAnObject);
   const auto wide = parseJson(withKeys(kNames), {}, {.bytes = 100'000'000, .keys = kNames});
   ASSERT_TRUE(wide) << wide.error().message;
-  EXPECT_EQ(wide->size(), static_cast<std::size_t>(kNames));
+  EXPECT_EQ(std::ssize(*wide), kNames);
 }
 
 TEST(JsonText, HearsACancel) {

@@ -95,7 +95,7 @@ TEST(MeetingEnds, AStrokeThatRunsIntoAShapeMeetsItsBorder) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const double inside = kRadius - (Vec2(x + 0.5, y + 0.5) - centre).norm() + 0.5;
-      float& c = coverage[static_cast<std::size_t>(y) * kWidth + x];
+      float& c = coverage[std::ptrdiff_t{y} * kWidth + x];
       c = std::max(c, static_cast<float>(std::clamp(inside, 0.0, 1.0)));
     }
   }

@@ -47,7 +47,7 @@ FineInk fineInkOf(const CoverAt& cover) {
 PaperBackground evenPaper() {
   PaperBackground paper;
   paper.columns = paper.rows = kFineSide / paper.cellPx;
-  paper.grey.assign(static_cast<std::size_t>(paper.columns) * paper.rows, static_cast<float>(kPaperGrey));
+  paper.grey.assign(std::ptrdiff_t{paper.columns} * paper.rows, static_cast<float>(kPaperGrey));
   return paper;
 }
 

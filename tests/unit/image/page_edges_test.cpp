@@ -40,8 +40,8 @@ struct PlainEdges {
   explicit PlainEdges(const Plane& u)
       : width(u.width),
         height(u.height),
-        squares(static_cast<std::size_t>(width * height), 0.0f),
-        area(static_cast<std::size_t>(width * height), false) {
+        squares(std::ptrdiff_t{width} * height, 0.0f),
+        area(std::ptrdiff_t{width} * height, false) {
     for (int y = 1; y + 1 < height; ++y) {
       for (int x = 1; x + 1 < width; ++x) {
         const float gx = 0.5f * (u.row(y)[x + 1] - u.row(y)[x - 1]), gy = 0.5f * (u.row(y + 1)[x] - u.row(y - 1)[x]);
@@ -54,7 +54,7 @@ struct PlainEdges {
         if (isSteep(x, y, 6.0f, floor)) flood(x, y, floor);
   }
 
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
+  std::ptrdiff_t at(int x, int y) const { return std::ptrdiff_t{y} * width + x; }
   bool isSteep(int x, int y, float factor, float floor) const {
     const float limit = factor * std::max(kNoise, floor);
     return squares[at(x, y)] > limit * limit;
