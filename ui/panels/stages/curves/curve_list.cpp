@@ -3,6 +3,7 @@
 
 #include <QElapsedTimer>
 #include <QKeyEvent>
+#include <QLayout>
 #include <QMouseEvent>
 #include <QScrollArea>
 #include <QSpacerItem>
