@@ -5,7 +5,7 @@
 #include "core/construct/pieces.h"
 
 /// Constructions work in px of the scan, the unit in which noise has its size. What they are given and what they make
-/// is in mm: construct() converts once at its beginning and once at its end, by these two.
+/// is in mm: construct() converts once at its beginning and once at its end, by these two; growingSteps() alike.
 namespace batten {
 
 /// The contour with lengths in px, axes as they are; its pixelMm is 1. @pre pixelMm > 0.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/statistics.h"
+#include "core/image/sheet_cells.h"
 
 namespace batten {
 namespace {

@@ -4,9 +4,10 @@
 #include <optional>
 
 #include "core/image/bits/bit_image.h"
-#include "core/image/sheet_cells.h"
 
 namespace batten {
+
+struct SheetCells;
 
 /// The holes, or the wires, of a spiral or comb binding.
 struct BindingHoles {
