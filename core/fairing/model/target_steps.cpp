@@ -177,8 +177,16 @@ std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& fr
   return step;
 }
 
-std::optional<TargetStep> TargetSteps::between(const TargetStep& from, double weight) const {
-  return solve(weight, from, isRough() ? kRough : kWarm);
+const TargetStep* TargetSteps::between(const TargetStep& from, double weight) const {
+  const auto isIt = [&](const Made& made) {
+    return made.weight == weight && made.fromWeight == from.weight && made.fromMisfit == from.misfit;
+  };
+  auto found = std::find_if(made_.begin(), made_.end(), isIt);
+  if (found == made_.end()) {
+    made_.push_back({from.weight, from.misfit, weight, solve(weight, from, isRough() ? kRough : kWarm)});
+    found = made_.end() - 1;
+  }
+  return found->step ? &*found->step : nullptr;
 }
 
 std::optional<TargetStep> TargetSteps::polished(const TargetStep& from) const {

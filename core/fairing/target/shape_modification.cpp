@@ -121,7 +121,8 @@ class ShapeModification {
   struct Course {
     const FairingSetup* setup;
     const TargetSteps* followed;
-    std::vector<TargetStep> toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
+    std::vector<const TargetStep*>
+        toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
   };
 
   void openAll() {
@@ -220,30 +221,27 @@ class ShapeModification {
       if (rank(best_) <= asked_ || context_.isCancelled()) return;
       const Sides sides = sidesOf(course, toleranceMm);
       if (!sides.outside) continue;
-      std::vector<TargetStep> found = between(course, sides, toleranceMm, kRoundSteps);
-      for (const TargetStep& step : found) take(step, &course);
+      std::vector<const TargetStep*> found = between(course, sides, toleranceMm, kRoundSteps);
+      for (const TargetStep* step : found) take(*step, &course);
       if (!(toleranceMm < toleranceMm_)) course.toTolerance = std::move(found);
     }
   }
 
   /// Steps that use more and more of a tolerance.
-  std::vector<TargetStep> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
-    std::vector<TargetStep> found;
-    sides.outside->deviationMm();  // before it is copied: other tolerances ask for it, too
-    TargetStep wide = *sides.outside;
-    std::optional<TargetStep> near;
-    if (sides.inside) near = *sides.inside;
+  std::vector<const TargetStep*> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
+    std::vector<const TargetStep*> found;
+    const TargetStep *wide = sides.outside, *near = sides.inside;
     for (int i = 0; i < most && !context_.isCancelled(); ++i) {
-      if (near && (near->deviationMm() >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide.weight))
+      if (near && (near->deviationMm() >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide->weight))
         break;
-      const double weight = near ? weightBetween(wide, *near, toleranceMm) : kWeightStep * wide.weight;
-      auto step = course.followed->between(near ? *near : wide, weight);
+      const double weight = near ? weightBetween(*wide, *near, toleranceMm) : kWeightStep * wide->weight;
+      const TargetStep* step = course.followed->between(near ? *near : *wide, weight);
       if (!step) break;
       if (step->isWithin(kToleranceRoom * toleranceMm)) {
-        found.push_back(*step);
-        near = std::move(step);
+        found.push_back(step);
+        near = step;
       } else {
-        wide = std::move(*step);
+        wide = step;
       }
     }
     return found;
@@ -254,7 +252,7 @@ class ShapeModification {
     if (!sides.outside) return;
     if (course.toTolerance.empty()) {
       const int most = course.followed->isRough() ? kRoughSteps : kSearchSteps;
-      for (const TargetStep& step : between(course, sides, toleranceMm_, most)) takeOfSameRank(step, &course);
+      for (const TargetStep* step : between(course, sides, toleranceMm_, most)) takeOfSameRank(*step, &course);
     }
     if (course_ != &course || context_.isCancelled()) return;
     const auto polished = course.followed->polished(best_);
