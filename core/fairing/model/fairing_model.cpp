@@ -12,8 +12,8 @@ namespace batten {
 namespace {
 
 /// Stiffness against sliding along the curve, in that of the longest wave. Sliding changes no shape, but far slides
-/// make the linear model wrong: it is damped more than moves across the curve, and never quite free.
-constexpr double kTangentDamping = 1e5, kTangentFloor = 1.0;
+/// make the linear model wrong: it is damped more than moves across the curve, and never quite free (kSlideFloor).
+constexpr double kTangentDamping = 1e5;
 constexpr int kConjugateSteps = 25;           // limits the work of one solution
 constexpr double kConjugateTolerance = 1e-2;  // share of the residual at which it is good enough
 
@@ -42,8 +42,8 @@ IntervalRule intervalRule(int k, int count, bool closed) {
 }  // namespace
 
 FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& objective,
-                           const FairingCorridor& corridor, const FairingState& state)
-    : setup_(&setup) {
+                           const FairingCorridor& corridor, const FairingState& state, double slideFloor)
+    : setup_(&setup), slideFloor_(slideFloor) {
   remake(objective, corridor, state);
 }
 
@@ -125,8 +125,8 @@ void FairingModel::assemble() {
   const Unknowns& unknowns = setup_->unknowns;
   stiffness_ = BandedMatrix(unknowns.count(), unknowns.halfWidth(), false);
   mass_ = stiffness_;
-  tangentFloor_ = kTangentFloor * dampingUnit_;
-  SampleRows::Squares squares{{}, dampingUnit_, kTangentFloor, kTangentDamping};
+  tangentFloor_ = slideFloor_ * dampingUnit_;
+  SampleRows::Squares squares{{}, dampingUnit_, slideFloor_, kTangentDamping};
   squares.weights.reserve(setup_->start.places.size());
   for (int i = 0; i < setup_->sampleCount(); ++i)
     squares.weights.push_back({weight_[i] * weight_[i], corridorCurvature_[i] * across_[i] * across_[i]});

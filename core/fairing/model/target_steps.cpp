@@ -19,8 +19,12 @@ constexpr double kHardlyMoved = 1e-4;
 constexpr int kMostSteps = 10;  // limits the work
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
-// [iterations, share of the objective] to begin with, from a near step, and at the end
-constexpr FairingLimits kFull{40, 1e-4}, kWarm{6, 1e-3}, kPolish{12, 1e-5};
+/// The curve at the target and the one that is taken come to rest within these steps, not by many small ones: a floor
+/// against sliding that low is no hindrance near the goal.
+constexpr double kFreeSlide = 1e-3;
+// [iterations, share of the objective] at the target, from a near step, and at the end
+constexpr FairingLimits kFull{.iterations = 12, .relativeDecrease = 1e-3, .slideFloor = kFreeSlide}, kWarm{6, 1e-3},
+    kPolish{.iterations = 12, .relativeDecrease = 1e-5, .slideFloor = kFreeSlide};
 /// A long wavy curve whose target is plainly out of reach is not worth the last per cent: from so many samples on, a
 /// target farther off than this share of the extent after the first iterations is followed with less effort.
 constexpr int kLongCurve = 600;

@@ -24,6 +24,7 @@ constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
 constexpr double kTargetUsedShare = 0.95;  // of the tolerance: enough of it
 /// Ratios of weights: of equal curves, and by which a small one grows; share between two that no step comes nearer.
 constexpr double kSameWeight = 1.02, kWeightStep = 4.0, kNearestShare = 0.1;
+constexpr double kHardlyNearer = 0.9;  // of the distance before
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
@@ -231,7 +232,10 @@ class ShapeModification {
   std::vector<const TargetStep*> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
     std::vector<const TargetStep*> found;
     const TargetStep *wide = sides.outside, *near = sides.inside;
+    double left = std::numeric_limits<double>::infinity();  // deviation of the step before
     for (int i = 0; i < most && !context_.isCancelled(); ++i) {
+      if (!near && isStuck(wide->deviationMm(), left, toleranceMm, most - i)) break;
+      left = wide->deviationMm();
       if (near && (near->deviationMm() >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide->weight))
         break;
       const double weight = near ? weightBetween(*wide, *near, toleranceMm) : kWeightStep * wide->weight;
@@ -245,6 +249,13 @@ class ShapeModification {
       }
     }
     return found;
+  }
+
+  /// A curve that a larger weight did not bring back to the sketch, or that is farther than the steps left can bring
+  /// it: at best its distance falls with the square of the weight.
+  static bool isStuck(double deviationMm, double beforeMm, double toleranceMm, int steps) {
+    return deviationMm > kHardlyNearer * beforeMm ||
+           deviationMm > toleranceMm * std::pow(kWeightStep * kWeightStep, steps);
   }
 
   void useTolerance(const Course& course) {
