@@ -28,8 +28,10 @@ constexpr FairingLimits kFull{.iterations = 12, .relativeDecrease = 1e-3, .slide
 /// A long wavy curve whose target is plainly out of reach is not worth the last per cent: from so many samples on, a
 /// target farther off than this share of the extent after the first iterations is followed with less effort.
 constexpr int kLongCurve = 600;
-constexpr double kOutOfReach = 0.02;                                         // of the extent
-constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};  // the same, of long curves
+constexpr double kOutOfReach = 0.02;  // of the extent
+constexpr FairingLimits kProbe{.iterations = 12, .relativeDecrease = 1e-3, .slideFloor = kFreeSlide},
+    kRest{.iterations = 12, .relativeDecrease = 1e-3, .slideFloor = kFreeSlide},
+    kRough{4, 1e-2};  // the same, of long curves
 
 /// Of the control points. No place of the curve moves farther, and hardly a foot point is missed by as much again.
 constexpr double kSurelyWithin = 2.0;
