@@ -13,6 +13,8 @@ namespace {
 
 /// Newton's method doubles the digits: a step as short as this, of a span, is the last one.
 constexpr double kSettled = 1e-8;
+/// The same of a foot, whose distance changes with the square of what is left.
+constexpr double kSettledFoot = 1e-5;
 constexpr int kPartsPerSpan = 2;  // each with a rule of its own for the arc length
 
 /// Places where the speed is taken on 0..1.
@@ -152,7 +154,7 @@ SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start
       next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
     }
     const bool settled =
-        std::abs(move) < kSettled || (next.span == place.span && std::abs(next.tau - place.tau) < kSettled);
+        std::abs(move) < kSettledFoot || (next.span == place.span && std::abs(next.tau - place.tau) < kSettledFoot);
     place = next;
     if (settled) break;
   }
