@@ -12,8 +12,8 @@ namespace batten {
 namespace {
 
 /// Stiffness against sliding along the curve, in that of the longest wave. Sliding changes no shape, but far slides
-/// make the linear model wrong: it is damped more than moves across the curve, and never quite free.
-constexpr double kTangentDamping = 1e5, kTangentFloor = 1.0;
+/// make the linear model wrong: it is damped more than moves across the curve, and never quite free (kSlideFloor).
+constexpr double kTangentDamping = 1e5;
 constexpr int kConjugateSteps = 25;           // limits the work of one solution
 constexpr double kConjugateTolerance = 1e-2;  // share of the residual at which it is good enough
 
@@ -24,26 +24,21 @@ LocalRow positionRow(const Vec2& direction, const SpanRow& basis, int degree) {
   return row;
 }
 
-/// The four samples and factors of the fourth-order rule for the interval from sample k to k + 1 of spacing 1.
-struct IntervalRule {
-  std::array<int, 4> sample;
-  std::array<double, 4> factor;
-};
-IntervalRule intervalRule(int k, int count, bool closed) {
-  if (closed) {
-    return {{(k + count - 1) % count, k, (k + 1) % count, (k + 2) % count},
-            {-1.0 / 24, 13.0 / 24, 13.0 / 24, -1.0 / 24}};
-  }
-  if (k == 0) return {{0, 1, 2, 0}, {5.0 / 12, 8.0 / 12, -1.0 / 12, 0.0}};
-  if (k == count - 2) return {{k + 1, k, k - 1, k}, {5.0 / 12, 8.0 / 12, -1.0 / 12, 0.0}};
-  return {{k - 1, k, k + 1, k + 2}, {-1.0 / 24, 13.0 / 24, 13.0 / 24, -1.0 / 24}};
+/// The fourth-order rule for the interval from sample k to k + 1 of spacing 1: samples k - 1 to k + 2; at an end of an
+/// open curve the three from that end on, the nearest first.
+constexpr std::array<double, 4> kInside = {-1.0 / 24, 13.0 / 24, 13.0 / 24, -1.0 / 24};
+constexpr std::array<double, 3> kAtEnd = {5.0 / 12, 8.0 / 12, -1.0 / 12};
+template <std::size_t kCount>
+std::array<double, kCount> scaled(std::array<double, kCount> rule, double step) {
+  for (double& factor : rule) factor *= step;
+  return rule;
 }
 
 }  // namespace
 
 FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& objective,
-                           const FairingCorridor& corridor, const FairingState& state)
-    : setup_(&setup) {
+                           const FairingCorridor& corridor, const FairingState& state, double slideFloor)
+    : setup_(&setup), slideFloor_(slideFloor) {
   remake(objective, corridor, state);
 }
 
@@ -125,8 +120,8 @@ void FairingModel::assemble() {
   const Unknowns& unknowns = setup_->unknowns;
   stiffness_ = BandedMatrix(unknowns.count(), unknowns.halfWidth(), false);
   mass_ = stiffness_;
-  tangentFloor_ = kTangentFloor * dampingUnit_;
-  SampleRows::Squares squares{{}, dampingUnit_, kTangentFloor, kTangentDamping};
+  tangentFloor_ = slideFloor_ * dampingUnit_;
+  SampleRows::Squares squares{{}, dampingUnit_, slideFloor_, kTangentDamping};
   squares.weights.reserve(setup_->start.places.size());
   for (int i = 0; i < setup_->sampleCount(); ++i)
     squares.weights.push_back({weight_[i] * weight_[i], corridorCurvature_[i] * across_[i] * across_[i]});
@@ -135,25 +130,82 @@ void FairingModel::assemble() {
 
 FairingModel::Integral FairingModel::cumulative(const Eigen::VectorXd& values) const {
   const int count = static_cast<int>(values.size());
+  const auto inside = scaled(kInside, stepLength_);
+  const auto atEnd = scaled(kAtEnd, stepLength_);
+  const double* v = values.data();
   Eigen::VectorXd result(count);
   double sum = 0.0;
   result[0] = 0.0;
-  for (int k = 0; k < (setup_->closed ? count : count - 1); ++k) {
-    const IntervalRule rule = intervalRule(k, count, setup_->closed);
-    for (std::size_t l = 0; l < 4; ++l) sum += stepLength_ * rule.factor[l] * values[rule.sample[l]];
-    if (k + 1 < count) result[k + 1] = sum;
+  const auto addInside = [&](int a, int b, int c, int d) {
+    sum += inside[0] * v[a];
+    sum += inside[1] * v[b];
+    sum += inside[2] * v[c];
+    sum += inside[3] * v[d];
+  };
+  const auto addEnd = [&](int a, int b, int c) {
+    sum += atEnd[0] * v[a];
+    sum += atEnd[1] * v[b];
+    sum += atEnd[2] * v[c];
+  };
+  const auto last = [count](int k) { return (k + count) % count; };
+  if (setup_->closed) {
+    addInside(last(-1), 0, last(1), last(2));
+  } else {
+    addEnd(0, 1, 2);
   }
+  for (int k = 1; k + 2 < count; ++k) {
+    result[k] = sum;
+    addInside(k - 1, k, k + 1, k + 2);
+  }
+  for (int k = std::max(1, count - 2); k < (setup_->closed ? count : count - 1); ++k) {
+    result[k] = sum;
+    if (setup_->closed) {
+      addInside(k - 1, k, last(k + 1), last(k + 2));
+    } else {
+      addEnd(k + 1, k, k - 1);
+    }
+  }
+  if (!setup_->closed) result[count - 1] = sum;
   return {std::move(result), sum};
 }
 
 Eigen::VectorXd FairingModel::cumulativeTransposed(const Eigen::VectorXd& values, double total) const {
   const int count = static_cast<int>(values.size());
+  const auto inside = scaled(kInside, stepLength_);
+  const auto atEnd = scaled(kAtEnd, stepLength_);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
+  double* r = result.data();
   double sum = total;
-  for (int k = (setup_->closed ? count : count - 1) - 1; k >= 0; --k) {
+  const auto addInside = [&](int a, int b, int c, int d) {
+    r[a] += inside[0] * sum;
+    r[b] += inside[1] * sum;
+    r[c] += inside[2] * sum;
+    r[d] += inside[3] * sum;
+  };
+  const auto addEnd = [&](int a, int b, int c) {
+    r[a] += atEnd[0] * sum;
+    r[b] += atEnd[1] * sum;
+    r[c] += atEnd[2] * sum;
+  };
+  const auto last = [count](int k) { return (k + count) % count; };
+  int k = setup_->closed ? count - 1 : count - 2;
+  for (; k >= std::max(1, count - 2); --k) {
     if (k + 1 < count) sum += values[k + 1];
-    const IntervalRule rule = intervalRule(k, count, setup_->closed);
-    for (std::size_t l = 0; l < 4; ++l) result[rule.sample[l]] += stepLength_ * rule.factor[l] * sum;
+    if (setup_->closed) {
+      addInside(k - 1, k, last(k + 1), last(k + 2));
+    } else {
+      addEnd(k + 1, k, k - 1);
+    }
+  }
+  for (; k >= 1; --k) {
+    sum += values[k + 1];
+    addInside(k - 1, k, k + 1, k + 2);
+  }
+  sum += values[1];
+  if (setup_->closed) {
+    addInside(last(-1), 0, last(1), last(2));
+  } else {
+    addEnd(0, 1, 2);
   }
   return result;
 }

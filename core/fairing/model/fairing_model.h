@@ -10,11 +10,15 @@
 
 namespace batten {
 
+/// [stiffness of the longest wave] Against sliding along the curve, however small the damping. Sliding changes no
+/// shape, but a curve that may slide follows a profile more closely: with this floor it creeps there over many steps.
+inline constexpr double kSlideFloor = 1.0;
+
 /// The Gauss-Newton model at a state: sparse rows plus the coupling of all samples through the arc length.
 class FairingModel {
  public:
   FairingModel(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
-               const FairingState& state);
+               const FairingState& state, double slideFloor = kSlideFloor);
   /// At another state, over the same unknowns: uses the memory that it has.
   void remake(const FairingObjective& objective, const FairingCorridor& corridor, const FairingState& state);
   /// J v and J' y of the curvature residuals, with samples that are re-located at equal arc fractions.
@@ -52,7 +56,7 @@ class FairingModel {
   SampleRows rows_;
   Eigen::VectorXd across_;  ///< Cosine between the curve's normal and the sketch's: signed distances change by it.
   Eigen::VectorXd weight_, nonlocal_, lengthTerm_, corridorCurvature_, gradient_;
-  double stepLength_ = 0.0, tangentFloor_ = 0.0, dampingUnit_ = 0.0;
+  double slideFloor_, stepLength_ = 0.0, tangentFloor_ = 0.0, dampingUnit_ = 0.0;
   BandedMatrix stiffness_, mass_;
 };
 

@@ -46,14 +46,14 @@ double shareWithin(const FairingCorridor& corridor, const FairingState& state, c
 class FairingProblem final : public LevenbergProblem {
  public:
   FairingProblem(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
-                 FairingState start)
-      : setup_(setup), objective_(objective), corridor_(corridor), state_(std::move(start)) {}
+                 FairingState start, double slideFloor)
+      : setup_(setup), objective_(objective), corridor_(corridor), slideFloor_(slideFloor), state_(std::move(start)) {}
 
   double linearise() override {
     if (model_) {
       model_->remake(objective_, corridor_, state_);
     } else {
-      model_.emplace(setup_, objective_, corridor_, state_);
+      model_.emplace(setup_, objective_, corridor_, state_, slideFloor_);
     }
     return state_.total;
   }
@@ -75,6 +75,7 @@ class FairingProblem final : public LevenbergProblem {
   const FairingSetup& setup_;
   const FairingObjective& objective_;
   const FairingCorridor& corridor_;
+  double slideFloor_;
   FairingState state_;
   double promised_ = std::numeric_limits<double>::infinity();
   std::optional<FairingState> trial_;
@@ -85,7 +86,7 @@ class FairingProblem final : public LevenbergProblem {
 
 FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
                     FairingState start, const FairingLimits& limits, const RunContext& context) {
-  FairingProblem problem(setup, objective, corridor, std::move(start));
+  FairingProblem problem(setup, objective, corridor, std::move(start), limits.slideFloor);
   LevenbergOptions options = kFairingSteps;
   options.iterations = limits.iterations;
   options.smallDecrease = limits.relativeDecrease;

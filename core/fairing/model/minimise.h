@@ -3,6 +3,7 @@
 
 #include "core/base/run_context.h"
 #include "core/base/termination.h"
+#include "core/fairing/model/fairing_model.h"
 #include "core/fairing/model/fairing_state.h"
 
 namespace batten {
@@ -16,8 +17,9 @@ struct FairingRun {
 };
 struct FairingLimits {
   int iterations = 40;
-  double relativeDecrease = 1e-4;  ///< [-] LevenbergOptions::smallDecrease.
-  double damping = 1e-3;           ///< [stiffness of the longest wave] to begin with.
+  double relativeDecrease = 1e-4;   ///< [-] LevenbergOptions::smallDecrease.
+  double damping = 1e-3;            ///< [stiffness of the longest wave] to begin with.
+  double slideFloor = kSlideFloor;  ///< Of FairingModel.
 };
 /// Levenberg-Marquardt from a state.
 FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,

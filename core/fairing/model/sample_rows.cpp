@@ -21,11 +21,19 @@ using NearRow = Eigen::Map<const Near<Stride>>;
 
 template <int Stride>
 void gather(std::span<const int> index, const Eigen::VectorXd& all, Near<Stride>& near) {
+  if (Stride == kFreeQuintic && index.size() == kFreeQuintic) {  // the usual case, of a length that is known
+    for (int k = 0; k < kFreeQuintic; ++k) near[k] = all[index[k]];
+    return;
+  }
   near.setZero();
   for (std::size_t k = 0; k < index.size(); ++k) near[static_cast<Eigen::Index>(k)] = all[index[k]];
 }
 template <int Stride>
 void scatter(std::span<const int> index, const Near<Stride>& near, Eigen::VectorXd& all) {
+  if (Stride == kFreeQuintic && index.size() == kFreeQuintic) {
+    for (int k = 0; k < kFreeQuintic; ++k) all[index[k]] = near[k];
+    return;
+  }
   for (std::size_t k = 0; k < index.size(); ++k) all[index[k]] = near[static_cast<Eigen::Index>(k)];
 }
 

@@ -19,13 +19,19 @@ constexpr double kHardlyMoved = 1e-4;
 constexpr int kMostSteps = 10;  // limits the work
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
-// [iterations, share of the objective] to begin with, from a near step, and at the end
-constexpr FairingLimits kFull{40, 1e-4}, kWarm{6, 1e-3}, kPolish{12, 1e-5};
+/// The curve at the target and the one that is taken come to rest within these steps, not by many small ones: a floor
+/// against sliding that low is no hindrance near the goal.
+constexpr double kFreeSlide = 1e-3;
+// [iterations, share of the objective] at the target, from a near step, and at the end
+constexpr FairingLimits kFull{.iterations = 12, .relativeDecrease = 1e-3, .slideFloor = kFreeSlide}, kWarm{6, 1e-3},
+    kPolish{.iterations = 12, .relativeDecrease = 1e-5, .slideFloor = kFreeSlide};
 /// A long wavy curve whose target is plainly out of reach is not worth the last per cent: from so many samples on, a
 /// target farther off than this share of the extent after the first iterations is followed with less effort.
 constexpr int kLongCurve = 600;
-constexpr double kOutOfReach = 0.02;                                         // of the extent
-constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};  // the same, of long curves
+constexpr double kOutOfReach = 0.02;  // of the extent
+constexpr FairingLimits kProbe{.iterations = 12, .relativeDecrease = 1e-3, .slideFloor = kFreeSlide},
+    kRest{.iterations = 12, .relativeDecrease = 1e-3, .slideFloor = kFreeSlide},
+    kRough{4, 1e-2};  // the same, of long curves
 
 /// Of the control points. No place of the curve moves farther, and hardly a foot point is missed by as much again.
 constexpr double kSurelyWithin = 2.0;
@@ -177,8 +183,16 @@ std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& fr
   return step;
 }
 
-std::optional<TargetStep> TargetSteps::between(const TargetStep& from, double weight) const {
-  return solve(weight, from, isRough() ? kRough : kWarm);
+const TargetStep* TargetSteps::between(const TargetStep& from, double weight) const {
+  const auto isIt = [&](const Made& made) {
+    return made.weight == weight && made.fromWeight == from.weight && made.fromMisfit == from.misfit;
+  };
+  auto found = std::find_if(made_.begin(), made_.end(), isIt);
+  if (found == made_.end()) {
+    made_.push_back({from.weight, from.misfit, weight, solve(weight, from, isRough() ? kRough : kWarm)});
+    found = made_.end() - 1;
+  }
+  return found->step ? &*found->step : nullptr;
 }
 
 std::optional<TargetStep> TargetSteps::polished(const TargetStep& from) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <limits>
 #include <optional>
 #include <span>
@@ -62,8 +63,9 @@ class TargetSteps {
   bool endsEarly() const { return early_; }
   /// Less effort was made: a long curve, and a target far out of its reach.
   bool isRough() const { return rough_ && !early_; }
-  /// A step of another weight, from one that is near.
-  std::optional<TargetStep> between(const TargetStep& from, double weight) const;
+  /// A step of another weight, from one of these steps that is near. Kept: the searches of several tolerances ask for
+  /// the same ones. @return null where there is none.
+  const TargetStep* between(const TargetStep& from, double weight) const;
   std::optional<TargetStep> polished(const TargetStep& from) const;
   int iterations() const { return iterations_; }
 
@@ -72,6 +74,12 @@ class TargetSteps {
   std::optional<std::size_t> firstBeyond(double mostMm) const;
   double weightOf(int step) const;
   std::optional<TargetStep> solve(double weight, const TargetStep& from, const FairingLimits& limits) const;
+
+  /// What between() has made.
+  struct Made {
+    double fromWeight, fromMisfit, weight;
+    std::optional<TargetStep> step;
+  };
 
   const FairingSetup& setup_;
   const FairingObjective& objective_;
@@ -82,6 +90,7 @@ class TargetSteps {
   int count_ = 0;                          ///< Steps beside the first.
   std::optional<int> next_;                ///< The one to be made next; nothing: the last one was made, or failed.
   bool long_ = false, rough_ = false, early_ = false;
+  mutable std::deque<Made> made_;  ///< Whose steps stay where they are.
   mutable int iterations_ = 0;
 };
 

@@ -24,6 +24,7 @@ constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
 constexpr double kTargetUsedShare = 0.95;  // of the tolerance: enough of it
 /// Ratios of weights: of equal curves, and by which a small one grows; share between two that no step comes nearer.
 constexpr double kSameWeight = 1.02, kWeightStep = 4.0, kNearestShare = 0.1;
+constexpr double kHardlyNearer = 0.9;  // of the distance before
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
@@ -121,7 +122,8 @@ class ShapeModification {
   struct Course {
     const FairingSetup* setup;
     const TargetSteps* followed;
-    std::vector<TargetStep> toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
+    std::vector<const TargetStep*>
+        toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
   };
 
   void openAll() {
@@ -220,33 +222,40 @@ class ShapeModification {
       if (rank(best_) <= asked_ || context_.isCancelled()) return;
       const Sides sides = sidesOf(course, toleranceMm);
       if (!sides.outside) continue;
-      std::vector<TargetStep> found = between(course, sides, toleranceMm, kRoundSteps);
-      for (const TargetStep& step : found) take(step, &course);
+      std::vector<const TargetStep*> found = between(course, sides, toleranceMm, kRoundSteps);
+      for (const TargetStep* step : found) take(*step, &course);
       if (!(toleranceMm < toleranceMm_)) course.toTolerance = std::move(found);
     }
   }
 
   /// Steps that use more and more of a tolerance.
-  std::vector<TargetStep> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
-    std::vector<TargetStep> found;
-    sides.outside->deviationMm();  // before it is copied: other tolerances ask for it, too
-    TargetStep wide = *sides.outside;
-    std::optional<TargetStep> near;
-    if (sides.inside) near = *sides.inside;
+  std::vector<const TargetStep*> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
+    std::vector<const TargetStep*> found;
+    const TargetStep *wide = sides.outside, *near = sides.inside;
+    double left = std::numeric_limits<double>::infinity();  // deviation of the step before
     for (int i = 0; i < most && !context_.isCancelled(); ++i) {
-      if (near && (near->deviationMm() >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide.weight))
+      if (!near && isStuck(wide->deviationMm(), left, toleranceMm, most - i)) break;
+      left = wide->deviationMm();
+      if (near && (near->deviationMm() >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide->weight))
         break;
-      const double weight = near ? weightBetween(wide, *near, toleranceMm) : kWeightStep * wide.weight;
-      auto step = course.followed->between(near ? *near : wide, weight);
+      const double weight = near ? weightBetween(*wide, *near, toleranceMm) : kWeightStep * wide->weight;
+      const TargetStep* step = course.followed->between(near ? *near : *wide, weight);
       if (!step) break;
       if (step->isWithin(kToleranceRoom * toleranceMm)) {
-        found.push_back(*step);
-        near = std::move(step);
+        found.push_back(step);
+        near = step;
       } else {
-        wide = std::move(*step);
+        wide = step;
       }
     }
     return found;
+  }
+
+  /// A curve that a larger weight did not bring back to the sketch, or that is farther than the steps left can bring
+  /// it: at best its distance falls with the square of the weight.
+  static bool isStuck(double deviationMm, double beforeMm, double toleranceMm, int steps) {
+    return deviationMm > kHardlyNearer * beforeMm ||
+           deviationMm > toleranceMm * std::pow(kWeightStep * kWeightStep, steps);
   }
 
   void useTolerance(const Course& course) {
@@ -254,7 +263,7 @@ class ShapeModification {
     if (!sides.outside) return;
     if (course.toTolerance.empty()) {
       const int most = course.followed->isRough() ? kRoughSteps : kSearchSteps;
-      for (const TargetStep& step : between(course, sides, toleranceMm_, most)) takeOfSameRank(step, &course);
+      for (const TargetStep* step : between(course, sides, toleranceMm_, most)) takeOfSameRank(*step, &course);
     }
     if (course_ != &course || context_.isCancelled()) return;
     const auto polished = course.followed->polished(best_);

@@ -256,6 +256,49 @@ TEST(TargetSteps, ReachedLaterAreThoseFollowedAtOnce) {
   EXPECT_EQ(steps.iterations(), whole.iterations());
 }
 
+/// Against a minimisation that goes on from the end for as long as it likes.
+TEST(TargetSteps, ComeToRestAtTheTarget) {
+  const RunContext context;
+  for (const int degree : {2, 3, 5}) {
+    const NurbsCurve curve = test::noisy(test::ellipseQuarter(120.0, 60.0, 24), 0.05, 7);
+    const auto setup = makeSetup(curve, false, {});
+    ASSERT_TRUE(setup);
+    const auto objective = targetObjective(**setup, fitTargets(curve, {}).profiles[degree - 1]);
+    ASSERT_TRUE(objective);
+    const TargetSteps followed(**setup, *objective, context);
+    ASSERT_FALSE(followed.steps().empty());
+    const TargetStep& end = followed.steps().front();
+    auto state = evaluate(**setup, *objective, {.weight = end.weight}, end.points, end.feet);
+    ASSERT_TRUE(state);
+    const FairingRun longer = minimise(**setup, *objective, {.weight = end.weight}, std::move(*state),
+                                       {.iterations = 1000, .relativeDecrease = 1e-9, .slideFloor = 1e-3}, context);
+    EXPECT_LT(std::sqrt(end.misfit), 1.05 * std::sqrt(longer.state.misfit)) << degree;
+    EXPECT_NEAR(end.deviationMm() / largestDeviation(**setup, longer.state.points, true), 1.0, 0.02) << degree;
+  }
+}
+
+TEST(TargetSteps, KeepTheStepsThatAreAskedForTwice) {
+  const NurbsCurve curve = test::noisy(test::wave(200.0, 20.0, 16), 0.05, 3);
+  const auto setup = makeSetup(curve, false, {});
+  ASSERT_TRUE(setup);
+  const auto objective = targetObjective(**setup, fitTargets(curve, {}).profiles[2]);
+  ASSERT_TRUE(objective);
+  const RunContext context;
+  const TargetSteps followed(**setup, *objective, context);
+  ASSERT_GE(followed.steps().size(), 2u);
+  const TargetStep &near = followed.steps()[1], &far = followed.steps()[0];
+  const double weight = std::sqrt(near.weight * far.weight);
+  const TargetStep* made = followed.between(near, weight);
+  ASSERT_NE(made, nullptr);
+  const int iterations = followed.iterations();
+  EXPECT_EQ(followed.between(near, weight), made);
+  EXPECT_EQ(followed.iterations(), iterations);
+  const TargetStep* other = followed.between(far, weight);
+  EXPECT_NE(other, made) << "from another step";
+  EXPECT_GT(followed.iterations(), iterations);
+  EXPECT_EQ(followed.between(near, weight), made) << "after others were made";
+}
+
 TEST(ModifyShape, ClosedCurvesStillMeetWithAllDerivatives) {
   const auto bumpy = [](double f) {
     const double a = 2.0 * std::numbers::pi * f, r = 1.0 + 0.004 * std::sin(11.0 * a);
