@@ -11,10 +11,6 @@
 namespace batten {
 namespace {
 
-/// Newton's method doubles the digits: a step as short as this, of a span, is the last one.
-constexpr double kSettled = 1e-8;
-/// The same of a foot, whose distance changes with the square of what is left.
-constexpr double kSettledFoot = 1e-5;
 constexpr int kPartsPerSpan = 2;  // each with a rule of its own for the arc length
 
 /// Places where the speed is taken on 0..1.
@@ -48,7 +44,7 @@ class PartLength {
       const double v = slopeAt(x);
       double next = v > 0.0 ? x - miss / v : -1.0;
       if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-      const bool settled = std::abs(next - x) < kSettled;
+      const bool settled = std::abs(next - x) < 1e-15;
       x = next;
       if (settled) break;
     }
@@ -153,8 +149,7 @@ SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start
       const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
       next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
     }
-    const bool settled =
-        std::abs(move) < kSettledFoot || (next.span == place.span && std::abs(next.tau - place.tau) < kSettledFoot);
+    const bool settled = std::abs(move) < 1e-10 || (next.span == place.span && std::abs(next.tau - place.tau) < 1e-12);
     place = next;
     if (settled) break;
   }
