@@ -176,8 +176,9 @@ int fillTexture(InkSplit& split, const EdgeParams& edges, const GreyImage& grey,
 }
 
 // `page`: what an enlarged `grey` was made of, else absent.
-Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page, const EdgeParams& edges,
-                             const ContourParams& params, const RunContext& context) {
+Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page,
+                             const PaperBackground* paper, const EdgeParams& edges, const ContourParams& params,
+                             const RunContext& context) {
   FoundLines found;
   if (edges.mode == EdgeMode::Outline && edges.choices.empty() && edges.painted.empty()) {
     Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, std::nullopt, nullptr, context);
@@ -185,7 +186,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
     found.set = std::move(*borders);
     return found;
   }
-  Result<InkSplit> split = splitInk(ink, grey, edges, context, page);
+  Result<InkSplit> split = splitInk(ink, grey, edges, context, page, paper);
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);
@@ -250,8 +251,9 @@ std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
 
 // The lines before the outlines are refined, and what the user chose of them.
 Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page,
-                                   const EdgeParams& edges, const ContourParams& params, const RunContext& context) {
-  Result<FoundLines> found = findLines(ink, grey, page, edges, params, context);
+                                   const PaperBackground* paper, const EdgeParams& edges, const ContourParams& params,
+                                   const RunContext& context) {
+  Result<FoundLines> found = findLines(ink, grey, page, paper, edges, params, context);
   if (!found) return fail(found.error());
   if (edges.mode == EdgeMode::Automatic) {
     auto net = bordersOfLostNet(found->set, ink, edges, params, context);
@@ -270,10 +272,11 @@ Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, c
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                            const ContourParams& params, const FinePage* fine, const RunContext& context) {
-  Result<ContourSet> found =
-      fine != nullptr ? findChosenLines(fine->ink, *fine->grey, &grey, onFinePage(edges), onFinePage(params), context)
-                      : findChosenLines(ink, grey, nullptr, edges, params, context);
+                            const ContourParams& params, const FinePage* fine, const PaperBackground* paper,
+                            const RunContext& context) {
+  Result<ContourSet> found = fine != nullptr ? findChosenLines(fine->ink, *fine->grey, &grey, nullptr,
+                                                               onFinePage(edges), onFinePage(params), context)
+                                             : findChosenLines(ink, grey, nullptr, paper, edges, params, context);
   if (!found) return found;
   if (fine != nullptr) found = fromFinePage(std::move(*found));
   ContourSet* set = &*found;
@@ -315,14 +318,15 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
 }  // namespace
 
 Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                                 const ContourParams& params, const RunContext& context, const FinePage* fine) {
+                                 const ContourParams& params, const RunContext& context, const FinePage* fine,
+                                 const PaperBackground* paper) {
   if (auto error = validate(edges)) return fail(*error);
   if (auto error = validate(params)) return fail(*error);
   if (ink.width != grey.width || ink.height != grey.height) {
     return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
   }
   try {
-    return traceAll(ink, grey, edges, params, fine, context);
+    return traceAll(ink, grey, edges, params, fine, paper, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to trace the lines: raise the smallest length.");
   }

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/base/parallel.h"
 #include "core/image/bits/bit_steps.h"
@@ -26,6 +29,15 @@ constexpr float kLeastRiseGrey = 4.0f;  // [grey] noise of the page rises less
 constexpr float kBarShare = 0.5f;       // of the rise: what is so much darker than both its other sides is a bar
 constexpr int kLeastArea = 8;           // [px^2] two pixels of the page
 
+// Of a page as it is: the ink on either side lies within a stroke's width.
+constexpr double kReachWidths = 1.25;
+constexpr int kMostNarrowPx = 16;
+// [stroke widths, as thresholded] Strokes that leave less between them were often drawn over one another.
+constexpr double kLeastGapWidths = 1.25;
+// [stroke widths] Half of what two strokes and the paper between them are broad at least, less an octagon's corners.
+constexpr double kThickWidths = 0.75;
+constexpr int kTileRows = 64;
+
 struct RayStep {
   int x, y;
   RayStep back() const { return {-x, -y}; }
@@ -33,20 +45,34 @@ struct RayStep {
 };
 constexpr std::array<RayStep, 4> kRays{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
 
+struct NarrowLimits {
+  int reachPx;        // to the ink on either side
+  double leastGapPx;  // from ink to ink, somewhere
+};
+
 class NarrowPaper {
  public:
-  NarrowPaper(const Plane& grey, const PaperBackground& paper) : grey_(grey), paper_(paper) {}
+  /// @param grey of a part of the page that begins at this pixel of it.
+  NarrowPaper(const Plane& grey, RayStep origin, const PaperBackground& paper, int reachPx)
+      : grey_(grey), origin_(origin), paper_(paper), reachPx_(reachPx) {}
 
-  bool isAt(int x, int y) const {
+  /// [px] From ink to ink, half way up to the grey here, along the ray on which it is narrowest; 0: no narrow paper.
+  double gapAt(int pageX, int pageY) const {
+    const int x = pageX - origin_.x, y = pageY - origin_.y;
     const float here = grey_.row(y)[x];
-    const auto paper = static_cast<float>(paper_.at(x + 0.5, y + 0.5));
-    return std::any_of(kRays.begin(), kRays.end(), [&](RayStep ray) {
+    const auto paper = static_cast<float>(paper_.at(pageX + 0.5, pageY + 0.5));
+    double gap = 0.0;
+    for (const RayStep ray : kRays) {
       const float ink = std::max(darkest(x, y, ray), darkest(x, y, ray.back()));
       const float rise = here - ink;
-      if (rise < std::max(kLeastRiseGrey, kLeastRise * (paper - ink))) return false;
+      if (rise < std::max(kLeastRiseGrey, kLeastRise * (paper - ink))) continue;
       const RayStep across = ray.across();
-      return std::min(brightest(x, y, across), brightest(x, y, across.back())) - here < kBarShare * rise;
-    });
+      if (std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kBarShare * rise) continue;
+      const float half = here - 0.5f * rise;
+      const double along = (darkAfter(x, y, ray, half) + darkAfter(x, y, ray.back(), half)) * std::hypot(ray.x, ray.y);
+      gap = gap > 0.0 ? std::min(gap, along) : along;
+    }
+    return gap;
   }
 
  private:
@@ -61,37 +87,110 @@ class NarrowPaper {
   }
   /// Beyond the page lies no ink.
   float darkest(int x, int y, RayStep ray) const {
-    return alongRay(x, y, ray, kReachPx, std::numeric_limits<float>::max(),
+    return alongRay(x, y, ray, reachPx_, std::numeric_limits<float>::max(),
                     [](float a, float b) { return std::min(a, b); });
+  }
+  /// [steps] along a ray to where the grey falls below a level.
+  double darkAfter(int x, int y, RayStep ray, float level) const {
+    float before = grey_.row(y)[x];
+    for (int k = 1; k <= reachPx_; ++k) {
+      const int atX = x + k * ray.x, atY = y + k * ray.y;
+      if (atX < 0 || atY < 0 || atX >= grey_.width || atY >= grey_.height) break;
+      const float value = grey_.row(atY)[atX];
+      if (value <= level) return k - 1 + static_cast<double>((before - level) / std::max(before - value, 1e-6f));
+      before = value;
+    }
+    return reachPx_;
   }
   float brightest(int x, int y, RayStep ray) const {
     return alongRay(x, y, ray, kBesidePx, 0.0f, [](float a, float b) { return std::max(a, b); });
   }
 
   const Plane& grey_;
+  RayStep origin_;
   const PaperBackground& paper_;
+  int reachPx_;
 };
+
+// A part of a page, with as much around it as is looked at.
+struct Tile {
+  int x0, y0, x1, y1;
+};
+
+GreyImage cutOut(const GreyImage& image, const Tile& tile) {
+  GreyImage part(tile.x1 - tile.x0, tile.y1 - tile.y0);
+  for (int y = tile.y0; y < tile.y1; ++y) std::copy_n(image.row(y) + tile.x0, part.width, part.row(y - tile.y0));
+  return part;
+}
+
+/// Sets what is narrow paper among the bits of one word of each of these rows.
+class TileOpener {
+ public:
+  TileOpener(const GreyImage& image, const PaperBackground& paper, const NarrowLimits& limits)
+      : image_(image), paper_(paper), limits_(limits), kernel_(gaussianKernel(kVariance)) {}
+
+  void open(const BitImage& candidates, int word, int y0, int y1, BitImage& opened, BitImage& wide,
+            const RunContext& alone) const {
+    bool isEmpty = true;
+    for (int y = y0; y < y1 && isEmpty; ++y) isEmpty = candidates.row(y)[word] == 0;
+    if (isEmpty) return;
+    const int around = limits_.reachPx + static_cast<int>(kernel_.size());
+    const Tile tile{std::max(0, 64 * word - around), std::max(0, y0 - around),
+                    std::min(image_.width, 64 * (word + 1) + around), std::min(image_.height, y1 + around)};
+    const Plane grey = smooth(shrinkGrey(cutOut(image_, tile), 1, alone), kernel_, alone);
+    if (alone.isCancelled()) return;
+    const NarrowPaper narrow(grey, {tile.x0, tile.y0}, paper_, limits_.reachPx);
+    for (int y = y0; y < y1; ++y) {
+      for (std::uint64_t bits = candidates.row(y)[word]; bits != 0; bits &= bits - 1) {
+        const int bit = std::countr_zero(bits);
+        const double gap = narrow.gapAt(64 * word + bit, y);
+        if (!(gap > 0.0)) continue;
+        opened.row(y)[word] |= std::uint64_t{1} << bit;
+        if (gap >= limits_.leastGapPx) wide.row(y)[word] |= std::uint64_t{1} << bit;
+      }
+    }
+  }
+
+ private:
+  const GreyImage& image_;
+  const PaperBackground& paper_;
+  NarrowLimits limits_;
+  std::vector<float> kernel_;
+};
+
+BitImage opened(BitImage ink, const BitImage& candidates, const GreyImage& image, const PaperBackground& paper,
+                const NarrowLimits& limits, const RunContext& context) {
+  const TileOpener opener(image, paper, limits);
+  BitImage narrow(ink.width, ink.height), wide(ink.width, ink.height);
+  RunContext alone = context;
+  alone.threads = 1;
+  parallelFor(context, (ink.height + kTileRows - 1) / kTileRows, 1, [&](int begin, int end) {
+    for (int y = begin * kTileRows; y < std::min(ink.height, end * kTileRows); y += kTileRows) {
+      for (int word = 0; word < ink.wordsPerRow; ++word)
+        opener.open(candidates, word, y, std::min(ink.height, y + kTileRows), narrow, wide, alone);
+    }
+  });
+  if (context.isCancelled()) return ink;
+  return without(std::move(ink), keepPieces(narrow, {.minArea = kLeastArea, .seeds = &wide}, context));
+}
 
 }  // namespace
 
 BitImage withoutNarrowPaper(BitImage ink, const GreyImage& image, const PaperBackground& paper,
                             const RunContext& context) {
-  const Plane grey = smooth(shrinkGrey(image, 1, context), gaussianKernel(kVariance), context);
+  const BitImage candidates = ink;
+  return opened(std::move(ink), candidates, image, paper, {kReachPx, 0.0}, context);
+}
+
+BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBackground& paper, double penPx,
+                            const RunContext& context) {
+  const int reachPx = std::clamp(static_cast<int>(std::lround(kReachWidths * penPx)), kReachPx, kMostNarrowPx);
+  const int steps = std::max(1, static_cast<int>(kThickWidths * penPx));
+  const BitImage thick = shrunken(ink, steps, context);
+  if (context.isCancelled() || thick.count() == 0) return ink;
+  const BitImage candidates = both(grown(thick, steps, context), ink);
   if (context.isCancelled()) return ink;
-  const NarrowPaper narrow(grey, paper);
-  BitImage opened(ink.width, ink.height);
-  parallelFor(context, ink.height, kRowsPerBlock, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      for (int i = 0; i < ink.wordsPerRow; ++i) {
-        for (std::uint64_t bits = ink.row(y)[i]; bits != 0; bits &= bits - 1) {
-          const int bit = std::countr_zero(bits);
-          if (narrow.isAt(i * 64 + bit, y)) opened.row(y)[i] |= std::uint64_t{1} << bit;
-        }
-      }
-    }
-  });
-  if (context.isCancelled()) return ink;
-  return without(std::move(ink), keepPieces(opened, {.minArea = kLeastArea}, context));
+  return opened(std::move(ink), candidates, image, paper, {reachPx, kLeastGapWidths * penPx}, context);
 }
 
 }  // namespace batten

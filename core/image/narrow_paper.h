@@ -14,4 +14,11 @@ namespace batten {
 /// the faint middle of a bar and stays. Single pixels are grain and stay, too. Unfinished when cancelled.
 BitImage withoutNarrowPaper(BitImage ink, const GreyImage&, const PaperBackground&, const RunContext&);
 
+/// The same on a page as it is, for paper between the strokes of a pen that lies in their blur or in a shadow, so that
+/// a threshold low enough for faint lines takes it for ink: in lettering, in the dense parts of a technical drawing. It
+/// is looked for where the ink is broader than a stroke, and must be somewhat more than a stroke's width from ink to
+/// ink, somewhere: strokes that leave less were often drawn over one another.
+/// @param penPx [px] width of the strokes in this ink.
+BitImage withoutClosedPaper(BitImage ink, const GreyImage&, const PaperBackground&, double penPx, const RunContext&);
+
 }  // namespace batten

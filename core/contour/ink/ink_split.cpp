@@ -17,6 +17,7 @@
 #include "core/contour/label/ink_labels.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/fine_page.h"
+#include "core/image/narrow_paper.h"
 
 namespace batten {
 namespace {
@@ -107,8 +108,17 @@ Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx, const R
   }
 }
 
+// The ink without what a pencil drew.
+BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
+  BitImage pen = ink;
+  const RunPieces& pieces = pencil.pieces();
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i)
+    if (pencil.isPencil(pieces.piece[i])) clearBits(pen, pieces.runs[i]);
+  return pen;
+}
+
 Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
-                              const GreyImage* page, const RunContext& context) {
+                              const GreyImage* page, const PaperBackground* paper, const RunContext& context) {
   const double pixelsPerPx = page != nullptr ? kFineFactor : 1.0;
   Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths, pixelsPerPx);
   if (!labels) return fail(labels.error());
@@ -122,6 +132,14 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   GraininessMap grain = page != nullptr ? grainOnFinePage(paths, *page, context) : GraininessMap(paths, grey, context);
   const PencilPieces pencil(ink, paths, grain, context);
   if (context.isCancelled()) return cancelled();
+  // Strokes that have run together are told anew once the paper between them is open.
+  if (paper != nullptr && split.penPx) {
+    const BitImage pen = pencil.any() ? both(penInk(ink, pencil), split.strokes) : split.strokes;
+    BitImage open = withoutClosedPaper(pen, grey, *paper, *split.penPx, context);
+    if (context.isCancelled()) return cancelled();
+    if (open != pen)
+      return splitByLabel(either(without(BitImage(ink), pen), open), grey, params, page, nullptr, context);
+  }
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
   if (!pencil.any()) return split;
@@ -160,10 +178,10 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
 }  // namespace
 
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
-                          const RunContext& context, const GreyImage* page) {
+                          const RunContext& context, const GreyImage* page, const PaperBackground* paper) {
   InkSplit split;
   if (params.mode == EdgeMode::Automatic) {
-    Result<InkSplit> labelled = splitByLabel(ink, grey, params, page, context);
+    Result<InkSplit> labelled = splitByLabel(ink, grey, params, page, paper, context);
     if (!labelled) return fail(labelled.error());
     split = std::move(*labelled);
   } else {

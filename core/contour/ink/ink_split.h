@@ -11,6 +11,7 @@
 #include "core/image/bits/bit_image.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/grey_image.h"
+#include "core/image/threshold/region_thresholds.h"
 
 namespace batten {
 
@@ -40,7 +41,9 @@ struct InkSplit {
 /// choice. Ink drawn with a pencil is split piece by piece (splitStrokes), and of its tones only solids far wider than
 /// its strokes are shapes.
 /// @param page what an enlarged ink and grey were made of (fine_page.h), else absent.
+/// @param paper of the grey, by which paper that the strokes of a pen have closed is found (narrow_paper.h); absent:
+/// none is looked for.
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const RunContext&,
-                          const GreyImage* page = nullptr);
+                          const GreyImage* page = nullptr, const PaperBackground* paper = nullptr);
 
 }  // namespace batten

@@ -105,5 +105,45 @@ TEST(NarrowPaper, EndsAtTheBorderOfThePage) {
   EXPECT_EQ(without(page.ink, opened(page)).count(), 0);
 }
 
+constexpr double kPenPx = 6.0;  // of a stroke as the threshold leaves it
+
+/// Two strokes, and between them paper so dark that the threshold takes it for ink.
+FineInk shadedPair(double pitch) {
+  return fineInkOf([=](double x, double y) {
+    const double off = y - 60.0;
+    const bool isBetween = std::abs(off) < 0.5 * pitch && x > 20.0 && x < 100.0;
+    return std::max(strokeCover(off - 0.5 * pitch) + strokeCover(off + 0.5 * pitch), isBetween ? 0.2 : 0.0);
+  });
+}
+
+TEST(ClosedPaper, OpensAStrokesWidthBetweenTwoStrokes) {
+  const FineInk page = shadedPair(14.0);
+  ASSERT_TRUE(page.ink.at(60, 60));
+  const BitImage ink = withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, {});
+  EXPECT_FALSE(ink.at(60, 60));
+  EXPECT_TRUE(ink.at(60, 53));
+  EXPECT_TRUE(ink.at(60, 67));
+}
+
+TEST(ClosedPaper, LeavesWhatIsNarrowerThanThat) {
+  const FineInk page = shadedPair(8.0);
+  ASSERT_TRUE(page.ink.at(60, 60));
+  EXPECT_EQ(without(page.ink, withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, {})).count(), 0);
+}
+
+TEST(ClosedPaper, LeavesATone) {
+  const FineInk page = fineInkOf([](double x, double y) { return std::hypot(x - 60.0, y - 60.0) < 40.0 ? 0.3 : 0.0; });
+  EXPECT_EQ(without(page.ink, withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, {})).count(), 0);
+}
+
+TEST(ClosedPaper, IsTheSameWithAnyNumberOfThreads) {
+  const FineInk page = shadedPair(14.0);
+  RunContext one, four;
+  one.threads = 1;
+  four.threads = 4;
+  EXPECT_EQ(withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, one),
+            withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, four));
+}
+
 }  // namespace
 }  // namespace batten
