@@ -225,10 +225,12 @@ bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
 }
 
-// Where a pencil's broad and torn strokes meet, whole strokes lie hidden: they are read all along.
-void readHidden(std::vector<StrokePath>& paths, const GraininessMap& grain) {
-  for (int i = 0; i < std::ssize(paths); ++i) {
-    if (!grain.isPencil(i) || !isHidden(paths[i])) continue;
+// Where a pencil's broad and torn strokes meet, and among large junctions, whole strokes lie hidden: they are read all
+// along. Links are not: what parts two faces needs no grey.
+void readHidden(std::vector<StrokePath>& paths, int links, const GraininessMap* grain) {
+  const int count = static_cast<int>(std::ssize(paths));
+  for (int i = 0; i < count; ++i) {
+    if (!isHidden(paths[i]) || (i >= count - links && !(grain != nullptr && grain->isPencil(i)))) continue;
     for (StrokePathPoint& p : paths[i].points) {
       if (p.part == StrokePart::Junction) p.part = StrokePart::Ink;
     }
@@ -335,9 +337,9 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   std::optional<GraininessMap> ofKept;
   if (anyPencil) {
     ofKept = grainOf(paths, grey, options, context);
-    readHidden(paths, *ofKept);
   }
   const GraininessMap* grain = ofKept ? &*ofKept : nullptr;
+  readHidden(paths, links, grain);
   RefinedStrokes placed = options.page != nullptr ? placeOnPage(paths, grain, *options.page, params.subpixel, context)
                                                   : placeStrokePaths(paths, grain, grey, params.subpixel, context);
   if (context.isCancelled()) return cancelled();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,19 +22,28 @@ constexpr double kCrossingEdges = 1.5;    // of what they share: shorter edges a
 constexpr double kLeavingWidths = 4.0;    // [stroke widths] over which the direction of an edge is taken
 constexpr double kOnwardCos = 0.7;        // 45 degrees: what turns more at a link does not go on through it
 constexpr double kOneJunction = 1.5;      // of the radii of two junctions: nearer ones are one crossing
+constexpr double kFaceRadii = 0.6;        // [median radii] of paper: narrower is a fault in the ink, not a face
 constexpr double kWithinDisc = 1.1;       // of its radius: what stays within is part of the junction
 
 class JunctionMerger {
  public:
   explicit JunctionMerger(SkeletonGraph& graph)
-      : graph_(graph), sets_(graph.nodeCount()), shared_(graph.edgeCount()), isInTangle_(graph.nodeCount(), false) {}
+      : graph_(graph),
+        sets_(graph.nodeCount()),
+        shared_(graph.edgeCount()),
+        isInTangle_(graph.nodeCount(), false),
+        isLink_(graph.edgeCount(), false),
+        isInner_(graph.edgeCount(), false) {}
   void merge(bool ofBundles, std::span<const JunctionChoice> choices);
 
  private:
   using Link = std::pair<double, int>;  // length [px], edge
 
   double sharedLength(int link) const;
+  JunctionDisc discOf(const std::vector<int>& nodes) const;
   bool isOneCrossing(const std::vector<int>& nodes) const;
+  bool holdsPaper(const std::vector<int>& nodes, int link) const;
+  double paperWidth(int edge, const std::vector<int>& others) const;
   std::vector<Link> shortLinks(bool ofBundles);
   std::vector<int> joinLinked(const std::vector<Link>& links, bool ofBundles);
   void moveToDiscs();
@@ -45,6 +55,7 @@ class JunctionMerger {
   DisjointSets sets_;                             // of nodes that become one
   std::vector<std::optional<SharedInk>> shared_;  // per edge
   std::vector<bool> isInTangle_;                  // per node
+  std::vector<bool> isLink_, isInner_;            // per edge: short enough to be within one junction; within one
 };
 
 // [px] How long two strokes that cross or touch at the angle seen at both ends of a link can share one skeleton; 0: the
@@ -87,17 +98,66 @@ double JunctionMerger::sharedLength(int link) const {
   return angle > kMost ? 0.0 : touching * 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
 }
 
+bool isWithin(const SkeletonEdge& edge, const JunctionDisc& disc) {
+  return std::ranges::all_of(
+      edge.points, [&](const StrokePathPoint& p) { return (p.at - disc.centre).norm() <= kWithinDisc * disc.radius; });
+}
+
+// The disc that holds the discs of all these nodes, around their mean.
+JunctionDisc JunctionMerger::discOf(const std::vector<int>& nodes) const {
+  JunctionDisc disc;
+  for (const int n : nodes) disc.centre += graph_.node(n).centre / static_cast<double>(nodes.size());
+  for (const int n : nodes)
+    disc.radius = std::max(disc.radius, (graph_.node(n).centre - disc.centre).norm() + graph_.node(n).radius);
+  return disc;
+}
+
 // Whether one disc not much larger than theirs holds these nodes: else they are a small drawing and no crossing.
 bool JunctionMerger::isOneCrossing(const std::vector<int>& nodes) const {
   constexpr double kMostReach = 2.5;  // of the largest radius
-  double largest = 0.0, reach = 0.0;
-  Vec2 centre = Vec2::Zero();
-  for (const int n : nodes) centre += graph_.node(n).centre / static_cast<double>(nodes.size());
-  for (const int n : nodes) {
-    largest = std::max(largest, graph_.node(n).radius);
-    reach = std::max(reach, (graph_.node(n).centre - centre).norm() + graph_.node(n).radius);
+  double largest = 0.0;
+  for (const int n : nodes) largest = std::max(largest, graph_.node(n).radius);
+  return discOf(nodes).radius <= kMostReach * largest + 1.0;
+}
+
+// [px] Width of the paper between an edge and these others, where it is widest.
+double JunctionMerger::paperWidth(int edge, const std::vector<int>& others) const {
+  double widest = 0.0;
+  for (const StrokePathPoint& p : graph_.edge(edge).points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int other : others) {
+      for (const StrokePathPoint& q : graph_.edge(other).points)
+        nearest = std::min(nearest, (p.at - q.at).norm() - static_cast<double>(p.radius + q.radius));
+    }
+    widest = std::max(widest, nearest);
   }
-  return reach <= kMostReach * largest + 1.0;
+  return widest;
+}
+
+// Whether these nodes, joined by a link, have paper in their midst: an edge that would be lost in their disc was drawn
+// around it, as the bow of an e, or edges on both sides of the link, as of a ring that a bar parts. In the middle of an
+// 8 the link is shorter than the ink is broad.
+bool JunctionMerger::holdsPaper(const std::vector<int>& nodes, int link) const {
+  const JunctionDisc disc = discOf(nodes);
+  const auto isMember = [&](std::optional<int> n) { return n && std::ranges::find(nodes, *n) != nodes.end(); };
+  std::vector<int> within{link}, between;
+  for (const int n : nodes) {
+    for (const int end : graph_.node(n).ends) {
+      const int i = end / 2;
+      const SkeletonEdge& e = graph_.edge(i);
+      if (i == link || end % 2 != 0 || !isMember(e.node[0]) || !isMember(e.node[1])) continue;
+      (isInner_[i] ? within : between).push_back(i);
+    }
+  }
+  const SkeletonEdge& l = graph_.edge(link);
+  const bool isBar = l.length > graph_.node(*l.node[0]).radius + graph_.node(*l.node[1]).radius + 1.0;
+  int around = 0;
+  for (const int e : between) {
+    if (paperWidth(e, within) < kFaceRadii * graph_.medianRadius()) continue;
+    ++around;
+    if (isLink_[e] || isWithin(graph_.edge(e), disc) || (isBar && around == 2)) return true;
+  }
+  return false;
 }
 
 // Edges between junctions that may be one, the shortest first.
@@ -110,8 +170,8 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks(bool ofBundles) {
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
     if (isInTangle_[*l.node[0]] || isInTangle_[*l.node[1]]) continue;
     shared_[i] = ofBundles ? std::nullopt : findSharedInk(graph_, i);
-    if (shared_[i] || l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i)))
-      links.emplace_back(l.length, i);
+    isLink_[i] = shared_[i] || l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i));
+    if (isLink_[i]) links.emplace_back(l.length, i);
   }
   std::sort(links.begin(), links.end());
   return links;
@@ -136,12 +196,14 @@ std::vector<int> JunctionMerger::joinLinked(const std::vector<Link>& links, bool
       std::vector<int> all = members[a];
       all.insert(all.end(), members[b].begin(), members[b].end());
       if (!ofBundles && all.size() > 2 && !isOneCrossing(all)) continue;
+      if (!ofBundles && holdsPaper(all, link)) continue;
       sets_.join(a, b);
       members[sets_.root(a)] = std::move(all);
       outerEnds[sets_.root(a)] = outerEnds[a] + outerEnds[b];
     }
     outerEnds[sets_.root(a)] -= 2;
     inner.push_back(link);
+    isInner_[link] = true;
   }
   return inner;
 }
@@ -184,10 +246,7 @@ void JunctionMerger::dropWithinDiscs() {
     if (!l.alive || l.ring || l.node[0] != l.node[1]) continue;
     const SkeletonNode& n = graph_.node(*l.node[0]);
     if (n.leading() != nullptr) continue;
-    const bool within = std::all_of(l.points.begin(), l.points.end(), [&](const StrokePathPoint& p) {
-      return (p.at - n.centre).norm() <= kWithinDisc * n.radius;
-    });
-    if (within) graph_.removeEdge(i);
+    if (isWithin(l, {n.centre, n.radius})) graph_.removeEdge(i);
   }
 }
 
