@@ -185,6 +185,7 @@ BitImage withoutNarrowPaper(BitImage ink, const GreyImage& image, const PaperBac
 BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBackground& paper, double penPx,
                             const RunContext& context) {
   const int reachPx = std::clamp(static_cast<int>(std::lround(kReachWidths * penPx)), kReachPx, kMostNarrowPx);
+  if (kLeastGapWidths * penPx > 2.0 * reachPx) return ink;  // wider than is looked for
   const int steps = std::max(1, static_cast<int>(kThickWidths * penPx));
   const BitImage thick = shrunken(ink, steps, context);
   if (context.isCancelled() || thick.count() == 0) return ink;

@@ -74,15 +74,15 @@ void cutAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
 
 // The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
 StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
-                            const RunContext& context) {
+                            const RunContext& context, bool ofPencil = false) {
   const BitImage* shapes = options.shapes;
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
   const bool isKnown = options.known != nullptr && options.known->ink == all;
   if (isKnown && shapes == nullptr) return {std::move(options.known->paths), std::move(options.known->junctions)};
   BitImage skeleton = isKnown ? std::move(options.known->skeleton) : BitImage(all);
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
-  if (shapes == nullptr) return findPathsAndJunctions(skeleton, all, params, context);
-  StrokePathSet found = findPathsAndJunctions(without(std::move(skeleton), *shapes), all, params, context);
+  if (shapes == nullptr) return findPathsAndJunctions(skeleton, all, params, context, ofPencil);
+  StrokePathSet found = findPathsAndJunctions(without(std::move(skeleton), *shapes), all, params, context, ofPencil);
   cutAtRims(found.paths, *shapes);
   endAtRims(found.paths, *shapes);
   return found;
@@ -225,12 +225,15 @@ bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
 }
 
-// Where a pencil's broad and torn strokes meet, and among large junctions, whole strokes lie hidden: they are read all
-// along. Links are not: what parts two faces needs no grey.
+// Where a pencil's broad and torn strokes meet, and between large junctions of a pen, whole strokes lie hidden: they
+// are read all along. Links are not: what parts two faces needs no grey; nor are the lines of a net, which run on and
+// on.
 void readHidden(std::vector<StrokePath>& paths, int links, const GraininessMap* grain) {
+  constexpr double kNetWidths = 10.0;  // a hidden line of a pen that is longer crosses many
   const int count = static_cast<int>(std::ssize(paths));
   for (int i = 0; i < count; ++i) {
-    if (!isHidden(paths[i]) || (i >= count - links && !(grain != nullptr && grain->isPencil(i)))) continue;
+    const bool isPencil = grain != nullptr && grain->isPencil(i);
+    if (!isHidden(paths[i]) || (!isPencil && (i >= count - links || widthsOf(paths[i]) > kNetWidths))) continue;
     for (StrokePathPoint& p : paths[i].points) {
       if (p.part == StrokePart::Junction) p.part = StrokePart::Ink;
     }
@@ -266,7 +269,7 @@ GraininessMap addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeP
   if (context.isCancelled() || trails.count() == 0) return grain;
   found.bodies = either(std::move(*found.bodies), std::move(trails));
   if (options.shapes != nullptr) found.bodies = without(std::move(*found.bodies), *options.shapes);
-  found.strokes = centrelinesOf(*found.bodies, options, params, context);
+  found.strokes = centrelinesOf(*found.bodies, options, params, context, true);
   return grainOf(found.strokes.paths, grey, options, context);
 }
 
@@ -290,7 +293,7 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   if (anyPencil) {
     found.bodies = pencilBodies(strokes, grey, paths, grain, pixelsPerPx, context);
     if (context.isCancelled()) return found;
-    found.strokes = centrelinesOf(*found.bodies, options, params, context);
+    found.strokes = centrelinesOf(*found.bodies, options, params, context, true);
     const GraininessMap ofBodies = addFaintEnds(found, grey, params, options, context);
     if (context.isCancelled()) return found;
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));

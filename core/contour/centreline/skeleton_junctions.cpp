@@ -27,14 +27,15 @@ constexpr double kWithinDisc = 1.1;       // of its radius: what stays within is
 
 class JunctionMerger {
  public:
-  explicit JunctionMerger(SkeletonGraph& graph)
+  JunctionMerger(SkeletonGraph& graph, JunctionsOf of)
       : graph_(graph),
+        of_(of),
         sets_(graph.nodeCount()),
         shared_(graph.edgeCount()),
         isInTangle_(graph.nodeCount(), false),
         isLink_(graph.edgeCount(), false),
         isInner_(graph.edgeCount(), false) {}
-  void merge(bool ofBundles, std::span<const JunctionChoice> choices);
+  void merge(std::span<const JunctionChoice> choices);
 
  private:
   using Link = std::pair<double, int>;  // length [px], edge
@@ -44,14 +45,17 @@ class JunctionMerger {
   bool isOneCrossing(const std::vector<int>& nodes) const;
   bool holdsPaper(const std::vector<int>& nodes, int link) const;
   double paperWidth(int edge, const std::vector<int>& others) const;
-  std::vector<Link> shortLinks(bool ofBundles);
-  std::vector<int> joinLinked(const std::vector<Link>& links, bool ofBundles);
+  std::vector<Link> shortLinks();
+  std::vector<int> joinLinked(const std::vector<Link>& links);
   void moveToDiscs();
   void leadThrough(const SharedInk& shared, int node);
   void leadThrough(const Tangle& tangle, int node);
   void dropWithinDiscs();
 
+  bool isOfBundles() const { return of_ == JunctionsOf::Bundles; }
+
   SkeletonGraph& graph_;
+  JunctionsOf of_;
   DisjointSets sets_;                             // of nodes that become one
   std::vector<std::optional<SharedInk>> shared_;  // per edge
   std::vector<bool> isInTangle_;                  // per node
@@ -161,7 +165,7 @@ bool JunctionMerger::holdsPaper(const std::vector<int>& nodes, int link) const {
 }
 
 // Edges between junctions that may be one, the shortest first.
-std::vector<JunctionMerger::Link> JunctionMerger::shortLinks(bool ofBundles) {
+std::vector<JunctionMerger::Link> JunctionMerger::shortLinks() {
   std::vector<Link> links;
   for (int i = 0; i < graph_.edgeCount(); ++i) {
     const SkeletonEdge& l = graph_.edge(i);
@@ -169,7 +173,7 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks(bool ofBundles) {
     const SkeletonNode &a = graph_.node(*l.node[0]), &b = graph_.node(*l.node[1]);
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
     if (isInTangle_[*l.node[0]] || isInTangle_[*l.node[1]]) continue;
-    shared_[i] = ofBundles ? std::nullopt : findSharedInk(graph_, i);
+    shared_[i] = isOfBundles() ? std::nullopt : findSharedInk(graph_, i);
     isLink_[i] = shared_[i] || l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i));
     if (isLink_[i]) links.emplace_back(l.length, i);
   }
@@ -179,7 +183,7 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks(bool ofBundles) {
 
 // Joins the nodes of these links as long as they are a crossing: all of a small drawing could be one.
 // @return the links that lie within one of the sets then.
-std::vector<int> JunctionMerger::joinLinked(const std::vector<Link>& links, bool ofBundles) {
+std::vector<int> JunctionMerger::joinLinked(const std::vector<Link>& links) {
   // Of each set, at its root.
   std::vector<std::vector<int>> members(graph_.nodeCount());
   std::vector<int> inner, outerEnds;
@@ -192,11 +196,11 @@ std::vector<int> JunctionMerger::joinLinked(const std::vector<Link>& links, bool
     if (a != b) {
       // Where four strokes leave each of them they are two crossings of a hatching.
       const bool areWhole = std::min(outerEnds[a], outerEnds[b]) >= 4;
-      if (!ofBundles && areWhole && length > std::max(graph_.node(a).radius, graph_.node(b).radius)) continue;
+      if (!isOfBundles() && areWhole && length > std::max(graph_.node(a).radius, graph_.node(b).radius)) continue;
       std::vector<int> all = members[a];
       all.insert(all.end(), members[b].begin(), members[b].end());
-      if (!ofBundles && all.size() > 2 && !isOneCrossing(all)) continue;
-      if (!ofBundles && holdsPaper(all, link)) continue;
+      if (!isOfBundles() && all.size() > 2 && !isOneCrossing(all)) continue;
+      if (of_ == JunctionsOf::Pen && holdsPaper(all, link)) continue;
       sets_.join(a, b);
       members[sets_.root(a)] = std::move(all);
       outerEnds[sets_.root(a)] = outerEnds[a] + outerEnds[b];
@@ -281,9 +285,9 @@ void JunctionMerger::leadThrough(const Tangle& tangle, int node) {
   n.led = std::move(led);
 }
 
-void JunctionMerger::merge(bool ofBundles, std::span<const JunctionChoice> choices) {
+void JunctionMerger::merge(std::span<const JunctionChoice> choices) {
   std::vector<Tangle> tangles;
-  if (!ofBundles) tangles = findTangles(graph_);
+  if (!isOfBundles()) tangles = findTangles(graph_);
   const auto isChosen = [&](const Vec2& at) {
     return std::ranges::any_of(
         choices, [&](const JunctionChoice& choice) { return (choice.positionPx - at).norm() <= choice.reachPx; });
@@ -296,7 +300,7 @@ void JunctionMerger::merge(bool ofBundles, std::span<const JunctionChoice> choic
   });
   for (const Tangle& tangle : tangles)
     for (const int node : tangle.nodes) isInTangle_[node] = true;
-  std::vector<int> inner = joinLinked(shortLinks(ofBundles), ofBundles);
+  std::vector<int> inner = joinLinked(shortLinks());
   for (const Tangle& tangle : tangles) {
     for (const int node : tangle.nodes) sets_.join(tangle.nodes.front(), node);
     inner.insert(inner.end(), tangle.inner.begin(), tangle.inner.end());
@@ -315,8 +319,8 @@ void JunctionMerger::merge(bool ofBundles, std::span<const JunctionChoice> choic
 
 }  // namespace
 
-void mergeJunctions(SkeletonGraph& graph, bool ofBundles, std::span<const JunctionChoice> choices) {
-  JunctionMerger(graph).merge(ofBundles, choices);
+void mergeJunctions(SkeletonGraph& graph, JunctionsOf of, std::span<const JunctionChoice> choices) {
+  JunctionMerger(graph, of).merge(choices);
 }
 
 }  // namespace batten

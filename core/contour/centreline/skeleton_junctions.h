@@ -9,9 +9,13 @@ namespace batten {
 
 class SkeletonGraph;
 
-/// Makes one node of junctions that are nearer than their discs allow to tell apart (a crossing at a shallow angle).
-/// `ofBundles`: all the crossings of overdrawn strokes with others too.
+/// Whose junctions these are: the crossings of overdrawn strokes with others are all one, too, and in what a pencil
+/// drew the paper between strokes is grain.
+enum class JunctionsOf { Pen, Pencil, Bundles };
+
+/// Makes one node of junctions that are nearer than their discs allow to tell apart (a crossing at a shallow angle),
+/// unless a pen drew around the paper between them.
 /// @param choices of the user: where one is meant for a junction of a tangle (tangles.h), that is left as it is.
-void mergeJunctions(SkeletonGraph& graph, bool ofBundles, std::span<const JunctionChoice> choices);
+void mergeJunctions(SkeletonGraph& graph, JunctionsOf, std::span<const JunctionChoice> choices);
 
 }  // namespace batten

@@ -270,11 +270,12 @@ std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, cons
 }
 
 StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
-                                    const RunContext& context) {
+                                    const RunContext& context, bool ofPencil) {
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
   pruneSpurs(graph, params.spurFactor);
-  mergeJunctions(graph, isOfBundles(params), params.junctions);
+  const JunctionsOf ofPenOrPencil = ofPencil ? JunctionsOf::Pencil : JunctionsOf::Pen;
+  mergeJunctions(graph, isOfBundles(params) ? JunctionsOf::Bundles : ofPenOrPencil, params.junctions);
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params).make();
 }

@@ -46,8 +46,9 @@ struct StrokePathSet {
 
 /// The strokes of a skeleton: spurs pruned, junctions of one crossing merged, smooth edges led through (see
 /// EdgeParams). Deterministic order. Empty when cancelled.
+/// @param ofPencil the ink is what strokes of a pencil became, with the grain closed.
 StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
-                                    const RunContext& context);
+                                    const RunContext& context, bool ofPencil = false);
 /// Its paths alone.
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context);
