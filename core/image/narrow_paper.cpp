@@ -131,12 +131,15 @@ class TileOpener {
 
   void open(const BitImage& candidates, int word, int y0, int y1, BitImage& opened, BitImage& wide,
             const RunContext& alone) const {
-    bool isEmpty = true;
-    for (int y = y0; y < y1 && isEmpty; ++y) isEmpty = candidates.row(y)[word] == 0;
-    if (isEmpty) return;
+    std::uint64_t columns = 0;
+    for (int y = y0; y < y1; ++y) columns |= candidates.row(y)[word];
+    if (columns == 0) return;
+    while (candidates.row(y0)[word] == 0) ++y0;
+    while (candidates.row(y1 - 1)[word] == 0) --y1;
+    const int x0 = 64 * word + std::countr_zero(columns), x1 = 64 * (word + 1) - std::countl_zero(columns);
     const int around = limits_.reachPx + static_cast<int>(kernel_.size());
-    const Tile tile{std::max(0, 64 * word - around), std::max(0, y0 - around),
-                    std::min(image_.width, 64 * (word + 1) + around), std::min(image_.height, y1 + around)};
+    const Tile tile{std::max(0, x0 - around), std::max(0, y0 - around), std::min(image_.width, x1 + around),
+                    std::min(image_.height, y1 + around)};
     const Plane grey = smooth(shrinkGrey(cutOut(image_, tile), 1, alone), kernel_, alone);
     if (alone.isCancelled()) return;
     const NarrowPaper narrow(grey, {tile.x0, tile.y0}, paper_, limits_.reachPx);
