@@ -45,37 +45,52 @@ struct RayStep {
 };
 constexpr std::array<RayStep, 4> kRays{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
 
+// A part of a page, with as much around it as is looked at.
+struct Tile {
+  int x0, y0, x1, y1;
+};
+
 struct NarrowLimits {
   int reachPx;        // to the ink on either side
-  double leastGapPx;  // from ink to ink, somewhere
+  double leastGapPx;  // from ink to ink, somewhere; 0: any
 };
 
 class NarrowPaper {
  public:
-  /// @param grey of a part of the page that begins at this pixel of it.
-  NarrowPaper(const Plane& grey, RayStep origin, const PaperBackground& paper, int reachPx)
-      : grey_(grey), origin_(origin), paper_(paper), reachPx_(reachPx) {}
+  /// @param grey of a part of the page.
+  NarrowPaper(const Plane& grey, const Tile& part, const PaperBackground& paper, int reachPx)
+      : grey_(grey), part_(part), paper_(paper), reachPx_(reachPx) {}
 
-  /// [px] From ink to ink, half way up to the grey here, along the ray on which it is narrowest; 0: no narrow paper.
+  bool isAt(int pageX, int pageY) const {
+    return std::any_of(kRays.begin(), kRays.end(), [&](RayStep ray) { return riseAlong(pageX, pageY, ray) > 0.0f; });
+  }
+
+  /// [px] From ink to ink, half way up to the grey here, along the ray on which it is narrowest. @pre isAt()
   double gapAt(int pageX, int pageY) const {
-    const int x = pageX - origin_.x, y = pageY - origin_.y;
-    const float here = grey_.row(y)[x];
-    const auto paper = static_cast<float>(paper_.at(pageX + 0.5, pageY + 0.5));
-    double gap = 0.0;
+    const int x = pageX - part_.x0, y = pageY - part_.y0;
+    double gap = std::numeric_limits<double>::infinity();
     for (const RayStep ray : kRays) {
-      const float ink = std::max(darkest(x, y, ray), darkest(x, y, ray.back()));
-      const float rise = here - ink;
-      if (rise < std::max(kLeastRiseGrey, kLeastRise * (paper - ink))) continue;
-      const RayStep across = ray.across();
-      if (std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kBarShare * rise) continue;
-      const float half = here - 0.5f * rise;
-      const double along = (darkAfter(x, y, ray, half) + darkAfter(x, y, ray.back(), half)) * std::hypot(ray.x, ray.y);
-      gap = gap > 0.0 ? std::min(gap, along) : along;
+      const float rise = riseAlong(pageX, pageY, ray);
+      if (!(rise > 0.0f)) continue;
+      const float half = grey_.row(y)[x] - 0.5f * rise;
+      gap = std::min(gap, (darkAfter(x, y, ray, half) + darkAfter(x, y, ray.back(), half)) * std::hypot(ray.x, ray.y));
     }
     return gap;
   }
 
  private:
+  /// [grey] By which it is brighter than the ink on either side along a ray; 0: no narrow paper along that.
+  float riseAlong(int pageX, int pageY, RayStep ray) const {
+    const int x = pageX - part_.x0, y = pageY - part_.y0;
+    const float here = grey_.row(y)[x];
+    const auto paper = static_cast<float>(paper_.at(pageX + 0.5, pageY + 0.5));
+    const float ink = std::max(darkest(x, y, ray), darkest(x, y, ray.back()));
+    const float rise = here - ink;
+    if (rise < std::max(kLeastRiseGrey, kLeastRise * (paper - ink))) return 0.0f;
+    const RayStep across = ray.across();
+    const bool isBar = std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kBarShare * rise;
+    return isBar ? 0.0f : rise;
+  }
   template <class Choose>
   float alongRay(int x, int y, RayStep ray, int reach, float value, const Choose& choose) const {
     for (int k = 1; k <= reach; ++k) {
@@ -107,14 +122,9 @@ class NarrowPaper {
   }
 
   const Plane& grey_;
-  RayStep origin_;
+  Tile part_;
   const PaperBackground& paper_;
   int reachPx_;
-};
-
-// A part of a page, with as much around it as is looked at.
-struct Tile {
-  int x0, y0, x1, y1;
 };
 
 GreyImage cutOut(const GreyImage& image, const Tile& tile) {
@@ -142,14 +152,14 @@ class TileOpener {
                     std::min(image_.height, y1 + around)};
     const Plane grey = smooth(shrinkGrey(cutOut(image_, tile), 1, alone), kernel_, alone);
     if (alone.isCancelled()) return;
-    const NarrowPaper narrow(grey, {tile.x0, tile.y0}, paper_, limits_.reachPx);
+    const NarrowPaper narrow(grey, tile, paper_, limits_.reachPx);
     for (int y = y0; y < y1; ++y) {
       for (std::uint64_t bits = candidates.row(y)[word]; bits != 0; bits &= bits - 1) {
         const int bit = std::countr_zero(bits);
-        const double gap = narrow.gapAt(64 * word + bit, y);
-        if (!(gap > 0.0)) continue;
+        if (!narrow.isAt(64 * word + bit, y)) continue;
         opened.row(y)[word] |= std::uint64_t{1} << bit;
-        if (gap >= limits_.leastGapPx) wide.row(y)[word] |= std::uint64_t{1} << bit;
+        const bool isWide = !(limits_.leastGapPx > 0.0) || narrow.gapAt(64 * word + bit, y) >= limits_.leastGapPx;
+        if (isWide) wide.row(y)[word] |= std::uint64_t{1} << bit;
       }
     }
   }

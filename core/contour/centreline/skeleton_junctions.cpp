@@ -110,7 +110,8 @@ bool isWithin(const SkeletonEdge& edge, const JunctionDisc& disc) {
 // The disc that holds the discs of all these nodes, around their mean.
 JunctionDisc JunctionMerger::discOf(const std::vector<int>& nodes) const {
   JunctionDisc disc;
-  for (const int n : nodes) disc.centre += graph_.node(n).centre / static_cast<double>(nodes.size());
+  for (const int n : nodes) disc.centre += graph_.node(n).centre;
+  disc.centre /= static_cast<double>(nodes.size());
   for (const int n : nodes)
     disc.radius = std::max(disc.radius, (graph_.node(n).centre - disc.centre).norm() + graph_.node(n).radius);
   return disc;
@@ -215,30 +216,22 @@ std::vector<int> JunctionMerger::joinLinked(const std::vector<Link>& links) {
 // Each set becomes its root: at the mean of its nodes, with the disc that holds the discs of all of them.
 void JunctionMerger::moveToDiscs() {
   const int count = graph_.nodeCount();
-  std::vector<Vec2> sum(count, Vec2::Zero());
-  std::vector<int> size(count, 0);
-  for (int i = 0; i < count; ++i) {
-    const int root = sets_.root(i);
-    sum[root] += graph_.node(i).centre;
-    ++size[root];
-  }
-  std::vector<double> disc(count, 0.0);
-  for (int i = 0; i < count; ++i) {
-    SkeletonNode& node = graph_.node(i);
-    const int root = sets_.root(i);
-    disc[root] = std::max(disc[root], (node.centre - sum[root] / size[root]).norm() + node.radius);
-    if (root == i) continue;
-    for (const int end : node.ends) {
-      graph_.edge(end / 2).node[end % 2] = root;
-      graph_.node(root).ends.push_back(end);
+  std::vector<std::vector<int>> members(count);  // of each set, at its root
+  for (int i = 0; i < count; ++i) members[sets_.root(i)].push_back(i);
+  for (int root = 0; root < count; ++root) {
+    if (members[root].empty()) continue;
+    const JunctionDisc disc = discOf(members[root]);
+    SkeletonNode& node = graph_.node(root);
+    for (const int i : members[root]) {
+      if (i == root) continue;
+      for (const int end : graph_.node(i).ends) {
+        graph_.edge(end / 2).node[end % 2] = root;
+        node.ends.push_back(end);
+      }
+      graph_.node(i).ends.clear();
     }
-    node.ends.clear();
-  }
-  for (int i = 0; i < count; ++i) {
-    if (size[i] == 0) continue;
-    SkeletonNode& node = graph_.node(i);
-    node.centre = sum[i] / size[i];
-    node.radius = disc[i];
+    node.centre = disc.centre;
+    node.radius = disc.radius;
     std::sort(node.ends.begin(), node.ends.end());
   }
 }
