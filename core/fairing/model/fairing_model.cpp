@@ -24,15 +24,22 @@ LocalRow positionRow(const Vec2& direction, const SpanRow& basis, int degree) {
   return row;
 }
 
-/// The fourth-order rule for the interval from sample k to k + 1 of spacing 1: samples k - 1 to k + 2; at an end of an
-/// open curve the three from that end on, the nearest first.
-constexpr std::array<double, 4> kInside = {-1.0 / 24, 13.0 / 24, 13.0 / 24, -1.0 / 24};
-constexpr std::array<double, 3> kAtEnd = {5.0 / 12, 8.0 / 12, -1.0 / 12};
-template <std::size_t kCount>
-std::array<double, kCount> scaled(std::array<double, kCount> rule, double step) {
-  for (double& factor : rule) factor *= step;
-  return rule;
+/// The fourth-order rule for the interval from sample k to k + 1 of spacing `step`: four samples and their factors.
+struct IntervalRule {
+  std::array<int, 4> sample;
+  std::array<double, 4> factor;
+};
+std::array<double, 4> insideRule(double step) {
+  return {-1.0 / 24 * step, 13.0 / 24 * step, 13.0 / 24 * step, -1.0 / 24 * step};
 }
+/// Of the intervals at the ends, whose samples are not k - 1 to k + 2.
+IntervalRule endRule(int k, int count, bool closed, double step) {
+  if (closed) return {{(k + count - 1) % count, k, (k + 1) % count, (k + 2) % count}, insideRule(step)};
+  const std::array<double, 4> factor = {5.0 / 12 * step, 8.0 / 12 * step, -1.0 / 12 * step, 0.0};
+  if (k == 0) return {{0, 1, 2, 0}, factor};
+  return {{k + 1, k, k - 1, k}, factor};
+}
+bool isInside(int k, int count) { return k >= 1 && k + 2 < count; }
 
 }  // namespace
 
@@ -130,82 +137,37 @@ void FairingModel::assemble() {
 
 FairingModel::Integral FairingModel::cumulative(const Eigen::VectorXd& values) const {
   const int count = static_cast<int>(values.size());
-  const auto inside = scaled(kInside, stepLength_);
-  const auto atEnd = scaled(kAtEnd, stepLength_);
+  const std::array<double, 4> inside = insideRule(stepLength_);
   const double* v = values.data();
   Eigen::VectorXd result(count);
   double sum = 0.0;
   result[0] = 0.0;
-  const auto addInside = [&](int a, int b, int c, int d) {
-    sum += inside[0] * v[a];
-    sum += inside[1] * v[b];
-    sum += inside[2] * v[c];
-    sum += inside[3] * v[d];
-  };
-  const auto addEnd = [&](int a, int b, int c) {
-    sum += atEnd[0] * v[a];
-    sum += atEnd[1] * v[b];
-    sum += atEnd[2] * v[c];
-  };
-  const auto last = [count](int k) { return (k + count) % count; };
-  if (setup_->closed) {
-    addInside(last(-1), 0, last(1), last(2));
-  } else {
-    addEnd(0, 1, 2);
-  }
-  for (int k = 1; k + 2 < count; ++k) {
-    result[k] = sum;
-    addInside(k - 1, k, k + 1, k + 2);
-  }
-  for (int k = std::max(1, count - 2); k < (setup_->closed ? count : count - 1); ++k) {
-    result[k] = sum;
-    if (setup_->closed) {
-      addInside(k - 1, k, last(k + 1), last(k + 2));
+  for (int k = 0; k < (setup_->closed ? count : count - 1); ++k) {
+    if (isInside(k, count)) {
+      for (int l = 0; l < 4; ++l) sum += inside[l] * v[k - 1 + l];
     } else {
-      addEnd(k + 1, k, k - 1);
+      const IntervalRule rule = endRule(k, count, setup_->closed, stepLength_);
+      for (int l = 0; l < 4; ++l) sum += rule.factor[l] * v[rule.sample[l]];
     }
+    if (k + 1 < count) result[k + 1] = sum;
   }
-  if (!setup_->closed) result[count - 1] = sum;
   return {std::move(result), sum};
 }
 
 Eigen::VectorXd FairingModel::cumulativeTransposed(const Eigen::VectorXd& values, double total) const {
   const int count = static_cast<int>(values.size());
-  const auto inside = scaled(kInside, stepLength_);
-  const auto atEnd = scaled(kAtEnd, stepLength_);
+  const std::array<double, 4> inside = insideRule(stepLength_);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
   double* r = result.data();
   double sum = total;
-  const auto addInside = [&](int a, int b, int c, int d) {
-    r[a] += inside[0] * sum;
-    r[b] += inside[1] * sum;
-    r[c] += inside[2] * sum;
-    r[d] += inside[3] * sum;
-  };
-  const auto addEnd = [&](int a, int b, int c) {
-    r[a] += atEnd[0] * sum;
-    r[b] += atEnd[1] * sum;
-    r[c] += atEnd[2] * sum;
-  };
-  const auto last = [count](int k) { return (k + count) % count; };
-  int k = setup_->closed ? count - 1 : count - 2;
-  for (; k >= std::max(1, count - 2); --k) {
+  for (int k = (setup_->closed ? count : count - 1) - 1; k >= 0; --k) {
     if (k + 1 < count) sum += values[k + 1];
-    if (setup_->closed) {
-      addInside(k - 1, k, last(k + 1), last(k + 2));
+    if (isInside(k, count)) {
+      for (int l = 0; l < 4; ++l) r[k - 1 + l] += inside[l] * sum;
     } else {
-      addEnd(k + 1, k, k - 1);
+      const IntervalRule rule = endRule(k, count, setup_->closed, stepLength_);
+      for (int l = 0; l < 4; ++l) r[rule.sample[l]] += rule.factor[l] * sum;
     }
-  }
-  for (; k >= 1; --k) {
-    sum += values[k + 1];
-    addInside(k - 1, k, k + 1, k + 2);
-  }
-  sum += values[1];
-  if (setup_->closed) {
-    addInside(last(-1), 0, last(1), last(2));
-  } else {
-    addEnd(0, 1, 2);
   }
   return result;
 }
