@@ -230,6 +230,38 @@ std::vector<bool> findLattices(const Marks& marks, const std::vector<std::option
   return isOne;
 }
 
+// A row drawn by hand bends and its dots are uneven: marks ahead of a member of a row, or between two, are of it too.
+// @return by mark, whether it is of a row.
+std::vector<bool> grownRows(std::vector<bool> isOfRow, const Marks& marks,
+                            const std::vector<std::optional<Member>>& members, const std::vector<bool>& isLattice,
+                            int width) {
+  constexpr double kSizesAlike = 4.0;  // areas, of which a raster makes much where they are small
+  constexpr double kAheadCos = 0.866;  // 30 degrees beside the row
+  const MarkGrid grid(marks, width);
+  std::vector<int> next;
+  for (int i = 0; i < std::ssize(isOfRow); ++i)
+    if (isOfRow[i]) next.push_back(i);
+  while (!next.empty()) {
+    const int at = next.back();
+    next.pop_back();
+    if (!members[at]) continue;
+    const Vec2 u = unitOf(members[at]->direction);
+    const auto area = static_cast<double>(marks.all[at].pixels.size());
+    const double reachPx = kMostMarkGap * kLeastLengthWidths * std::sqrt(area);
+    grid.around(marks.all[at].middle, reachPx, [&](int mark) {
+      if (isOfRow[mark] || isLattice[mark]) return false;
+      const auto other = static_cast<double>(marks.all[mark].pixels.size());
+      const Vec2 way = marks.all[mark].middle - marks.all[at].middle;
+      if (std::max(area, other) > kSizesAlike * std::min(area, other) || std::abs(way.dot(u)) < kAheadCos * way.norm())
+        return false;
+      isOfRow[mark] = true;
+      next.push_back(mark);
+      return false;
+    });
+  }
+  return isOfRow;
+}
+
 bool areAlike(int a, int b) {
   const int step = std::abs(a - b);
   return std::min(step, kDirections - step) <= kDirectionsAlike;
@@ -272,9 +304,11 @@ BitImage marksInRows(const BitImage& marks, const BitImage& ink, const RunContex
   std::vector<int> size(count, 0);
   for (int i = 0; i < count; ++i)
     if (isMember[i]) size[rows.root(i)] += 1 + ends[i];
+  for (int i = 0; i < count; ++i) isMember[i] = isMember[i] && size[rows.root(i)] >= kLeastMembers;
+  isMember = grownRows(std::move(isMember), found, members, isLattice, ink.width);
   for (std::size_t r = 0; r < pieces.runs.size(); ++r) {
     const std::optional<int> mark = found.ofPiece[pieces.piece[r]];
-    if (mark && isMember[*mark] && size[rows.root(*mark)] >= kLeastMembers) setBits(kept, pieces.runs[r]);
+    if (mark && isMember[*mark]) setBits(kept, pieces.runs[r]);
   }
   return kept;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "core/base/vec2.h"
 #include "core/image/bits/bit_steps.h"
@@ -42,6 +43,24 @@ TEST(MarkRows, ADashedLineStaysWhole) {
     const BitImage marks = dashedLine(degrees * std::numbers::pi / 180.0, 7);
     EXPECT_EQ(marksInRows(marks, marks, {}), marks) << degrees << " degrees";
   }
+}
+
+// As a hand draws it with a marker: the row bends, its dots and the spaces between them are uneven.
+TEST(MarkRows, ADottedRowDrawnByHandStaysWholeAndDirtBesideItGoes) {
+  const std::vector<double> sizes = {3.0, 3.5, 4.2, 3.0, 4.6, 2.4, 4.0, 4.0, 3.8, 4.0, 3.7, 3.4};
+  const std::vector<double> steps = {16.0, 21.0, 14.0, 20.0, 14.0, 15.0, 25.0, 17.0, 18.0, 19.0, 14.0};
+  const std::vector<double> turns = {0.0, 0.25, -0.3, 0.2, 0.05, 0.3, -0.2, 0.1, 0.15, -0.1, 0.1};
+  BitImage row(kSide, kSide);
+  Vec2 at(60.0, 150.0);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    drawDash(row, at, 0.0, 1.2 * sizes[i], sizes[i]);
+    if (i < steps.size()) at += steps[i] * Vec2(std::cos(turns[i]), std::sin(turns[i]));
+  }
+  BitImage dirt(kSide, kSide);
+  for (const Vec2& off : {Vec2(100.0, 110.0), Vec2(170.0, 200.0), Vec2(200.0, 90.0)})
+    drawDash(dirt, off, 0.0, 4.0, 4.0);
+  const BitImage all = either(row, dirt);
+  EXPECT_EQ(marksInRows(all, all, {}), row);
 }
 
 TEST(MarkRows, TwoDashesAreNoRow) {

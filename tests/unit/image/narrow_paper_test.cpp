@@ -14,7 +14,7 @@ namespace batten {
 namespace {
 
 constexpr int kFineSide = 120;
-constexpr double kPaperGrey = 230.0, kInkDepth = 150.0, kBlurPx = 1.6, kThinStrokePx = 4.5;
+constexpr double kSheetGrey = 230.0, kInkDepth = 150.0, kBlurPx = 1.6, kThinStrokePx = 4.5;
 
 double riseOfBlur(double x) { return 0.5 * std::erfc(-x / (std::sqrt(2.0) * kBlurPx)); }
 
@@ -37,7 +37,7 @@ FineInk fineInkOf(const CoverAt& cover) {
   for (int y = 0; y < kFineSide; ++y) {
     for (int x = 0; x < kFineSide; ++x) {
       const double c = std::clamp(cover(x + 0.5, y + 0.5), 0.0, 1.0);
-      page.grey.row(y)[x] = static_cast<std::uint16_t>((kPaperGrey - kInkDepth * c) * GreyImage::kGreyUnit);
+      page.grey.row(y)[x] = static_cast<std::uint16_t>((kSheetGrey - kInkDepth * c) * GreyImage::kGreyUnit);
       page.ink.set(x, y, c > kThreshold);
     }
   }
@@ -47,7 +47,7 @@ FineInk fineInkOf(const CoverAt& cover) {
 PaperBackground evenPaper() {
   PaperBackground paper;
   paper.columns = paper.rows = kFineSide / paper.cellPx;
-  paper.grey.assign(std::ptrdiff_t{paper.columns} * paper.rows, static_cast<float>(kPaperGrey));
+  paper.grey.assign(std::ptrdiff_t{paper.columns} * paper.rows, static_cast<float>(kSheetGrey));
   return paper;
 }
 
