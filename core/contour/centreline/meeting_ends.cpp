@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/centreline/meeting_ends.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -29,6 +31,7 @@ constexpr double kAcrossSin = 0.5;         // 30 degrees: a line is met across
 constexpr double kInkPx = 1.0;             // beyond the widths of two lines: their ink touches still
 constexpr double kTouchHalfWidths = 1.0;   // from a line: an end that comes as close touches it
 constexpr double kMostLedWidths = 12.0;    // on from an end
+constexpr double kLeastRestWidths = 0.75;  // from the anchor to a place where several ends meet
 constexpr double kMostJump = 1.2;          // of a step, by which a distance changes: more is of another stretch
 constexpr double kOwnWidths = 3.0;         // along a line from its own end: nearer it is the end itself
 // Of two letters that only blur joins the ink between is paler: by so much of their depth at most it is theirs.
@@ -62,9 +65,15 @@ struct LineBeside {
 };
 
 struct LineMeeting {
+  int line = 0;           // met
   std::vector<Vec2> way;  // from the anchor to the line met
   double sine = 0.0;      // of the angle there
   double beyondPx = 0.0;  // the end, along the way
+};
+
+struct Lead {
+  LineEnd end;
+  LineMeeting meeting;
 };
 
 class EndLeader {
@@ -75,6 +84,7 @@ class EndLeader {
   std::optional<LineEnd> endOf(int line, int side) const;
   std::optional<LineMeeting> meetingOf(const LineEnd& end) const;
   bool isInked(const LineEnd& end, const std::vector<Vec2>& way) const;
+  std::optional<Lead> leadTo(const Lead& lead, const Vec2& place) const;
 
  private:
   // Lines three times as wide as usual are still seen from where their ink begins.
@@ -193,14 +203,14 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
         if (!isBetter(crossed)) continue;
         std::vector<Vec2> taken(way.places.begin(), way.places.begin() + k + 1);
         taken.back() = beside.foot;
-        crossed = LineMeeting{std::move(taken), sine, arc};
+        crossed = LineMeeting{beside.line, std::move(taken), sine, arc};
       } else if (k > way.end && std::abs(d) > std::abs(old) && sine < kAcrossSin &&
                  std::abs(d) <= kTouchHalfWidths * 0.5 * std::max(1.0, beside.widthPx) && isBetter(touched)) {
         std::vector<Vec2> taken(way.places.begin(), way.places.begin() + way.end + 1);
         const Vec2 along = beside.along.dot(end.out) < 0.0 ? Vec2(-beside.along) : beside.along;
         for (const Vec2& at : cubicBetween(taken.back(), end.out, beside.foot, along)) taken.push_back(at);
         taken.push_back(beside.foot);
-        touched = LineMeeting{std::move(taken), sine, arc};
+        touched = LineMeeting{beside.line, std::move(taken), sine, arc};
       }
     }
     if (!isOnInk || (crossed && arc > std::abs(crossed->beyondPx))) break;
@@ -219,6 +229,22 @@ bool EndLeader::isInked(const LineEnd& end, const std::vector<Vec2>& way) const 
   const double ink = std::max(levelAt(way.front()), levelAt(way.back()));
   const double palest = ink + kMostPaler * std::max(0.0, paper - ink);
   return std::all_of(way.begin() + own, way.end(), [&](const Vec2& at) { return levelAt(at) <= palest; });
+}
+
+// The lead with its end at a place, bent there from the anchor on. Nothing where that is far or behind.
+std::optional<Lead> EndLeader::leadTo(const Lead& lead, const Vec2& place) const {
+  Lead on = lead;
+  LineEnd& end = on.end;
+  end.last = end.anchor;
+  const Vec2 anchor = point(end, end.anchor).at, before = point(end, end.anchor + 1).at, rest = place - anchor;
+  if (rest.dot(end.out) < kLeastRestWidths * end.widthPx || rest.norm() > kMostLedWidths * end.widthPx)
+    return std::nullopt;
+  std::vector<Vec2>& way = on.meeting.way;
+  way.assign(1, anchor);
+  for (const Vec2& at : cubicBetween(anchor, (anchor - before).normalized(), place, rest.normalized()))
+    way.push_back(at);
+  way.push_back(place);
+  return isInked(end, way) ? std::optional(on) : std::nullopt;
 }
 
 // Straight on where that meets a line well across; else as the line bends.
@@ -247,12 +273,79 @@ void leadOn(Contour& c, const LineEnd& end, const std::vector<Vec2>& way) {
   if (end.side == 0) std::reverse(c.points.begin(), c.points.end());
 }
 
+// Which of the leads moves the place where another one ends: the end of the line met lies there. By lead.
+std::vector<std::optional<int>> leadsMet(const std::vector<Contour>& lines, const std::vector<Lead>& leads) {
+  constexpr double kAtEndPx = 1.5;  // points lie a pixel apart
+  std::vector<std::array<std::optional<int>, 2>> ofEnd(lines.size());
+  for (int i = 0; i < std::ssize(leads); ++i) ofEnd[leads[i].end.line][leads[i].end.side] = i;
+  std::vector<std::optional<int>> met(leads.size());
+  for (int i = 0; i < std::ssize(leads); ++i) {
+    double nearest = kAtEndPx;
+    for (const std::optional<int>& other : ofEnd[leads[i].meeting.line]) {
+      if (!other || *other == i) continue;
+      const LineEnd& end = leads[*other].end;
+      for (int k = 0; k < end.anchor; ++k) {
+        const double apart = (pointFromEnd(lines[end.line], end.side, k).at - leads[i].meeting.way.back()).norm();
+        if (apart < nearest) nearest = apart, met[i] = other;
+      }
+    }
+  }
+  return met;
+}
+
+// The place nearest to the straight lines on which ends run on. Nothing where all run one way.
+std::optional<Vec2> commonPlace(const std::vector<Contour>& lines, const std::vector<Lead*>& leads) {
+  constexpr double kLeastSpread = 0.1;  // of the smaller eigenvalue, of the number of lines
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  Vec2 moment = Vec2::Zero();
+  for (const Lead* lead : leads) {
+    const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - lead->end.out * lead->end.out.transpose();
+    sum += across;
+    moment += across * pointFromEnd(lines[lead->end.line], lead->end.side, lead->end.last).at;
+  }
+  const double half = 0.5 * sum.trace(), least = half - std::sqrt(std::max(0.0, half * half - sum.determinant()));
+  if (least < kLeastSpread * static_cast<double>(leads.size())) return std::nullopt;
+  return Vec2(sum.inverse() * moment);
+}
+
+// Three ends or more that are led on to each other's in a ring would make a triangle of their tails: where several
+// strokes end in one place they meet there.
+void meetInOnePlace(const std::vector<Contour>& lines, const EndLeader& leader, std::vector<Lead>& leads) {
+  constexpr int kFewest = 3;
+  const std::vector<std::optional<int>> met = leadsMet(lines, leads);
+  std::vector<int> round(leads.size(), -1);  // of the walk that came by
+  for (int first = 0; first < std::ssize(leads); ++first) {
+    int at = first;
+    while (round[at] < 0) {
+      round[at] = first;
+      if (!met[at]) break;
+      at = *met[at];
+    }
+    if (!met[at] || round[at] != first) continue;
+    std::vector<Lead*> ring;
+    int next = at;
+    do {
+      ring.push_back(&leads[next]);
+      next = *met[next];
+    } while (next != at);
+    if (std::ssize(ring) < kFewest) continue;
+    const std::optional<Vec2> place = commonPlace(lines, ring);
+    std::vector<Lead> led;
+    for (const Lead* lead : ring) {
+      std::optional<Lead> on = place ? leader.leadTo(*lead, *place) : std::nullopt;
+      if (on) led.push_back(std::move(*on));
+    }
+    if (led.size() != ring.size()) continue;
+    for (std::size_t k = 0; k < ring.size(); ++k) *ring[k] = std::move(led[k]);
+  }
+}
+
 }  // namespace
 
 void leadToLines(std::vector<Contour>& lines, const GreyImage& grey, const RunContext& context) {
   const auto endsInInk = [](const Contour& c) { return !c.closed && (c.endsInInk[0] || c.endsInInk[1]); };
   if (std::ranges::none_of(lines, endsInInk)) return;
-  std::vector<std::pair<LineEnd, LineMeeting>> leads;
+  std::vector<Lead> leads;
   const EndLeader leader(lines, grey);
   for (int i = 0; i < std::ssize(lines); ++i) {
     if (!endsInInk(lines[i])) continue;
@@ -261,9 +354,10 @@ void leadToLines(std::vector<Contour>& lines, const GreyImage& grey, const RunCo
       const std::optional<LineEnd> end = lines[i].endsInInk[side] ? leader.endOf(i, side) : std::nullopt;
       if (!end) continue;
       std::optional<LineMeeting> meeting = leader.meetingOf(*end);
-      if (meeting && leader.isInked(*end, meeting->way)) leads.emplace_back(*end, std::move(*meeting));
+      if (meeting && leader.isInked(*end, meeting->way)) leads.push_back({*end, std::move(*meeting)});
     }
   }
+  meetInOnePlace(lines, leader, leads);
   // All are found on the lines as they were, so that their order does not matter.
   for (const auto& [end, meeting] : leads) {
     Contour& c = lines[end.line];

@@ -147,5 +147,31 @@ TEST(MeetingEnds, AnEndThatMeetsNoLineStays) {
   EXPECT_TRUE(lines[0].points == before);
 }
 
+// Where three strokes of a marker end in one place, no two of which are one stroke, their middles pass each other by:
+// led on one to the other they would make a triangle.
+TEST(MeetingEnds, ThreeStrokesThatEndInOnePlaceMeetThere) {
+  constexpr double kWidthPx = 16.0;
+  const Vec2 middle(240.0, 180.0);
+  for (const double turnDeg : {0.0, 25.0, 70.0}) {
+    std::vector<std::vector<Vec2>> lines;
+    for (const double rayDeg : {0.0, 120.0, 240.0}) {
+      const double angle = (rayDeg + turnDeg) * std::numbers::pi / 180.0;
+      const Vec2 along(std::cos(angle), std::sin(angle)), begin = middle + 0.25 * kWidthPx * leftNormal(along);
+      lines.push_back(straight(begin, begin + 130.0 * along));
+    }
+    const ContourSet set = tracedLines(lines, kWidthPx);
+    ASSERT_EQ(set.contours.size(), 3u) << turnDeg;
+    std::vector<Vec2> ends;
+    for (const Contour& c : set.contours) {
+      const Vec2 &a = c.points.front().at, &b = c.points.back().at;
+      ends.push_back((a - middle).norm() < (b - middle).norm() ? a : b);
+    }
+    for (const Vec2& end : ends) {
+      EXPECT_LT((end - ends.front()).norm(), 0.1) << turnDeg;
+      EXPECT_LT((end - middle).norm(), 0.3 * kWidthPx) << turnDeg;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten
