@@ -17,6 +17,7 @@ constexpr double kLeastUnitPx = 3.0;     // blur and mask round a border by abou
 constexpr double kRoughUnits = 6.0;      // of the roughness
 constexpr double kWidthLimit = 1.5;      // of the usual width: at a junction the ink is wider than the stroke
 constexpr double kSharpRadius = 1.5;     // units
+constexpr double kSharpPencilRadius = 2.0;  // a sketching hand turns round a corner
 constexpr double kSharpSlackPx = 0.4;    // a vertex is known to that
 constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute tips
 constexpr double kPointsPerPx = 4.0;     // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
@@ -89,6 +90,8 @@ double CornerJudge::unseenRadius(const CornerEvidence& e, int tip) const {
 double CornerJudge::certainty(const CornerEvidence& e) const {
   const double unit = unitAt(e), angle = std::abs(e.angleRad);
   if (!(angle > 0.0)) return 0.0;
+  const ContourPoint& turned = contour_.points[e.pointIndex];
+  const bool isPencil = contour_.kind == ContourKind::Centreline && turned.widthPx && !turned.sigmaPx;
   NearestPoint tip{e.pointIndex, 0.0};
   if (e.isLocated)
     tip = nearestAlong(contour_, e.pointIndex, e.positionPx, static_cast<int>(kPointsPerPx * kFarthestVertex * unit));
@@ -115,9 +118,10 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   };
   if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
   if (e.isLocated) {
-    double rounded = tip.distance / (kSharpRadius * unit * (1.0 / std::cos(0.5 * angle) - 1.0) + kSharpSlackPx);
+    const double sharp = isPencil ? kSharpPencilRadius : kSharpRadius;
+    double rounded = tip.distance / (sharp * unit * (1.0 / std::cos(0.5 * angle) - 1.0) + kSharpSlackPx);
     // The guesses that stand for a lost tip say less than how far the sides were seen to go.
-    if (isTipLost) rounded = std::min(rounded, unseenRadius(e, tip.index) / (kSharpRadius * unit));
+    if (isTipLost) rounded = std::min(rounded, unseenRadius(e, tip.index) / (sharp * unit));
     demand(rounded, 1.0);
     demand(tip.distance, kFarthestVertex * unit);
   } else {

@@ -78,6 +78,24 @@ TEST(CornerCertainty, SharpTurnsWithLongSidesAreCertain) {
   EXPECT_GE(found, 0.95 * all) << "of " << all;
 }
 
+// A sketching hand rounds a corner somewhat; a pen that draws such a rounding means it.
+TEST(CornerCertainty, APencilMayRoundACornerMoreThanAPen) {
+  constexpr double kRadiusWidths = 1.95, kWidthPx = 5.0;  // as setOf() has it
+  int ofPencil = 0, ofPen = 0, all = 0;
+  for (const double degrees : {80.0, 90.0, -80.0}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      ContourSet set =
+          setOf(bend(degrees * kDeg, kRadiusWidths * kWidthPx, 150.0), ContourKind::Centreline, 0.05, seed);
+      ofPencil += certainOn(set) == 1 ? 1 : 0;
+      for (ContourPoint& p : set.contours.front().points) p.sigmaPx = 0.05f;
+      ofPen += certainOn(set);
+      ++all;
+    }
+  }
+  EXPECT_GE(ofPencil, 0.9 * all) << "of " << all;
+  EXPECT_LE(ofPen, 0.1 * all);
+}
+
 // A pixel-sharp corner whose tip the neighbourhood filter took: what is left there was not located on the grey values,
 // and the place that turns most lies beside the tip.
 TEST(CornerCertainty, CornersWithoutTheirTipsAreCertain) {
