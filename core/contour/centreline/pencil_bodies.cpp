@@ -56,7 +56,7 @@ BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std:
                       const GraininessMap& grain, int pixelsPerPx, const RunContext& context) {
   const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
   const double closing = grainClosing(width);
-  BitImage body = closeInk(strokes, closing, context);
+  BitImage body = closeGrain(strokes, width, pixelsPerPx > 1, context);
   bool anyPen = false;
   for (int i = 0; i < std::ssize(paths); ++i) anyPen = anyPen || !grain.isPencil(i);
   BitImage ownPens(strokes.width, strokes.height);

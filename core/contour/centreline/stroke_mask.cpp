@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
+#include "core/image/bits/ink_grain.h"
 #include "core/image/bits/ink_holes.h"
 #include "core/image/bits/run_pieces.h"
 
@@ -199,6 +200,12 @@ BitImage closeInk(const BitImage& ink, double diameterPx, const RunContext& cont
 double grainClosing(double widthPx) {
   constexpr double kClosingWidths = 0.75;  // between the specks of a pencil there is less, and a pixel
   return kClosingWidths * widthPx + 1.0;
+}
+
+BitImage closeGrain(const BitImage& ink, double widthPx, bool isFinePage, const RunContext& context) {
+  constexpr double kLeastTorn = 0.003;  // a speck or a hole in 333 widths of stroke
+  if (isFinePage && measureGrain(ink, context).perWidth < kLeastTorn) return ink;
+  return closeInk(ink, grainClosing(widthPx), context);
 }
 
 BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, const RunContext& context) {

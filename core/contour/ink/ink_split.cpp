@@ -100,9 +100,9 @@ RunPieces regionsOf(const InkSplit& split, const RunContext& context) {
   return regions;
 }
 
-Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx, const RunContext& context) {
+Result<BitImage> withGrainClosed(const BitImage& pencil, double widthPx, bool isFinePage, const RunContext& context) {
   try {
-    return closeInk(pencil, grainClosing(widthPx), context);
+    return closeGrain(pencil, widthPx, isFinePage, context);
   } catch (const cv::Exception& e) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.", e.what());
   }
@@ -158,7 +158,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   }
   const StrokesOfInk& known = *split.known;
   const double widthPx = medianWidth(known.paths, [&](int i) { return known.grain.isPencil(i); });
-  Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, context);
+  Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, page != nullptr, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
   Result<InkLabels> ofBody = labelInk(*body, context, params.mergeWidths, pixelsPerPx);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The grain of a pencil is closed, the counters of small letters are not.
+#include "core/contour/centreline/stroke_mask.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/vec2.h"
+
+namespace batten {
+namespace {
+
+constexpr int kMaskWidth = 400, kMaskHeight = 60;
+constexpr double kRingStrokePx = 4.0, kRingRadiusPx = 4.5;  // of a letter o, to the middle of its stroke
+
+// A row of rings, and a long stroke below them.
+BitImage lettering() {
+  BitImage ink(kMaskWidth, kMaskHeight);
+  for (int y = 0; y < kMaskHeight; ++y) {
+    for (int x = 0; x < kMaskWidth; ++x) {
+      const Vec2 off(x + 0.5 - (20.0 * (x / 20) + 10.0), y + 0.5 - 15.0);
+      const bool isRing = std::abs(off.norm() - kRingRadiusPx) < 0.5 * kRingStrokePx;
+      if (isRing || (y >= 40 && y < 44)) ink.set(x, y, true);
+    }
+  }
+  return ink;
+}
+
+TEST(StrokeMask, CountersOfSmallLettersStayOpenOnAFinePage) {
+  const BitImage ink = lettering();
+  EXPECT_EQ(closeGrain(ink, kRingStrokePx, true, {}), ink);
+  // Counters as small as the closing's disc are holes of the grain, where that is asked for.
+  EXPECT_GT(closeGrain(ink, kRingStrokePx, false, {}).count(), ink.count() + 20 * 10);
+}
+
+TEST(StrokeMask, TornInkIsClosedOnAFinePageToo) {
+  BitImage torn(kMaskWidth, kMaskHeight);
+  for (int y = 20; y < 26; ++y)
+    for (int x = 5; x < kMaskWidth - 5; ++x) torn.set(x, y, (x + 3 * y) % 7 != 0);
+  const BitImage closed = closeGrain(torn, 6.0, true, {});
+  for (int y = 21; y < 25; ++y)
+    for (int x = 10; x < kMaskWidth - 10; ++x) ASSERT_TRUE(closed.at(x, y)) << x << ", " << y;
+}
+
+}  // namespace
+}  // namespace batten
