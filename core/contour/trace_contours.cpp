@@ -193,8 +193,12 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   found.isPencil = split->pencil && 2 * split->pencil->ink.count() > ink.count();
   const BitImage rows =
       hasOwnLengths(params) ? BitImage(ink.width, ink.height) : findRows(*split, params.minWidths, context);
-  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, &rows, params.minWidths,
-                                  split->known.get(), page};
+  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr,
+                                  &rows,
+                                  params.minWidths,
+                                  split->known.get(),
+                                  &split->clear,
+                                  page};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());
   split->known.reset();

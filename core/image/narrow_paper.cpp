@@ -36,6 +36,10 @@ constexpr int kMostNarrowPx = 16;
 constexpr double kLeastGapWidths = 1.25;
 // [stroke widths] Half of what two strokes and the paper between them are broad at least, less an octagon's corners.
 constexpr double kThickWidths = 0.75;
+// Within the ink of a pencil.
+constexpr float kClearRise = 0.7f;     // of the depth: blur leaves no more to a hole of one pixel, nor grain to tone
+constexpr float kDarkInkShare = 0.5f;  // of the grey of the paper: what is paler may be tone
+constexpr int kLeastClearArea = 4;     // [px^2]
 constexpr int kTileRows = 64;
 
 struct RayStep {
@@ -53,13 +57,16 @@ struct Tile {
 struct NarrowLimits {
   int reachPx;        // to the ink on either side
   double leastGapPx;  // from ink to ink, somewhere; 0: any
+  float leastRise = kLeastRise;
+  float mostInkShare = std::numeric_limits<float>::infinity();  // of the grey of the paper, in ink on either side
+  int leastArea = kLeastArea;
 };
 
 class NarrowPaper {
  public:
   /// @param grey of a part of the page.
-  NarrowPaper(const Plane& grey, const Tile& part, const PaperBackground& paper, int reachPx)
-      : grey_(grey), part_(part), paper_(paper), reachPx_(reachPx) {}
+  NarrowPaper(const Plane& grey, const Tile& part, const PaperBackground& paper, const NarrowLimits& limits)
+      : grey_(grey), part_(part), paper_(paper), limits_(limits) {}
 
   bool isAt(int pageX, int pageY) const {
     return std::any_of(kRays.begin(), kRays.end(), [&](RayStep ray) { return riseAlong(pageX, pageY, ray) > 0.0f; });
@@ -86,7 +93,8 @@ class NarrowPaper {
     const auto paper = static_cast<float>(paper_.at(pageX + 0.5, pageY + 0.5));
     const float ink = std::max(darkest(x, y, ray), darkest(x, y, ray.back()));
     const float rise = here - ink;
-    if (rise < std::max(kLeastRiseGrey, kLeastRise * (paper - ink))) return 0.0f;
+    if (ink > limits_.mostInkShare * paper) return 0.0f;
+    if (rise < std::max(kLeastRiseGrey, limits_.leastRise * (paper - ink))) return 0.0f;
     const RayStep across = ray.across();
     const bool isBar = std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kBarShare * rise;
     return isBar ? 0.0f : rise;
@@ -102,20 +110,20 @@ class NarrowPaper {
   }
   /// Beyond the page lies no ink.
   float darkest(int x, int y, RayStep ray) const {
-    return alongRay(x, y, ray, reachPx_, std::numeric_limits<float>::max(),
+    return alongRay(x, y, ray, limits_.reachPx, std::numeric_limits<float>::max(),
                     [](float a, float b) { return std::min(a, b); });
   }
   /// [steps] along a ray to where the grey falls below a level.
   double darkAfter(int x, int y, RayStep ray, float level) const {
     float before = grey_.row(y)[x];
-    for (int k = 1; k <= reachPx_; ++k) {
+    for (int k = 1; k <= limits_.reachPx; ++k) {
       const int atX = x + k * ray.x, atY = y + k * ray.y;
       if (atX < 0 || atY < 0 || atX >= grey_.width || atY >= grey_.height) break;
       const float value = grey_.row(atY)[atX];
       if (value <= level) return k - 1 + static_cast<double>((before - level) / std::max(before - value, 1e-6f));
       before = value;
     }
-    return reachPx_;
+    return limits_.reachPx;
   }
   float brightest(int x, int y, RayStep ray) const {
     return alongRay(x, y, ray, kBesidePx, 0.0f, [](float a, float b) { return std::max(a, b); });
@@ -124,8 +132,12 @@ class NarrowPaper {
   const Plane& grey_;
   Tile part_;
   const PaperBackground& paper_;
-  int reachPx_;
+  NarrowLimits limits_;
 };
+
+int reachOf(double penPx) {
+  return std::clamp(static_cast<int>(std::lround(kReachWidths * penPx)), kReachPx, kMostNarrowPx);
+}
 
 GreyImage cutOut(const GreyImage& image, const Tile& tile) {
   GreyImage part(tile.x1 - tile.x0, tile.y1 - tile.y0);
@@ -152,7 +164,7 @@ class TileOpener {
                     std::min(image_.height, y1 + around)};
     const Plane grey = smooth(shrinkGrey(cutOut(image_, tile), 1, alone), kernel_, alone);
     if (alone.isCancelled()) return;
-    const NarrowPaper narrow(grey, tile, paper_, limits_.reachPx);
+    const NarrowPaper narrow(grey, tile, paper_, limits_);
     for (int y = y0; y < y1; ++y) {
       for (std::uint64_t bits = candidates.row(y)[word]; bits != 0; bits &= bits - 1) {
         const int bit = std::countr_zero(bits);
@@ -184,7 +196,7 @@ BitImage opened(BitImage ink, const BitImage& candidates, const GreyImage& image
     }
   });
   if (context.isCancelled()) return ink;
-  return without(std::move(ink), keepPieces(narrow, {.minArea = kLeastArea, .seeds = &wide}, context));
+  return without(std::move(ink), keepPieces(narrow, {.minArea = limits.leastArea, .seeds = &wide}, context));
 }
 
 }  // namespace
@@ -197,7 +209,7 @@ BitImage withoutNarrowPaper(BitImage ink, const GreyImage& image, const PaperBac
 
 BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBackground& paper, double penPx,
                             const RunContext& context) {
-  const int reachPx = std::clamp(static_cast<int>(std::lround(kReachWidths * penPx)), kReachPx, kMostNarrowPx);
+  const int reachPx = reachOf(penPx);
   if (kLeastGapWidths * penPx > 2.0 * reachPx) return ink;  // wider than is looked for
   const int steps = std::max(1, static_cast<int>(kThickWidths * penPx));
   const BitImage thick = shrunken(ink, steps, context);
@@ -205,6 +217,16 @@ BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBac
   const BitImage candidates = both(grown(thick, steps, context), ink);
   if (context.isCancelled()) return ink;
   return opened(std::move(ink), candidates, image, paper, {reachPx, kLeastGapWidths * penPx}, context);
+}
+
+BitImage clearPaper(const BitImage& ink, const GreyImage& image, const PaperBackground& paper, double penPx,
+                    const RunContext& context) {
+  const NarrowLimits limits{.reachPx = reachOf(penPx),
+                            .leastGapPx = 0.0,
+                            .leastRise = kClearRise,
+                            .mostInkShare = kDarkInkShare,
+                            .leastArea = kLeastClearArea};
+  return without(BitImage(ink), opened(ink, ink, image, paper, limits, context));
 }
 
 }  // namespace batten

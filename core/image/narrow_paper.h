@@ -21,4 +21,9 @@ BitImage withoutNarrowPaper(BitImage ink, const GreyImage&, const PaperBackgroun
 /// @param penPx [px] width of the strokes in this ink.
 BitImage withoutClosedPaper(BitImage ink, const GreyImage&, const PaperBackground&, double penPx, const RunContext&);
 
+/// Paper within the dark ink of a pencil that is nearly as bright as the sheet, at places between ink: in lettering,
+/// where the smoothing that torn ink needs has filled it. Grain is smaller, or fainter.
+/// @param penPx [px] width of the strokes in this ink. @return a part of the ink. Unfinished when cancelled.
+BitImage clearPaper(const BitImage& ink, const GreyImage&, const PaperBackground&, double penPx, const RunContext&);
+
 }  // namespace batten

@@ -13,8 +13,9 @@ namespace batten {
 
 /// The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
 /// paper, beside pens too: there a threshold closes it as well.
-/// @param pixelsPerPx 1, or more on an enlarged page. @return the strokes as they were when cancelled.
+/// @param pixelsPerPx 1, or more on an enlarged page. @param clear CentrelineOptions::clear. @return the strokes as
+/// they were when cancelled.
 BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
-                      const GraininessMap& grain, int pixelsPerPx, const RunContext& context);
+                      const GraininessMap& grain, int pixelsPerPx, const BitImage* clear, const RunContext& context);
 
 }  // namespace batten

@@ -117,8 +117,22 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
   return pen;
 }
 
+// Of what a pencil drew, the paper within pieces no larger than a line of lettering.
+BitImage paperInLettering(const BitImage& pencil, const GreyImage& grey, const PaperBackground& sheet, double penPx,
+                          const RunContext& context) {
+  constexpr double kLongestWidths = 64.0;  // a dozen letters
+  const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
+  return clearPaper(without(BitImage(pencil), large), grey, sheet, penPx, context);
+}
+
+// Paper that ink has closed: what the sheet is, by which it is found, or that which was.
+struct PaperInInk {
+  const PaperBackground* sheet = nullptr;  // absent: none is looked for
+  BitImage clear = {};                     // InkSplit::clear
+};
+
 Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
-                              const GreyImage* page, const PaperBackground* paper, const RunContext& context) {
+                              const GreyImage* page, PaperInInk paper, const RunContext& context) {
   const double pixelsPerPx = page != nullptr ? kFineFactor : 1.0;
   Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths, pixelsPerPx);
   if (!labels) return fail(labels.error());
@@ -133,12 +147,17 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   const PencilPieces pencil(ink, paths, grain, context);
   if (context.isCancelled()) return cancelled();
   // Strokes that have run together are told anew once the paper between them is open.
-  if (paper != nullptr && split.penPx) {
-    const BitImage pen = pencil.any() ? both(penInk(ink, pencil), split.strokes) : split.strokes;
-    BitImage open = withoutClosedPaper(pen, grey, *paper, *split.penPx, context);
+  if (paper.sheet != nullptr && split.penPx) {
+    const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink, strokes = both(BitImage(pens), split.strokes);
+    const BitImage open = withoutClosedPaper(strokes, grey, *paper.sheet, *split.penPx, context);
+    BitImage clear;
+    if (pencil.any()) clear = paperInLettering(without(BitImage(ink), pens), grey, *paper.sheet, *split.penPx, context);
     if (context.isCancelled()) return cancelled();
-    if (open != pen)
-      return splitByLabel(either(without(BitImage(ink), pen), open), grey, params, page, nullptr, context);
+    if (open != strokes || clear.count() > 0) {
+      BitImage opened = either(without(BitImage(ink), strokes), open);
+      if (clear.width > 0) opened = without(std::move(opened), clear);
+      return splitByLabel(opened, grey, params, page, {nullptr, std::move(clear)}, context);
+    }
   }
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
@@ -161,6 +180,8 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, page != nullptr, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
+  if (paper.clear.width > 0) *body = without(std::move(*body), paper.clear);
+  split.clear = std::move(paper.clear);
   Result<InkLabels> ofBody = labelInk(*body, context, params.mergeWidths, pixelsPerPx);
   if (!ofBody) return fail(ofBody.error());
   const double penPx = std::max(ofBody->penPx.value_or(0.0), widthPx);
@@ -181,7 +202,7 @@ Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const Edge
                           const RunContext& context, const GreyImage* page, const PaperBackground* paper) {
   InkSplit split;
   if (params.mode == EdgeMode::Automatic) {
-    Result<InkSplit> labelled = splitByLabel(ink, grey, params, page, paper, context);
+    Result<InkSplit> labelled = splitByLabel(ink, grey, params, page, {paper, {}}, context);
     if (!labelled) return fail(labelled.error());
     split = std::move(*labelled);
   } else {

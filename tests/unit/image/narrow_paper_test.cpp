@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 #include "core/image/bits/bit_steps.h"
@@ -143,6 +144,34 @@ TEST(ClosedPaper, IsTheSameWithAnyNumberOfThreads) {
   four.threads = 4;
   EXPECT_EQ(withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, one),
             withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, four));
+}
+
+/// Two strokes side by side, of which the threshold takes all for ink.
+FineInk closePair(double depth) {
+  constexpr double kPitch = 9.0;
+  return fineInkOf([=](double x, double) {
+    return depth * std::max(strokeCover(x - 60.0 - 0.5 * kPitch) + strokeCover(x - 60.0 + 0.5 * kPitch), 0.2);
+  });
+}
+
+TEST(ClearPaper, IsFoundBetweenDarkStrokesAndNotBetweenPaleOnes) {
+  const FineInk dark = closePair(1.0), pale = closePair(0.65);
+  ASSERT_EQ(dark.ink.count(), std::int64_t{kFineSide} * kFineSide);
+  const BitImage found = clearPaper(dark.ink, dark.grey, evenPaper(), kPenPx, {});
+  for (int y = 10; y < kFineSide - 10; ++y) {
+    EXPECT_TRUE(found.at(60, y)) << y;
+    EXPECT_FALSE(found.at(55, y) || found.at(65, y)) << y;
+  }
+  EXPECT_EQ(clearPaper(pale.ink, pale.grey, evenPaper(), kPenPx, {}).count(), 0);
+}
+
+TEST(ClearPaper, IsNoGrain) {
+  const FineInk page = fineInkOf([](double x, double y) {
+    const bool isHole = static_cast<int>(x) % 5 == 0 && static_cast<int>(y + 2.0 * x) % 7 == 0;
+    return isHole ? 0.13 : 1.0;
+  });
+  ASSERT_EQ(page.ink.count(), std::int64_t{kFineSide} * kFineSide);
+  EXPECT_EQ(clearPaper(page.ink, page.grey, evenPaper(), kPenPx, {}).count(), 0);
 }
 
 }  // namespace
