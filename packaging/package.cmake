@@ -33,9 +33,9 @@ else()
   set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Batten follows the lines of a scanned or photographed drawing and turns
 them into fair curves: lines, arcs, polynomials and quintic B-splines whose
 curvature changes the way a designer wants. It finds pencil lines on shaded,
-folded and dirty paper, and shows curvature while a curve is made fair. It writes SVG
-and PDF in millimetres, exact curves as DXF, IGES, STEP, 3DM and JSON, points
-and polynomials as CSV, and reports in PDF and HTML.
+folded and dirty paper, and shows curvature while a curve is made fair. It
+writes SVG and PDF in millimetres, exact curves as DXF, IGES, STEP, 3DM and
+JSON, points and polynomials as CSV, and reports in PDF and HTML.
 
 The package holds the window program batten and the command line program
 batten-cli, which also runs over an archive of drawings.")
