@@ -187,6 +187,48 @@ void SmoothSections::keepNear(const std::vector<OutlierFit>& leaving, const std:
   smooth_ = std::move(ranges);
 }
 
+// A fit may end beside its points by what makes none of them an outlier. The tight curve that goes on from there would
+// have to turn back to them: beside a sharp feature a fit ends where it is on its points.
+SmoothSections::Stretches SmoothSections::endingOnPoints(CancelCheck run) const {
+  constexpr double kOffPx = 0.7, kOnPx = 0.35;  // beside the points; on them
+  constexpr double kGrainShare = 0.5;           // of the standard deviation of the grain more
+  constexpr int kLongestShare = 3;              // of a stretch so much is cut off at most
+  Stretches found{smooth_, fits_};
+  const std::vector<ConstructPiece> pieces = stretches();
+  const int all = static_cast<int>(piece_.points.size());
+  const auto allowed = [&](const PiecePoint& point) {
+    return kGrainShare * piece_.grain.sigmaPx + static_cast<double>(point.spreadPx.value_or(0.0f));
+  };
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    const NurbsCurve& curve = fits_[i].curve;
+    const std::vector<PiecePoint>& points = pieces[i].points;
+    const auto isOff = [&](const Vec2& end, const PiecePoint& point) {
+      return (end - point.at).norm() > kOffPx + allowed(point);
+    };
+    const bool isOffAtStart =
+        (piece_.closed || smooth_[i].first > 0) && isOff(curve.point(curve.start()), points.front());
+    const bool isOffAtEnd =
+        (piece_.closed || smooth_[i].last < all - 1) && isOff(curve.point(curve.end()), points.back());
+    if (!isOffAtStart && !isOffAtEnd) continue;
+    const std::vector<PointOffset> at = pointDeviation(curve, pieces[i], run).points;
+    if (run.isCancelled()) return found;
+    const auto isOn = [&](int k) { return at[k].offPx <= kOnPx + allowed(points[k]); };
+    const int n = static_cast<int>(at.size());
+    int first = 0, last = n - 1;
+    while (isOffAtStart && first < n / kLongestShare && !isOn(first)) ++first;
+    while (isOffAtEnd && last > n - 1 - n / kLongestShare && !isOn(last)) --last;
+    if (!isOn(first)) first = 0;
+    if (!isOn(last)) last = n - 1;
+    if (first == 0 && last == n - 1) continue;
+    auto part = stretchOf(fits_[i], first > 0 ? at[first].parameter : curve.start(),
+                          last < n - 1 ? at[last].parameter : curve.end(), false);
+    if (!part) continue;
+    found.fits[i] = std::move(*part);
+    found.smooth[i] = {smooth_[i].first + first, smooth_[i].first + last};
+  }
+  return found;
+}
+
 Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& context) const {
   PieceSet set;
   set.pieces.resize(1);
@@ -228,7 +270,9 @@ Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const
 }
 
 Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
-  auto whole = joinSections(piece_, {sharp_, smooth_, fits_}, context);
+  const Stretches stretches = endingOnPoints(context);
+  if (context.isCancelled()) return cancelled();
+  auto whole = joinSections(piece_, {sharp_, stretches.smooth, stretches.fits}, context);
   if (context.isCancelled()) return cancelled();
   if (whole && scattered_) {
     whole->report.note = scatteredNote(*scattered_);

@@ -38,6 +38,12 @@ class SmoothSections {
   };
   /// Of those fits only what is near the points; tight curves come between.
   void keepNear(const std::vector<OutlierFit>&, const std::vector<ConstructPiece>& pieces);
+  /// The stretches and their fits, cut where these are on their points.
+  struct Stretches {
+    std::vector<PointRange> smooth;
+    std::vector<ConstructedPiece> fits;
+  };
+  Stretches endingOnPoints(CancelCheck run) const;
   Result<ConstructedPiece> joinedParts(const RunContext&) const;
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;

@@ -164,6 +164,31 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
   }
 }
 
+// Grain excuses a fit that leaves its points towards its end; a sharp turn that follows does not begin beside the line.
+TEST(SharpFeatures, AFitIsCutWhereItIsOnItsPointsBesideASharpTurn) {
+  constexpr double kGrainPx = 0.7, kOffPx = 2.0;
+  ConstructPiece piece;
+  piece.points = piecePoints(alongPolygon({{0, 0}, {150, 0}, {130, 110}}, false, 0.0));
+  piece.grain.sigmaPx = kGrainPx;
+  SmoothSections parts(piece, true, {});
+  const std::vector<ConstructPiece> stretches = parts.stretches();
+  ASSERT_EQ(stretches.size(), 2U);
+  std::vector<ConstructedPiece> fits(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec2 from = stretches[i].points.front().at, to = stretches[i].points.back().at;
+    std::vector<Vec2> controls;
+    for (int k = 0; k <= 5; ++k) controls.push_back(from + (to - from) * (k / 5.0));
+    if (i == 0) controls.back() += Vec2(0.0, kOffPx);
+    std::vector<double> knots(6, 0.0);
+    knots.insert(knots.end(), 6, (to - from).norm());
+    fits[i].curve = NurbsCurve::make(5, std::move(knots), std::move(controls)).value();
+  }
+  EXPECT_FALSE(parts.check(fits, true));
+  const auto whole = parts.joined({});
+  ASSERT_TRUE(whole.has_value()) << whole.error().message;
+  EXPECT_LT(farthest(positionsOf(piece.points), whole->curve), 0.6 * kOffPx);
+}
+
 // Scattered points, or a pen gone wild: thousands of sharp places would each be fitted around, again and again.
 TEST(SharpFeatures, ALineOfMoreThanAThousandIsNotTakenApart) {
   std::vector<Vec2> zigzag;
