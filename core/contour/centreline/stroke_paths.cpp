@@ -23,14 +23,18 @@ constexpr double kLeastLastStepPx = 0.3;  // a shorter last step is left out
 constexpr double kForwardCos = 0.2;       // 78 degrees: a direction that points away by more looks back
 constexpr double kBesideDisc = 2.0;   // [half stroke widths] beyond a junction's disc the other stroke is still near
 constexpr double kReadWidths = 10.0;  // [stroke widths] a shorter edge between shared ink lies in its discs
+constexpr double kHiddenLink = 1.5;   // of the radii of two junctions: a shorter edge between them lies in their discs
+// [deg] by which two strokes bend that are led through it: those that lie side by side in a bundle bend less; and one
+// that goes straight on.
+constexpr double kLeastBend = 25.0, kMostStraightBend = 10.0;
 constexpr double kPlaceWidths = 1.0;  // [stroke widths] beyond the junction: the place that stands for a branch
 
 bool isOfBundles(const EdgeParams& params) { return params.mergeWidths > 0.0 && !params.intent; }
 
 class StrokePathMaker {
  public:
-  StrokePathMaker(const SkeletonGraph& graph, const EdgeParams& params)
-      : graph_(graph), params_(params), ends_(2 * graph.edges().size()), partner_(2 * graph.edges().size()) {}
+  StrokePathMaker(const SkeletonGraph& graph, const EdgeParams& params, JunctionsOf of)
+      : graph_(graph), params_(params), of_(of), ends_(2 * graph.edges().size()), partner_(2 * graph.edges().size()) {}
 
   StrokePathSet make() {
     StrokePathSet found;
@@ -41,6 +45,10 @@ class StrokePathMaker {
       if (!junction) continue;
       junctionOf[i] = static_cast<int>(found.junctions.size());
       found.junctions.push_back(std::move(*junction));
+    }
+    for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
+      // The grain of a pencil makes such edges of its own.
+      if (of_ == JunctionsOf::Pen && isHiddenLink(edge)) pairAcross(edge, junctionOf, found.junctions);
     }
     for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
       if (!isShared(edge)) continue;
@@ -117,6 +125,67 @@ class StrokePathMaker {
     return std::ranges::any_of(node->ends, [&](int other) {
       return !partner_[other] && turnDeg(-ends_[end].out, ends_[other].out) <= params_.maxBendDeg;
     });
+  }
+
+  // Whether an edge between two junctions lies in their discs: it has no direction of its own.
+  bool isHiddenLink(int edge) const {
+    if (!edge_(edge).alive || edge_(edge).ring) return false;
+    const SkeletonNode *a = junctionAt(2 * edge), *b = junctionAt(2 * edge + 1);
+    if (a == nullptr || b == nullptr || a == b || a->leading() != nullptr || b->leading() != nullptr) return false;
+    return edge_(edge).length <= kHiddenLink * (a->radius + b->radius) + 1.0;
+  }
+
+  // What goes on through a hidden link is decided by the ends beyond it at either side: those that are led through it
+  // give way to one that was left open where that goes straight on.
+  void pairAcross(int link, std::span<const std::optional<int>> junctionOf, std::vector<StrokeJunction>& junctions) {
+    const int near[2] = {2 * link, 2 * link + 1};
+    std::vector<int> candidates[2];
+    for (const int side : {0, 1}) {
+      const SkeletonNode& node = *junctionAt(near[side]);
+      const std::optional<int> junction = junctionOf[*edge_(link).node[side]];
+      if (!partner_[near[side]] || !junction || junctions[*junction].choice) return;
+      candidates[side].push_back(*partner_[near[side]]);
+      for (const int end : node.ends)
+        if (!partner_[end]) candidates[side].push_back(end);
+    }
+    PairingScale scale = scaleOf(*junctionAt(near[0]));
+    scale.nodeRadius = std::max(scale.nodeRadius, junctionAt(near[1])->radius);
+    const auto costOf = [&](int a, int b) { return pairCostDeg(ends_[a], ends_[b], scale); };
+    const auto bendOf = [&](int a, int b) { return turnDeg(-ends_[a].out, ends_[b].out); };
+    double least = costOf(candidates[0][0], candidates[1][0]);
+    int best[2] = {candidates[0][0], candidates[1][0]};
+    for (const int a : candidates[0]) {
+      for (const int b : candidates[1]) {
+        if (!(costOf(a, b) < least)) continue;
+        least = costOf(a, b);
+        best[0] = a, best[1] = b;
+      }
+    }
+    if (best[0] == candidates[0][0] && best[1] == candidates[1][0]) return;
+    if (bendOf(candidates[0][0], candidates[1][0]) < kLeastBend || bendOf(best[0], best[1]) > kMostStraightBend) return;
+    for (const int side : {0, 1}) {
+      partner_[candidates[side][0]].reset();
+      partner_[best[side]] = near[side];
+      partner_[near[side]] = best[side];
+      StrokeJunction& junction = junctions[*junctionOf[*edge_(link).node[side]]];
+      const SkeletonNode& node = *junctionAt(near[side]);
+      junction.pairs = pairsAt(node);
+      std::vector<MeetingEnd> meeting;
+      for (const int end : node.ends) meeting.push_back(ends_[end]);
+      junction.pairings = findPairings(meeting, junction.pairs, scaleOf(node)).pairings;
+    }
+  }
+
+  // The partners of a junction's ends, by their indices.
+  EndPairs pairsAt(const SkeletonNode& node) const {
+    EndPairs pairs;
+    for (int i = 0; i < std::ssize(node.ends); ++i) {
+      const std::optional<int> other = partner_[node.ends[i]];
+      if (!other) continue;
+      const auto k = std::ranges::find(node.ends, *other) - node.ends.begin();
+      if (k > i && k < std::ssize(node.ends)) pairs.emplace_back(i, static_cast<int>(k));
+    }
+    return pairs;
   }
 
   // A width beyond the first point with a middle of its own, or where the edge ends.
@@ -221,6 +290,7 @@ class StrokePathMaker {
 
   const SkeletonGraph& graph_;
   const EdgeParams& params_;
+  JunctionsOf of_;
   std::vector<MeetingEnd> ends_;             // per end of an edge
   std::vector<std::optional<int>> partner_;  // the end that an end goes on with
 };
@@ -275,9 +345,10 @@ StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& in
   if (context.isCancelled()) return {};
   pruneSpurs(graph, params.spurFactor);
   const JunctionsOf ofPenOrPencil = ofPencil ? JunctionsOf::Pencil : JunctionsOf::Pen;
-  mergeJunctions(graph, isOfBundles(params) ? JunctionsOf::Bundles : ofPenOrPencil, params.junctions);
+  const JunctionsOf of = isOfBundles(params) ? JunctionsOf::Bundles : ofPenOrPencil;
+  mergeJunctions(graph, of, params.junctions);
   if (context.isCancelled()) return {};
-  return StrokePathMaker(graph, params).make();
+  return StrokePathMaker(graph, params, of).make();
 }
 
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
