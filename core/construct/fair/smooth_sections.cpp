@@ -64,6 +64,11 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   return part;
 }
 
+// Where the user took a bump out that was drawn, the curve leaves its points because he wants it.
+bool isBumpTakenOut(const ConstructPiece& piece) {
+  return std::ranges::any_of(piece.constraints, [](const ExtremumConstraint& c) { return !c.keep; });
+}
+
 Error tooScattered(std::size_t places) {
   return {
       ErrorCode::NoCurve,
@@ -132,10 +137,7 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, C
   std::vector<OutlierFit> leaving;
   bool more = false;
   for (std::size_t i = 0; i < fits_.size(); ++i) {
-    // Where the user took a bump out that was drawn, the curve leaves its points because he wants it.
-    const auto& constraints = pieces[i].constraints;
-    if (std::any_of(constraints.begin(), constraints.end(), [](const ExtremumConstraint& w) { return !w.keep; }))
-      continue;
+    if (isBumpTakenOut(pieces[i])) continue;
     const PointDeviation deviation = pointDeviation(fits_[i].curve, pieces[i], run);
     if (run.isCancelled()) return false;
     const int offset = smooth_[i].first;
@@ -200,6 +202,7 @@ SmoothSections::Stretches SmoothSections::endingOnPoints(CancelCheck run) const 
     return kGrainShare * piece_.grain.sigmaPx + static_cast<double>(point.spreadPx.value_or(0.0f));
   };
   for (std::size_t i = 0; i < fits_.size(); ++i) {
+    if (isBumpTakenOut(pieces[i])) continue;
     const NurbsCurve& curve = fits_[i].curve;
     const std::vector<PiecePoint>& points = pieces[i].points;
     const auto isOff = [&](const Vec2& end, const PiecePoint& point) {

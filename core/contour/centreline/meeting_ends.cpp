@@ -31,7 +31,8 @@ constexpr double kAcrossSin = 0.5;         // 30 degrees: a line is met across
 constexpr double kInkPx = 1.0;             // beyond the widths of two lines: their ink touches still
 constexpr double kTouchHalfWidths = 1.0;   // from a line: an end that comes as close touches it
 constexpr double kMostLedWidths = 12.0;    // on from an end
-constexpr double kLeastRestWidths = 0.75;  // from the anchor to a place where several ends meet
+constexpr double kLeastRestWidths = 0.75;  // from the anchor to a place where several ends meet,
+constexpr double kMostMovedWidths = 2.0;   // and from where one would have ended to there
 constexpr double kMostJump = 1.2;          // of a step, by which a distance changes: more is of another stretch
 constexpr double kOwnWidths = 3.0;         // along a line from its own end: nearer it is the end itself
 // Of two letters that only blur joins the ink between is paler: by so much of their depth at most it is theirs.
@@ -83,7 +84,7 @@ class EndLeader {
 
   std::optional<LineEnd> endOf(int line, int side) const;
   std::optional<LineMeeting> meetingOf(const LineEnd& end) const;
-  bool isInked(const LineEnd& end, const std::vector<Vec2>& way) const;
+  bool isInked(const LineEnd& end, const std::vector<Vec2>& way, const Vec2& onInk) const;
   std::optional<Lead> leadTo(const Lead& lead, const Vec2& place) const;
 
  private:
@@ -219,14 +220,14 @@ std::optional<LineMeeting> EndLeader::meetingAlong(const LineEnd& end, const Way
   return crossed ? crossed : touched;
 }
 
-// Whether the way from the end on to the line met is as dark as the two.
-bool EndLeader::isInked(const LineEnd& end, const std::vector<Vec2>& way) const {
+// Whether the way from the end on is as dark as the line and a place known to lie on ink, as on the line met.
+bool EndLeader::isInked(const LineEnd& end, const std::vector<Vec2>& way, const Vec2& onInk) const {
   const int own = end.anchor - end.last;
   // A pencil pales towards its end.
   if (std::ssize(way) <= own + 1 || !point(end, end.anchor).sigmaPx) return true;
   const Vec2 aside = leftNormal(end.out) * (kPaperWidths * end.widthPx + kPaperPx);
   const double paper = std::max(levelAt(way.front() + aside), levelAt(way.front() - aside));
-  const double ink = std::max(levelAt(way.front()), levelAt(way.back()));
+  const double ink = std::max(levelAt(way.front()), levelAt(onInk));
   const double palest = ink + kMostPaler * std::max(0.0, paper - ink);
   return std::all_of(way.begin() + own, way.end(), [&](const Vec2& at) { return levelAt(at) <= palest; });
 }
@@ -237,14 +238,15 @@ std::optional<Lead> EndLeader::leadTo(const Lead& lead, const Vec2& place) const
   LineEnd& end = on.end;
   end.last = end.anchor;
   const Vec2 anchor = point(end, end.anchor).at, before = point(end, end.anchor + 1).at, rest = place - anchor;
-  if (rest.dot(end.out) < kLeastRestWidths * end.widthPx || rest.norm() > kMostLedWidths * end.widthPx)
+  if (rest.dot(end.out) < kLeastRestWidths * end.widthPx ||
+      (place - lead.meeting.way.back()).norm() > kMostMovedWidths * end.widthPx)
     return std::nullopt;
   std::vector<Vec2>& way = on.meeting.way;
   way.assign(1, anchor);
   for (const Vec2& at : cubicBetween(anchor, (anchor - before).normalized(), place, rest.normalized()))
     way.push_back(at);
   way.push_back(place);
-  return isInked(end, way) ? std::optional(on) : std::nullopt;
+  return isInked(end, way, anchor) ? std::optional(on) : std::nullopt;
 }
 
 // Straight on where that meets a line well across; else as the line bends.
@@ -294,17 +296,19 @@ std::vector<std::optional<int>> leadsMet(const std::vector<Contour>& lines, cons
 }
 
 // The place nearest to the straight lines on which ends run on. Nothing where all run one way.
-std::optional<Vec2> commonPlace(const std::vector<Contour>& lines, const std::vector<Lead*>& leads) {
+std::optional<Vec2> commonPlace(const std::vector<Contour>& lines, const std::vector<Lead>& leads,
+                                const std::vector<int>& chosen) {
   constexpr double kLeastSpread = 0.1;  // of the smaller eigenvalue, of the number of lines
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   Vec2 moment = Vec2::Zero();
-  for (const Lead* lead : leads) {
-    const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - lead->end.out * lead->end.out.transpose();
+  for (const int i : chosen) {
+    const LineEnd& end = leads[i].end;
+    const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - end.out * end.out.transpose();
     sum += across;
-    moment += across * pointFromEnd(lines[lead->end.line], lead->end.side, lead->end.last).at;
+    moment += across * pointFromEnd(lines[end.line], end.side, end.last).at;
   }
   const double half = 0.5 * sum.trace(), least = half - std::sqrt(std::max(0.0, half * half - sum.determinant()));
-  if (least < kLeastSpread * static_cast<double>(leads.size())) return std::nullopt;
+  if (least < kLeastSpread * static_cast<double>(chosen.size())) return std::nullopt;
   return Vec2(sum.inverse() * moment);
 }
 
@@ -322,21 +326,27 @@ void meetInOnePlace(const std::vector<Contour>& lines, const EndLeader& leader, 
       at = *met[at];
     }
     if (!met[at] || round[at] != first) continue;
-    std::vector<Lead*> ring;
+    std::vector<int> ring;
     int next = at;
     do {
-      ring.push_back(&leads[next]);
+      ring.push_back(next);
       next = *met[next];
     } while (next != at);
     if (std::ssize(ring) < kFewest) continue;
-    const std::optional<Vec2> place = commonPlace(lines, ring);
+    const std::optional<Vec2> place = commonPlace(lines, leads, ring);
     std::vector<Lead> led;
-    for (const Lead* lead : ring) {
-      std::optional<Lead> on = place ? leader.leadTo(*lead, *place) : std::nullopt;
+    for (const int i : ring) {
+      std::optional<Lead> on = place ? leader.leadTo(leads[i], *place) : std::nullopt;
       if (on) led.push_back(std::move(*on));
     }
     if (led.size() != ring.size()) continue;
-    for (std::size_t k = 0; k < ring.size(); ++k) *ring[k] = std::move(led[k]);
+    for (std::size_t k = 0; k < ring.size(); ++k) leads[ring[k]] = std::move(led[k]);
+    // An end that was led on to one of theirs goes along.
+    const auto isOfRing = [&](int i) { return std::ranges::find(ring, i) != ring.end(); };
+    for (int i = 0; i < std::ssize(leads); ++i) {
+      if (!met[i] || isOfRing(i) || !isOfRing(*met[i])) continue;
+      if (auto on = leader.leadTo(leads[i], *place)) leads[i] = std::move(*on);
+    }
   }
 }
 
@@ -354,7 +364,8 @@ void leadToLines(std::vector<Contour>& lines, const GreyImage& grey, const RunCo
       const std::optional<LineEnd> end = lines[i].endsInInk[side] ? leader.endOf(i, side) : std::nullopt;
       if (!end) continue;
       std::optional<LineMeeting> meeting = leader.meetingOf(*end);
-      if (meeting && leader.isInked(*end, meeting->way)) leads.push_back({*end, std::move(*meeting)});
+      if (meeting && leader.isInked(*end, meeting->way, meeting->way.back()))
+        leads.push_back({*end, std::move(*meeting)});
     }
   }
   meetInOnePlace(lines, leader, leads);

@@ -41,7 +41,7 @@ class StrokePathMaker {
     const std::vector<std::optional<int>> choiceOf = choicesOfNodes(graph_, params_.junctions);
     std::vector<std::optional<int>> junctionOf(graph_.nodes().size());
     for (int i = 0; i < std::ssize(graph_.nodes()); ++i) {
-      std::optional<StrokeJunction> junction = pair(graph_.nodes()[i], choiceOf[i]);
+      std::optional<StrokeJunction> junction = pair(graph_.nodes()[i]);
       if (!junction) continue;
       junctionOf[i] = static_cast<int>(found.junctions.size());
       found.junctions.push_back(std::move(*junction));
@@ -49,6 +49,10 @@ class StrokePathMaker {
     for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
       // The grain of a pencil makes such edges of its own.
       if (of_ == JunctionsOf::Pen && isHiddenLink(edge)) pairAcross(edge, junctionOf, found.junctions);
+    }
+    for (int i = 0; i < std::ssize(graph_.nodes()); ++i) {
+      if (choiceOf[i])
+        choose(graph_.nodes()[i], *choiceOf[i], junctionOf[i] ? &found.junctions[*junctionOf[i]] : nullptr);
     }
     for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
       if (!isShared(edge)) continue;
@@ -75,30 +79,44 @@ class StrokePathMaker {
   const StrokePathPoint& point(int end, int k) const { return fromEnd(end)[k]; }
 
   // Nothing where less than three ends meet.
-  std::optional<StrokeJunction> pair(const SkeletonNode& node, std::optional<int> choice) {
+  std::optional<StrokeJunction> pair(const SkeletonNode& node) {
     if (node.ends.size() < 2) return std::nullopt;
     std::vector<EdgeFromEnd> edges;
     for (const int end : node.ends) edges.push_back(fromEnd(end));
     const std::vector<MeetingEnd> meeting = measureEnds(edges, node, graph_.medianRadius());
     for (int i = 0; i < std::ssize(meeting); ++i) ends_[node.ends[i]] = meeting[i];
     const EndPairs own = ownPairs(node, edges, meeting);
-    const EndPairs pairs = choice ? chosenPairs(params_.junctions[*choice], edges) : own;
-    for (const auto& [a, b] : pairs) {
-      partner_[node.ends[a]] = node.ends[b];
-      partner_[node.ends[b]] = node.ends[a];
-    }
+    setPartners(node, own);
     if (node.ends.size() < 3) return std::nullopt;
     StrokeJunction junction;
     junction.positionPx = node.centre;
     junction.radiusPx = node.radius;
-    junction.pairs = pairs;
-    junction.choice = choice;
+    junction.pairs = own;
     for (int i = 0; i < std::ssize(edges); ++i) junction.branchesPx.push_back(placeOn(edges[i], meeting[i].first));
     JunctionPairings found = findPairings(meeting, own, scaleOf(node));
     junction.pairings = std::move(found.pairings);
     const LedThrough* led = node.leading();
     junction.isDoubtful = led != nullptr ? led->isDoubtful : found.isDoubtful;
     return junction;
+  }
+
+  void setPartners(const SkeletonNode& node, const EndPairs& pairs) {
+    for (const int end : node.ends) partner_[end].reset();
+    for (const auto& [a, b] : pairs) {
+      partner_[node.ends[a]] = node.ends[b];
+      partner_[node.ends[b]] = node.ends[a];
+    }
+  }
+
+  // As the user paired the ends. @param junction absent: less than three ends meet.
+  void choose(const SkeletonNode& node, int choice, StrokeJunction* junction) {
+    std::vector<EdgeFromEnd> edges;
+    for (const int end : node.ends) edges.push_back(fromEnd(end));
+    const EndPairs pairs = chosenPairs(params_.junctions[choice], edges);
+    setPartners(node, pairs);
+    if (junction == nullptr) return;
+    junction->pairs = pairs;
+    junction->choice = choice;
   }
 
   EndPairs ownPairs(const SkeletonNode& node, std::span<const EdgeFromEnd> edges,
@@ -142,11 +160,10 @@ class StrokePathMaker {
     std::vector<int> candidates[2];
     for (const int side : {0, 1}) {
       const SkeletonNode& node = *junctionAt(near[side]);
-      const std::optional<int> junction = junctionOf[*edge_(link).node[side]];
-      if (!partner_[near[side]] || !junction || junctions[*junction].choice) return;
+      if (!partner_[near[side]] || !junctionOf[*edge_(link).node[side]]) return;
       candidates[side].push_back(*partner_[near[side]]);
       for (const int end : node.ends)
-        if (!partner_[end]) candidates[side].push_back(end);
+        if (!partner_[end] && !isHiddenLink(end / 2)) candidates[side].push_back(end);
     }
     PairingScale scale = scaleOf(*junctionAt(near[0]));
     scale.nodeRadius = std::max(scale.nodeRadius, junctionAt(near[1])->radius);
@@ -162,7 +179,9 @@ class StrokePathMaker {
       }
     }
     if (best[0] == candidates[0][0] && best[1] == candidates[1][0]) return;
-    if (bendOf(candidates[0][0], candidates[1][0]) < kLeastBend || bendOf(best[0], best[1]) > kMostStraightBend) return;
+    if (bendOf(candidates[0][0], candidates[1][0]) < kLeastBend ||
+        bendOf(best[0], best[1]) > std::min(kMostStraightBend, params_.maxBendDeg))
+      return;
     for (const int side : {0, 1}) {
       partner_[candidates[side][0]].reset();
       partner_[best[side]] = near[side];

@@ -13,15 +13,15 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastUnitPx = 3.0;     // blur and mask round a border by about as much
-constexpr double kRoughUnits = 6.0;      // of the roughness
-constexpr double kWidthLimit = 1.5;      // of the usual width: at a junction the ink is wider than the stroke
-constexpr double kSharpRadius = 1.5;     // units
-constexpr double kSharpPencilRadius = 2.0;  // a sketching hand turns round a corner
-constexpr double kSharpSlackPx = 0.4;    // a vertex is known to that
-constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute tips
-constexpr double kPointsPerPx = 4.0;     // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
-constexpr double kPointStepPx = 1.0;     // located points lie as far apart: a rounding may begin behind one
+constexpr double kLeastUnitPx = 3.0;        // blur and mask round a border by about as much
+constexpr double kRoughUnits = 6.0;         // of the roughness
+constexpr double kWidthLimit = 1.5;         // of the usual width: at a junction the ink is wider than the stroke
+constexpr double kSharpRadius = 1.5;        // units
+constexpr double kSharpSketchRadius = 2.0;  // of lines of a pencil or merged from several: a sketching hand turns
+constexpr double kSharpSlackPx = 0.4;       // a vertex is known to that
+constexpr double kFarthestVertex = 2.3;     // units from the line, even for acute tips
+constexpr double kPointsPerPx = 4.0;        // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
+constexpr double kPointStepPx = 1.0;        // located points lie as far apart: a rounding may begin behind one
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
 constexpr double kLeastSide = 2.5, kLeastSideToEnd = 3.0;                    // units: ends have hooks of their own
 constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;                      // a gentler one may be a bend of the line
@@ -91,7 +91,7 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   const double unit = unitAt(e), angle = std::abs(e.angleRad);
   if (!(angle > 0.0)) return 0.0;
   const ContourPoint& turned = contour_.points[e.pointIndex];
-  const bool isPencil = contour_.kind == ContourKind::Centreline && turned.widthPx && !turned.sigmaPx;
+  const bool isSketched = contour_.kind == ContourKind::Centreline && turned.widthPx && !turned.sigmaPx;
   NearestPoint tip{e.pointIndex, 0.0};
   if (e.isLocated)
     tip = nearestAlong(contour_, e.pointIndex, e.positionPx, static_cast<int>(kPointsPerPx * kFarthestVertex * unit));
@@ -118,7 +118,7 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   };
   if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
   if (e.isLocated) {
-    const double sharp = isPencil ? kSharpPencilRadius : kSharpRadius;
+    const double sharp = isSketched ? kSharpSketchRadius : kSharpRadius;
     double rounded = tip.distance / (sharp * unit * (1.0 / std::cos(0.5 * angle) - 1.0) + kSharpSlackPx);
     // The guesses that stand for a lost tip say less than how far the sides were seen to go.
     if (isTipLost) rounded = std::min(rounded, unseenRadius(e, tip.index) / (sharp * unit));

@@ -230,14 +230,18 @@ std::vector<bool> findLattices(const Marks& marks, const std::vector<std::option
   return isOne;
 }
 
-// A row drawn by hand bends and its dots are uneven: marks ahead of a member of a row, or between two, are of it too.
-// @return by mark, whether it is of a row.
+// A row drawn by hand bends and its dots are uneven: marks ahead of a member of a row, or between two, are of it too,
+// and what follows them if they have a neighbour in the same direction themselves. @return by mark, whether it is of a
+// row.
 std::vector<bool> grownRows(std::vector<bool> isOfRow, const Marks& marks,
                             const std::vector<std::optional<Member>>& members, const std::vector<bool>& isLattice,
                             int width) {
   constexpr double kSizesAlike = 4.0;  // areas, of which a raster makes much where they are small
   constexpr double kAheadCos = 0.866;  // 30 degrees beside the row
   const MarkGrid grid(marks, width);
+  const auto isAhead = [&](int mark, const Vec2& way) {
+    return std::abs(way.dot(unitOf(members[mark]->direction))) >= kAheadCos * way.norm();
+  };
   std::vector<int> next;
   for (int i = 0; i < std::ssize(isOfRow); ++i)
     if (isOfRow[i]) next.push_back(i);
@@ -245,17 +249,15 @@ std::vector<bool> grownRows(std::vector<bool> isOfRow, const Marks& marks,
     const int at = next.back();
     next.pop_back();
     if (!members[at]) continue;
-    const Vec2 u = unitOf(members[at]->direction);
     const auto area = static_cast<double>(marks.all[at].pixels.size());
     const double reachPx = kMostMarkGap * kLeastLengthWidths * std::sqrt(area);
     grid.around(marks.all[at].middle, reachPx, [&](int mark) {
       if (isOfRow[mark] || isLattice[mark]) return false;
       const auto other = static_cast<double>(marks.all[mark].pixels.size());
       const Vec2 way = marks.all[mark].middle - marks.all[at].middle;
-      if (std::max(area, other) > kSizesAlike * std::min(area, other) || std::abs(way.dot(u)) < kAheadCos * way.norm())
-        return false;
+      if (std::max(area, other) > kSizesAlike * std::min(area, other) || !isAhead(at, way)) return false;
       isOfRow[mark] = true;
-      next.push_back(mark);
+      if (members[mark] && isAhead(mark, way)) next.push_back(mark);
       return false;
     });
   }

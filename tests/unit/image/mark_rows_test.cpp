@@ -57,8 +57,8 @@ TEST(MarkRows, ADottedRowDrawnByHandStaysWholeAndDirtBesideItGoes) {
     if (i < steps.size()) at += steps[i] * Vec2(std::cos(turns[i]), std::sin(turns[i]));
   }
   BitImage dirt(kSide, kSide);
-  for (const Vec2& off : {Vec2(100.0, 110.0), Vec2(170.0, 200.0), Vec2(200.0, 90.0)})
-    drawDash(dirt, off, 0.0, 4.0, 4.0);
+  for (const Vec2& speck : {Vec2(100.0, 128.0), Vec2(113.0, 119.0), Vec2(160.0, 176.0), Vec2(171.0, 192.0)})
+    drawDash(dirt, speck, 0.0, 4.0, 4.0);
   const BitImage all = either(row, dirt);
   EXPECT_EQ(marksInRows(all, all, {}), row);
 }
