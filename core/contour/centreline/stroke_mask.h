@@ -13,8 +13,8 @@ BitImage closeInk(const BitImage& ink, double diameterPx, const RunContext& cont
 /// [px] Diameter that closes the grain of pencil strokes of this width [px].
 double grainClosing(double widthPx);
 
-/// Ink of a pencil with its grain closed, given the width [px] of its strokes. On a fine page (fine_page.h) ink that the
-/// grain does not tear stays as it is, with the counters of small letters. Throws as closeInk().
+/// Ink of a pencil with its grain closed, given the width [px] of its strokes. On a fine page (fine_page.h) ink that
+/// the grain does not tear stays as it is, with the counters of small letters. Throws as closeInk().
 BitImage closeGrain(const BitImage& ink, double widthPx, bool isFinePage, const RunContext& context);
 
 /// The pieces of `closed` of which at least `share` (0..1) is `ink`.
