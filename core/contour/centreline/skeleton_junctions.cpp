@@ -175,7 +175,7 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks() {
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
     if (isInTangle_[*l.node[0]] || isInTangle_[*l.node[1]]) continue;
     shared_[i] = isOfBundles() ? std::nullopt : findSharedInk(graph_, i);
-    isLink_[i] = shared_[i] || l.length <= std::max(kOneJunction * (a.radius + b.radius) + 1.0, sharedLength(i));
+    isLink_[i] = shared_[i] || liesInDiscs(l, a, b) || l.length <= sharedLength(i);
     if (isLink_[i]) links.emplace_back(l.length, i);
   }
   std::sort(links.begin(), links.end());
@@ -311,6 +311,10 @@ void JunctionMerger::merge(std::span<const JunctionChoice> choices) {
 }
 
 }  // namespace
+
+bool liesInDiscs(const SkeletonEdge& edge, const SkeletonNode& a, const SkeletonNode& b) {
+  return edge.length <= kOneJunction * (a.radius + b.radius) + 1.0;
+}
 
 void mergeJunctions(SkeletonGraph& graph, JunctionsOf of, std::span<const JunctionChoice> choices) {
   JunctionMerger(graph, of).merge(choices);

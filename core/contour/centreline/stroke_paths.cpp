@@ -23,9 +23,8 @@ constexpr double kLeastLastStepPx = 0.3;  // a shorter last step is left out
 constexpr double kForwardCos = 0.2;       // 78 degrees: a direction that points away by more looks back
 constexpr double kBesideDisc = 2.0;   // [half stroke widths] beyond a junction's disc the other stroke is still near
 constexpr double kReadWidths = 10.0;  // [stroke widths] a shorter edge between shared ink lies in its discs
-constexpr double kHiddenLink = 1.5;   // of the radii of two junctions: a shorter edge between them lies in their discs
-// [deg] by which two strokes bend that are led through it: those that lie side by side in a bundle bend less; and one
-// that goes straight on.
+// [deg] by which two strokes bend that are led through a hidden link: those that lie side by side in a bundle bend
+// less; and one that goes straight on.
 constexpr double kLeastBend = 25.0, kMostStraightBend = 10.0;
 constexpr double kPlaceWidths = 1.0;  // [stroke widths] beyond the junction: the place that stands for a branch
 
@@ -76,13 +75,17 @@ class StrokePathMaker {
  private:
   const SkeletonEdge& edge_(int i) const { return graph_.edges()[i]; }
   EdgeFromEnd fromEnd(int end) const { return {edge_(end / 2).points, end % 2}; }
+  std::vector<EdgeFromEnd> edgesOf(const SkeletonNode& node) const {
+    std::vector<EdgeFromEnd> edges;
+    for (const int end : node.ends) edges.push_back(fromEnd(end));
+    return edges;
+  }
   const StrokePathPoint& point(int end, int k) const { return fromEnd(end)[k]; }
 
   // Nothing where less than three ends meet.
   std::optional<StrokeJunction> pair(const SkeletonNode& node) {
     if (node.ends.size() < 2) return std::nullopt;
-    std::vector<EdgeFromEnd> edges;
-    for (const int end : node.ends) edges.push_back(fromEnd(end));
+    const std::vector<EdgeFromEnd> edges = edgesOf(node);
     const std::vector<MeetingEnd> meeting = measureEnds(edges, node, graph_.medianRadius());
     for (int i = 0; i < std::ssize(meeting); ++i) ends_[node.ends[i]] = meeting[i];
     const EndPairs own = ownPairs(node, edges, meeting);
@@ -110,9 +113,7 @@ class StrokePathMaker {
 
   // As the user paired the ends. @param junction absent: less than three ends meet.
   void choose(const SkeletonNode& node, int choice, StrokeJunction* junction) {
-    std::vector<EdgeFromEnd> edges;
-    for (const int end : node.ends) edges.push_back(fromEnd(end));
-    const EndPairs pairs = chosenPairs(params_.junctions[choice], edges);
+    const EndPairs pairs = chosenPairs(params_.junctions[choice], edgesOf(node));
     setPartners(node, pairs);
     if (junction == nullptr) return;
     junction->pairs = pairs;
@@ -145,12 +146,12 @@ class StrokePathMaker {
     });
   }
 
-  // Whether an edge between two junctions lies in their discs: it has no direction of its own.
+  // Whether an edge between two junctions lies in their discs.
   bool isHiddenLink(int edge) const {
     if (!edge_(edge).alive || edge_(edge).ring) return false;
     const SkeletonNode *a = junctionAt(2 * edge), *b = junctionAt(2 * edge + 1);
     if (a == nullptr || b == nullptr || a == b || a->leading() != nullptr || b->leading() != nullptr) return false;
-    return edge_(edge).length <= kHiddenLink * (a->radius + b->radius) + 1.0;
+    return liesInDiscs(edge_(edge), *a, *b);
   }
 
   // What goes on through a hidden link is decided by the ends beyond it at either side: those that are led through it
