@@ -74,7 +74,7 @@ class FinishedFit {
 
  private:
   void simple(const char* note) {
-    auto curve = placed(simpleCurve(piece_.data, piece_.pins), piece_, in_);
+    auto curve = placed(simpleCurve(piece_.data, piece_.pins, missAllowedPx(in_)), piece_, in_);
     if (!curve) {
       piece_.result = fail(curve.error());
       return;

@@ -105,6 +105,14 @@ void trimFreeEnds(FairPiece& piece) {
 
 }  // namespace
 
+double missAllowedPx(const ConstructPiece& piece) {
+  constexpr double kLeastPx = 0.3, kOfWidth = 0.1;
+  std::vector<double> widths;
+  for (const PiecePoint& p : piece.points)
+    if (p.widthPx && std::isfinite(*p.widthPx)) widths.push_back(*p.widthPx);
+  return widths.empty() ? kLeastPx : std::max(kLeastPx, kOfWidth * upperMedian(widths));
+}
+
 double medianSpacing(const FairData& data) {
   std::vector<double> gaps;
   for (int i = 1; i < std::ssize(data.points); ++i) gaps.push_back((data.points[i].at - data.points[i - 1].at).norm());

@@ -26,6 +26,10 @@ inline constexpr double kMeanShare = 0.07;
 /// @param grain noise density of the stroke's grain (stroke_grain.h): the noise is nowhere less.
 void weighByNoise(FairData&, const LocalNoise&, double measured, double floor, double grain);
 
+/// [px] By which the curve of a piece too short for the fair fit may miss its points: of a stroke that is seen against
+/// its width.
+double missAllowedPx(const ConstructPiece&);
+
 /// [px] Median distance of neighbours; 1 for a single point.
 double medianSpacing(const FairData&);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -20,28 +21,51 @@ namespace {
 // length of a piece that shows no bend, and one that shows no change of it
 constexpr double kStraightBelowPx = 12.0, kQuadraticBelowPx = 25.0;
 constexpr int kFewestCurved = 4, kFewestCubic = 8;  // points: fewer show no bend, no change of it
-constexpr double kSolved = 1e-6;                    // of the right side: a solution that misses it by more is none
-constexpr int kCircleRounds = 8;                    // of Gauss and Newton, from a good start
-constexpr double kCircleSettled = 1e-10;            // of the radius: a smaller step changes nothing
-constexpr double kLoopCutoffShare = 0.25;           // of the length of a small closed line: shorter waves are noise
-constexpr double kLoopSpacingPx = 16.0;             // of its knots
-constexpr double kPinWeight = 1e8;  // of an exact end, in weights of a point; openCurve() sets the last digits
+constexpr int kHighestDegree = 5;
+constexpr double kPointsPerDegree = 3.0;   // at least: fewer would be led through their noise
+constexpr int kMissPoints = 5;             // over which a miss is a mean: a few px of line, as noise is short
+constexpr double kMuchNearer = 0.7;        // of the miss before: less is not worth a degree
+constexpr double kSolved = 1e-6;           // of the right side: a solution that misses it by more is none
+constexpr int kCircleRounds = 8;           // of Gauss and Newton, from a good start
+constexpr double kCircleSettled = 1e-10;   // of the radius: a smaller step changes nothing
+constexpr double kLoopCutoffShare = 0.25;  // of the length of a small closed line: shorter waves are noise
+constexpr double kLoopSpacingPx = 16.0;    // of its knots
+constexpr double kPinWeight = 1e8;         // of an exact end, in weights of a point; openCurve() sets the last digits
 
-/// A piece of 2, 3 or 4 Bezier points.
+std::vector<Vec2> pointsOf(const Quintic& q) { return {q.begin(), q.end()}; }
+
+/// A piece of 2 to 6 Bezier points.
 Result<NurbsCurve> bezier(const std::vector<Vec2>& p, double length) {
-  const Quintic quintic = p.size() == 2   ? elevatedLine(p[0], p[1])
-                          : p.size() == 3 ? elevatedQuadratic(p[0], p[1], p[2])
-                                          : elevatedCubic(p[0], p[1], p[2], p[3]);
+  std::vector<Vec2> quintic;
+  if (p.size() == 2) {
+    quintic = pointsOf(elevatedLine(p[0], p[1]));
+  } else if (p.size() == 3) {
+    quintic = pointsOf(elevatedQuadratic(p[0], p[1], p[2]));
+  } else if (p.size() == 4) {
+    quintic = pointsOf(elevatedCubic(p[0], p[1], p[2], p[3]));
+  } else if (p.size() == 5) {
+    quintic = {p[0]};
+    for (int k = 1; k <= 4; ++k) quintic.push_back(p[k] + 0.2 * k * (p[k - 1] - p[k]));
+    quintic.push_back(p[4]);
+  } else {
+    quintic = p;
+  }
   std::vector<double> knots(6, 0.0);
   knots.insert(knots.end(), 6, length);
-  return NurbsCurve::make(5, std::move(knots), {quintic.begin(), quintic.end()});
+  return NurbsCurve::make(5, std::move(knots), std::move(quintic));
 }
 
-Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const std::vector<double>& t) {
+// A polynomial through points, by its Bezier points.
+struct OpenFit {
+  std::vector<Vec2> points;  ///< [px]
+  bool isSound = false;      ///< The system had a solution.
+};
+
+// Least squares over parameters t in 0..length. A straight piece of few points joins its ends; otherwise only corners
+// are exact.
+OpenFit fitPolynomial(const FairData& data, const FairPins& pins, const std::vector<double>& t, int degree,
+                      bool isFew) {
   const double length = t.back();
-  const int used = static_cast<int>(std::ranges::count(data.points, true, &FairPoint::use));
-  const bool straight = length < kStraightBelowPx || used < kFewestCurved;
-  const int degree = straight ? 1 : length < kQuadraticBelowPx || used < kFewestCubic ? 2 : 3;
   const int n = degree + 1;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n), right = Eigen::MatrixXd::Zero(n, 2);
   const auto add = [&](double u, const Vec2& p, double w) {
@@ -53,18 +77,59 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const s
   for (int i = 0; i < std::ssize(data.points); ++i) {
     if (data.points[i].use) add(t[i] / length, data.points[i].at, 1.0);
   }
-  // A straight piece of few points joins its ends; otherwise only corners are exact.
   const Vec2 first = pins.start.value_or(data.points.front().at), last = pins.end.value_or(data.points.back().at);
-  if (pins.start || used < kFewestCurved) add(0.0, first, kPinWeight);
-  if (pins.end || used < kFewestCurved) add(1.0, last, kPinWeight);
+  if (pins.start || isFew) add(0.0, first, kPinWeight);
+  if (pins.end || isFew) add(1.0, last, kPinWeight);
   const Eigen::MatrixXd solution = solveSymmetric(normal, right);
-  std::vector<Vec2> points;
-  for (int i = 0; i < n; ++i) points.emplace_back(solution(i, 0), solution(i, 1));
-  const bool sound = solution.allFinite() && (normal * solution - right).norm() <= kSolved * (1.0 + right.norm());
-  if (!sound) points = {first, last};
-  if (pins.start) points.front() = first;
-  if (pins.end) points.back() = last;
-  return bezier(points, length);
+  OpenFit fit;
+  for (int i = 0; i < n; ++i) fit.points.emplace_back(solution(i, 0), solution(i, 1));
+  fit.isSound = solution.allFinite() && (normal * solution - right).norm() <= kSolved * (1.0 + right.norm());
+  if (pins.start) fit.points.front() = first;
+  if (pins.end) fit.points.back() = last;
+  return fit;
+}
+
+// [px] Largest distance of the points from the curve at their parameters, in the mean of a few neighbours: what is not
+// their noise.
+double missOf(const FairData& data, const std::vector<double>& t, const std::vector<Vec2>& points) {
+  std::vector<Vec2> off;
+  for (int i = 0; i < std::ssize(data.points); ++i) {
+    if (!data.points[i].use) continue;
+    const auto values = bernsteinPolynomials(static_cast<int>(points.size()) - 1, t[i] / t.back());
+    Vec2 on = Vec2::Zero();
+    for (std::size_t k = 0; k < points.size(); ++k) on += values[k] * points[k];
+    off.push_back(data.points[i].at - on);
+  }
+  const int count = static_cast<int>(off.size()), taken = std::min(kMissPoints, count);
+  double most = 0.0;
+  for (int i = 0; i + taken <= count && taken > 0; ++i) {
+    Vec2 sum = Vec2::Zero();
+    for (int k = 0; k < taken; ++k) sum += off[i + k];
+    most = std::max(most, sum.norm() / taken);
+  }
+  return most;
+}
+
+Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, const std::vector<double>& t,
+                             double tolerancePx) {
+  const double length = t.back();
+  const int used = static_cast<int>(std::ranges::count(data.points, true, &FairPoint::use));
+  const bool isFew = used < kFewestCurved, isStraight = length < kStraightBelowPx || isFew;
+  int degree = isStraight ? 1 : length < kQuadraticBelowPx || used < kFewestCubic ? 2 : 3;
+  OpenFit fit = fitPolynomial(data, pins, t, degree, isFew);
+  // A small letter turns as much as a large one: what a low degree misses by more than noise asks for a higher one.
+  const int highest = isFew ? 1 : std::min(kHighestDegree, static_cast<int>(used / kPointsPerDegree));
+  double miss = fit.isSound ? missOf(data, t, fit.points) : std::numeric_limits<double>::infinity();
+  while (miss > tolerancePx && degree < highest) {
+    OpenFit higher = fitPolynomial(data, pins, t, ++degree, isFew);
+    const double missed = higher.isSound ? missOf(data, t, higher.points) : std::numeric_limits<double>::infinity();
+    if (!(missed < kMuchNearer * miss)) continue;
+    fit = std::move(higher);
+    miss = missed;
+  }
+  if (!fit.isSound)
+    fit.points = {pins.start.value_or(data.points.front().at), pins.end.value_or(data.points.back().at)};
+  return bezier(fit.points, length);
 }
 
 }  // namespace
@@ -164,7 +229,7 @@ Result<NurbsCurve> lineCurve(const LineFit& line, const Vec2& first, const Vec2&
   return bezier({a, b}, (b - a).norm());
 }
 
-Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins) {
+Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins, double tolerancePx) {
   const auto nothing = [] {
     return fail(ErrorCode::Numerical, "A line is too short for a curve; drop short lines or specks.");
   };
@@ -177,7 +242,7 @@ Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins) {
     weights.push_back(p.use ? 1.0 : 0.0);
   }
   if (!(t.back() > 0.0) || !std::isfinite(t.back())) return nothing();
-  if (!data.closed) return openCurve(data, pins, t);
+  if (!data.closed) return openCurve(data, pins, t, tolerancePx);
   const double length = t.back() + (points.front() - points.back()).norm();
   const double lambda = cutoffPenalty(data.density, kLoopCutoffShare * length);
   const auto loop = fitUniformQuintic(fairKnots(length, kLoopSpacingPx, true), t, points, weights, lambda);

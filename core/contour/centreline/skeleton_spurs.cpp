@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -21,7 +22,16 @@ constexpr double kStrokeOut = 0.8;         // of a spur's length: a stroke stand
 constexpr double kLeastEdgeWidths = 3.0;   // [stroke widths] shorter edges have no direction
 // Out of the disc and as far again; 3 px keep a single step of a skeleton below 20 degrees where strokes are thin.
 constexpr double kCornerReachRadii = 2.0, kCornerReachPx = 3.0;
-constexpr double kAcute = 0.26;  // cos 75 deg
+constexpr double kAcute = 0.26;                      // cos 75 deg
+constexpr double kTipSlack = 1.25, kRadiusPx = 0.5;  // of the branch to a tip; to which a radius is known
+
+// [px] Length of the branch to the tip of a sharp turn of a stroke of this radius. It begins where a disc of radius
+// `inside` touches both outer borders and the notch between the inner ones, which sets the angle; there the ink falls
+// to the stroke's own radius at the turning point, and the branch ends on the border at most.
+double branchToTip(double inside, double stroke) {
+  if (inside >= 2.0 * stroke) return std::numeric_limits<double>::infinity();  // the sides lie on one another
+  return std::max(0.0, inside - stroke) * inside / (2.0 * stroke - inside) + stroke;
+}
 
 class SpurPruner {
  public:
@@ -39,12 +49,14 @@ class SpurPruner {
   SkeletonGraph& graph_;
 };
 
-// A sharp turn of one stroke: the two other edges lie close together and the branch points out between them.
+// A sharp turn of one stroke: the two other edges lie close together and the branch points out between them, no farther
+// than to the tip of such a corner. The leg of an A below its bar goes farther.
 bool SpurPruner::closesCorner(int edge, int node) const {
   const SkeletonNode& n = graph_.node(node);
   if (n.ends.size() != 3) return false;
   const double reach = kCornerReachRadii * n.radius + kCornerReachPx;
   Vec2 spur = Vec2::Zero(), other[2];
+  double radius = std::numeric_limits<double>::infinity();  // of the sides
   int k = 0;
   for (const int end : n.ends) {
     const Vec2 d = leavingDirection(graph_.edge(end / 2), end % 2, n.centre, reach);
@@ -52,10 +64,11 @@ bool SpurPruner::closesCorner(int edge, int node) const {
       spur = d;
     } else if (k < 2) {
       other[k++] = d;
+      radius = std::min(radius, graph_.meanRadius(end / 2));
     }
   }
-  if (k != 2) return false;
-  return other[0].dot(other[1]) > kAcute && spur.dot(other[0] + other[1]) < 0.0;
+  if (k != 2 || other[0].dot(other[1]) <= kAcute || spur.dot(other[0] + other[1]) >= 0.0) return false;
+  return graph_.edge(edge).length <= kTipSlack * branchToTip(n.radius + kRadiusPx, radius) + 1.0;
 }
 
 // A short stroke, as the stem of a letter beyond its bowl: it stands out of the ink of the others as broad as they are,
@@ -64,12 +77,17 @@ bool SpurPruner::isStroke(int edge, int tip, double factor) const {
   const SkeletonEdge& l = graph_.edge(edge);
   const SkeletonNode& n = graph_.node(*l.node[1 - tip]);
   double usual = graph_.medianRadius();
+  int longEdges = 0;
   for (const int end : n.ends) {
     if (end / 2 == edge) continue;
     const double radius = graph_.meanRadius(end / 2);
-    if (graph_.edge(end / 2).length < kLeastEdgeWidths * 2.0 * radius) return false;
+    if (graph_.edge(end / 2).length >= kLeastEdgeWidths * 2.0 * radius) ++longEdges;
     usual = std::min(usual, radius);
   }
+  // Where it leaves one line, that may end nearby, as in a letter; around a mesh of a net or a hole of the grain all
+  // edges are short.
+  const int others = static_cast<int>(n.ends.size()) - 1;
+  if (longEdges < (others == 2 ? 1 : others)) return false;
   double out = 0.0;
   for (const StrokePathPoint& p : l.points) {
     const double radius = static_cast<double>(p.radius);

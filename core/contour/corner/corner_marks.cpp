@@ -18,6 +18,7 @@ constexpr double kSamePlacePx = 2.0;  // marks whose points are as near stand fo
 constexpr double kSliverPx = 12.0;    // a piece shorter than this has no points beyond the rounded zones of its corners
 constexpr float kCornerSigmaPx = 0.1f;  // [px] noise assumed of a corner that is all its piece has
 constexpr double kGuessedZonePx = 0.5;  // of a corner that was not located: its point itself
+constexpr double kLeastAsidePx = 1.5;   // of a line so thin that half its width says nothing
 constexpr double kZonesLookedAt = 3.0;  // zones, and a sliver: what lies farther from a corner cannot be behind it
 constexpr int kManyMarks = 16;          // from here on sorting the points of the drawing pays
 
@@ -43,21 +44,34 @@ void locate(const Contour& contour, const GreyImage* grey, const RunContext& con
   }
 }
 
+// Whether the first `count` points from an end of a piece lie along the straight way from the corner to the next one,
+// within half the stroke.
+bool areOnTheWay(const Piece& piece, bool fromEnd, const Vec2& corner, int count) {
+  const int n = static_cast<int>(piece.points.size());
+  const auto point = [&](int k) -> const PiecePoint& { return piece.points[fromEnd ? n - 1 - k : k]; };
+  if (count >= n) return true;
+  for (int k = 0; k < count; ++k) {
+    const double half = std::max(kLeastAsidePx, 0.5 * static_cast<double>(point(k).widthPx.value_or(0.0f)));
+    if (awayFromSegment(point(k).at, corner, point(count).at).norm() > half) return false;
+  }
+  return true;
+}
+
 // How many points to leave out at one end of a piece: those inside the rounded zone, those that lie behind the corner,
-// and beyond them those that were not measured but laid between measured ones.
+// and beyond them those that were not measured but laid between measured ones, unless the line bends there.
 int pointsToDrop(const Piece& piece, bool isPen, bool fromEnd, const Vec2& corner, double zone) {
   const int n = static_cast<int>(piece.points.size());
-  int drop = 0;
+  int drop = 0, guessed = 0;
   double arc = 0.0;
   for (int k = 0; k < n; ++k) {
     const int i = fromEnd ? n - 1 - k : k;
     const Vec2& p = piece.points[i].at;
     if (k > 0) arc += (p - piece.points[fromEnd ? n - k : k - 1].at).norm();
     if (arc > kZonesLookedAt * zone + kSliverPx) break;
-    const bool guessed = drop == k && !piece.points[i].refined && !isPen;
-    if ((p - corner).norm() < zone || arc < zone || guessed) drop = k + 1;
+    if ((p - corner).norm() < zone || arc < zone) drop = k + 1;
+    if (std::max(drop, guessed) == k && !piece.points[i].refined && !isPen) guessed = k + 1;
   }
-  return drop;
+  return guessed > drop && areOnTheWay(piece, fromEnd, corner, guessed) ? guessed : drop;
 }
 
 // What a corner knows where its piece has no other point.

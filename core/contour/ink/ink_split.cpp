@@ -117,7 +117,7 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
   return pen;
 }
 
-// Of what a pencil drew, the paper within pieces no larger than a line of lettering.
+// Of the closed ink of a pencil, the paper within pieces no larger than a line of lettering.
 BitImage paperInLettering(const BitImage& pencil, const GreyImage& grey, const PaperBackground& sheet, double penPx,
                           const RunContext& context) {
   constexpr double kLongestWidths = 64.0;  // a dozen letters
@@ -151,7 +151,12 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
     const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink, strokes = both(BitImage(pens), split.strokes);
     const BitImage open = withoutClosedPaper(strokes, grey, *paper.sheet, *split.penPx, context);
     BitImage clear;
-    if (pencil.any()) clear = paperInLettering(without(BitImage(ink), pens), grey, *paper.sheet, *split.penPx, context);
+    if (pencil.any()) {
+      const double pencilPx = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
+      const Result<BitImage> drawn = withGrainClosed(without(BitImage(ink), pens), pencilPx, page != nullptr, context);
+      if (!drawn) return fail(drawn.error());
+      clear = paperInLettering(*drawn, grey, *paper.sheet, *split.penPx, context);
+    }
     if (context.isCancelled()) return cancelled();
     if (open != strokes || clear.count() > 0) {
       BitImage opened = either(without(BitImage(ink), strokes), open);

@@ -102,6 +102,32 @@ TEST(FairFit, TinyPiecesDoNotSpoilAContour) {
   }
 }
 
+// The c of a small caption turns as far as a large one.
+TEST(FairFit, ASmallBowKeepsItsShape) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0.0, 0.1);
+  for (const double radius : {4.0, 5.5, 7.0}) {
+    std::vector<Vec2> truth, points;
+    const int count = static_cast<int>(std::lround(5.0 * radius));  // 5 radians, a point a pixel: below 40 px
+    for (int i = 0; i <= count; ++i) {
+      const Vec2 out(std::cos(5.0 * i / count), std::sin(5.0 * i / count));
+      truth.push_back(radius * out);
+      points.push_back((radius + normal(random)) * out);
+    }
+    const auto fit = test::fitOne(points, false);
+    ASSERT_TRUE(fit.has_value());
+    const NurbsCurve& c = fit->front().curve;
+    double farthest = 0.0;
+    for (const Vec2& p : truth) {
+      double nearest = 1e9;
+      for (int k = 0; k <= 200; ++k)
+        nearest = std::min(nearest, (c.point(c.start() + k / 200.0 * (c.end() - c.start())) - p).norm());
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_LT(farthest, 0.5) << radius;
+  }
+}
+
 TEST(FairFit, StandsStraysRepeatedPointsAndPerfectData) {
   const auto truth = test::curveOfCurvature(500.0, [](double s) { return 0.006 * std::sin(s / 80.0); });
   auto points = test::noisyPoints(truth, 0.127, 4);

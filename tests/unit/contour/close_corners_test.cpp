@@ -72,5 +72,42 @@ TEST(CornerMarks, CornersThatLeaveASliverAreNamed) {
   EXPECT_EQ(two->closeCorners.size(), 1u);
 }
 
+/// Points beyond a corner that were laid through a junction, about a pixel apart along `beyond`, with measured ones
+/// before the corner and after them.
+ContourSet laidBeyondACorner(const std::vector<Vec2>& beyond) {
+  ContourSet set = contourThrough({{60, 100}, beyond.front()}, false);
+  std::vector<ContourPoint>& points = set.contours[0].points;
+  for (const ContourPoint& p : contourPoints(beyond, false)) points.push_back(p);
+  std::vector<Vec2> on;
+  const Vec2 along = (beyond.back() - beyond[beyond.size() - 2]).normalized();
+  for (int k = 1; k <= 40; ++k) on.push_back(beyond.back() + k * along);
+  for (const ContourPoint& p : contourPoints(on, true)) points.push_back(p);
+  for (ContourPoint& p : points) p.widthPx = 4.0f;
+  return set;
+}
+
+// Beside a corner of two strokes such points round the turn; a bow that they go round is the line's own.
+TEST(CornerMarks, WhatWasLaidBesideACornerStaysWhereTheLineBends) {
+  constexpr double kRadius = 7.0;
+  const Vec2 corner(140, 100);
+  std::vector<Vec2> bow, straight;
+  for (int k = 0; k <= 22; ++k) {
+    const double angle = k / kRadius;
+    bow.push_back(corner + kRadius * Vec2(1.0 - std::cos(angle), -std::sin(angle)));
+    straight.push_back(corner + Vec2(0.0, -1.0 * k));
+  }
+  const auto nearestTo = [&](const std::vector<Vec2>& beyond) {
+    const ContourSet set = laidBeyondACorner(beyond);
+    const auto pieces = splitAtCorners(set, std::vector<CornerMark>{{corner}}, {}, {});
+    EXPECT_TRUE(pieces && pieces->pieces.size() == 2u);
+    double nearest = 1e9;
+    if (!pieces || pieces->pieces.size() != 2u) return nearest;
+    for (const PiecePoint& p : pieces->pieces[1].points) nearest = std::min(nearest, (p.at - beyond[11]).norm());
+    return nearest;
+  };
+  EXPECT_LT(nearestTo(bow), 1.0);
+  EXPECT_GT(nearestTo(straight), 5.0);
+}
+
 }  // namespace
 }  // namespace batten

@@ -125,5 +125,26 @@ TEST(StrokeStubs, AShortStemStandsOutOfABowl) {
   }
 }
 
+TEST(StrokeStubs, TheLegsOfAnAGoOnBelowItsBar) {
+  // The bar and the upper half of a leg make an acute corner, from which the lower half points away.
+  constexpr double kTop = 40.0, kBar = 80.0, kFoot = 104.0, kSpread = 0.4;
+  const auto leg = [](double side, double y) { return Vec2(200.0 + side * kSpread * (y - kTop), y); };
+  for (const double pen : {7.0, 9.0, 11.0}) {
+    const test::InkPage page = test::scannedInks({stroke({leg(-1.0, kFoot), leg(0.0, kTop), leg(1.0, kFoot)}, pen),
+                                                  stroke({leg(-1.0, kBar), leg(1.0, kBar)}, pen)},
+                                                 kPageWidth, kPageHeight, 4.0);
+    const auto set = centrelines(page.ink, page.grey, {}, {});
+    ASSERT_TRUE(set) << pen;
+    for (const double side : {-1.0, 1.0}) {
+      for (const double y : {0.5 * (kBar + kFoot), kFoot - 0.25 * pen}) {
+        double nearest = 1e9;
+        for (const Contour& c : set->contours)
+          for (const ContourPoint& p : c.points) nearest = std::min(nearest, (p.at - leg(side, y)).norm());
+        EXPECT_LT(nearest, 0.3 * pen) << pen << " " << side << " " << y;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten
