@@ -13,6 +13,7 @@
 #include "core/image/binding_holes.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/colour/coloured_ink.h"
+#include "core/image/pencil_tones.h"
 #include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/remove_rulings.h"
 #include "core/image/ruling/ruling_count.h"
@@ -151,7 +152,8 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
 }
 
 void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& context) {
-  const std::optional<ToneAreas> areas = findToneAreas(greyOf(scan, page), context);
+  std::optional<ToneAreas> areas = findToneAreas(greyOf(scan, page), context);
+  if (!areas && !context.isCancelled()) areas = findPencilTones(greyOf(scan, page), context);
   if (!areas || context.isCancelled()) return;
   page.grey = withoutTones(page.grey ? std::move(*page.grey) : scan.grey, *areas, context);
   page.shadedShare = areas->share;

@@ -7,14 +7,12 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/base/parallel.h"
 #include "core/image/grown_mask.h"
 #include "core/image/tone_look.h"
 
 namespace batten {
 namespace {
 
-constexpr int kLongestSidePx = 1750;    // of the copy that is searched, which has half of that at least
 constexpr double kAroundTone = 1.2;     // of the longest tone: the window in which its paper is seen
 constexpr double kDarkestTone = 190.0;  // [of 255] darkness on which nothing darker could be drawn
 constexpr double kMostOfLines = 0.85;   // of the darkness of the lines on it: what is as dark is a solid
@@ -33,18 +31,6 @@ constexpr int kBlurPx = 1;                 // that a line is blurred over its bo
 constexpr int kEdgePx = 2;                 // beyond a solid: its blurred edge
 constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
 constexpr std::uint8_t kClearGround = 217;     // [of 255] seen to be shaded
-
-GreyImage reduced(const GreyImage& page, int factor, const RunContext& context) {
-  constexpr int kRows = 16;  // of the copy: one part of the work of the threads
-  GreyImage out(page.width / factor, page.height / factor);
-  const cv::Mat from(page.height, page.width, CV_16U, const_cast<std::uint16_t*>(page.pixels.data()));
-  parallelFor(context, out.height, kRows, [&](int begin, int end) {
-    cv::Mat to(end - begin, out.width, CV_16U, out.row(begin));
-    cv::resize(from(cv::Rect(0, begin * factor, to.cols * factor, to.rows * factor)), to, to.size(), 0, 0,
-               cv::INTER_AREA);
-  });
-  return out;
-}
 
 enum class AreaKind {
   Tone,
@@ -152,18 +138,6 @@ cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
          (grownMask(parted.solids, kEdgePx) == 0);
 }
 
-/// A picture, where it is covered that of the nearest place that is not.
-cv::Mat1b fromBeside(const cv::Mat1b& picture, const cv::Mat1b& covered) {
-  cv::Mat1f distance;
-  cv::Mat1i labels;
-  cv::distanceTransform(covered, distance, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
-  std::vector<std::uint8_t> valueOf(static_cast<std::ptrdiff_t>(labels.total()) + 1, 255);
-  for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x)
-      if (covered(y, x) == 0) valueOf[labels(y, x)] = picture(y, x);
-  return labelled(labels, valueOf);
-}
-
 /// The ground, below lines that beside them: a line along the border of a tone has tone on one side and paper on the
 /// other, and its middle must not move.
 cv::Mat1b groundBesideLines(const ToneLook& look) {
@@ -178,11 +152,11 @@ cv::Mat1b groundBesideLines(const ToneLook& look) {
 std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& context) {
   if (page.isUniform) return std::nullopt;
   ToneAreas areas;
-  areas.pixelsPerPx = (std::max(page.width, page.height) + kLongestSidePx - 1) / kLongestSidePx;
+  areas.pixelsPerPx = toneScaleOf(page);
   // A narrow strip has no shading, and its copy no pixels.
   if (std::min(page.width, page.height) < 2 * kToneCellPx * areas.pixelsPerPx) return std::nullopt;
   std::optional<GreyImage> small;
-  if (areas.pixelsPerPx > 1) small = reduced(page, areas.pixelsPerPx, context);
+  if (areas.pixelsPerPx > 1) small = reducedPage(page, areas.pixelsPerPx, context);
   const GreyImage& searched = small ? *small : page;
   const ToneCells cells = toneCellsOf(searched);
   if (context.isCancelled() || !mayBeShaded(cells)) return std::nullopt;

@@ -21,6 +21,9 @@ struct ToneAreas {
   /// the tone is as deep as lines.
   std::vector<std::uint8_t> mostGain;
   static constexpr double kGainUnit = 16.0;
+  /// [1 / kGainUnit] By what the depth below the ground is multiplied, row by row, where that is known; or empty: by
+  /// what the ground is darker than the paper, up to mostGain.
+  std::vector<std::uint8_t> gain;
   std::vector<std::uint8_t> paper;  ///< [grey 0..255] What the ground is a share of, row by row.
   std::vector<std::uint8_t> bare;   ///< Not 0 along sharp borders that no line is drawn along, row by row; or empty.
   double lineWidthPx = 0.0;         ///< [px of the page] Of the lines.

@@ -49,14 +49,55 @@ struct Brush {
   }
 };
 
-/// The ink's middle lines: where the distance to paper is largest.
+}  // namespace
+
+int toneScaleOf(const GreyImage& page) {
+  constexpr int kLongestSidePx = 1750;  // of the copy that is searched, which has half of that at least
+  return (std::max(page.width, page.height) + kLongestSidePx - 1) / kLongestSidePx;
+}
+
+GreyImage reducedPage(const GreyImage& page, int factor, const RunContext& context) {
+  constexpr int kRows = 16;  // of the copy: one part of the work of the threads
+  GreyImage out(page.width / factor, page.height / factor);
+  const cv::Mat from(page.height, page.width, CV_16U, const_cast<std::uint16_t*>(page.pixels.data()));
+  parallelFor(context, out.height, kRows, [&](int begin, int end) {
+    cv::Mat to(end - begin, out.width, CV_16U, out.row(begin));
+    cv::resize(from(cv::Rect(0, begin * factor, to.cols * factor, to.rows * factor)), to, to.size(), 0, 0,
+               cv::INTER_AREA);
+  });
+  return out;
+}
+
 cv::Mat1b middleLines(const cv::Mat1f& distance) {
   cv::Mat1f around;
   cv::dilate(distance, around, cv::Mat());
   return (distance >= around - 1e-3f) & (distance > 0.0f);
 }
 
-}  // namespace
+std::optional<double> widthOfLines(const cv::Mat1f& distance, const cv::Mat1b& middle) {
+  std::vector<double> halfWidths;
+  for (int y = 0; y < middle.rows; ++y)
+    for (int x = 0; x < middle.cols; ++x)
+      if (middle(y, x) != 0) halfWidths.push_back(distance(y, x));
+  if (halfWidths.empty()) return std::nullopt;
+  return 2.0 * upperMedian(halfWidths);
+}
+
+cv::Mat1b withoutNarrow(const cv::Mat1b& picture, int brush) {
+  const Brush round(brush);
+  return round.lower(round.raise(picture));
+}
+
+cv::Mat1b fromBeside(const cv::Mat1b& picture, const cv::Mat1b& covered) {
+  cv::Mat1f distance;
+  cv::Mat1i labels;
+  cv::distanceTransform(covered, distance, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+  std::vector<std::uint8_t> valueOf(static_cast<std::ptrdiff_t>(labels.total()) + 1, 255);
+  for (int y = 0; y < picture.rows; ++y)
+    for (int x = 0; x < picture.cols; ++x)
+      if (covered(y, x) == 0) valueOf[labels(y, x)] = picture(y, x);
+  return labelled(labels, valueOf);
+}
 
 cv::Mat1b longPieces(const cv::Mat1b& mask, double lengthPx) {
   cv::Mat1i labels;
@@ -120,8 +161,8 @@ cv::Mat1b flattened(const GreyImage& page, const std::function<double(int x, int
   return flat;
 }
 
-std::optional<ToneLook> inkOfPage(const GreyImage& page, const RunContext& context) {
-  const auto thresholds = findThresholds(page, {}, {}, context);
+std::optional<ToneLook> inkOfPage(const GreyImage& page, const RunContext& context, RegionThresholds* found) {
+  auto thresholds = findThresholds(page, {}, {}, context);
   if (!thresholds || !thresholds->foundLine) return std::nullopt;
   const auto ink = binarize(page, *thresholds, {}, context);
   if (!ink) return std::nullopt;
@@ -132,6 +173,7 @@ std::optional<ToneLook> inkOfPage(const GreyImage& page, const RunContext& conte
   const PaperBackground& paper = thresholds->paper;
   look.flat = flattened(
       page, [&paper](int x, int y) { return paper.at(x + 0.5, y + 0.5); }, context);
+  if (found != nullptr) *found = std::move(*thresholds);
   return context.isCancelled() ? std::nullopt : std::optional(std::move(look));
 }
 
@@ -151,12 +193,9 @@ bool lookAtLines(ToneLook& look, const RunContext& context) {
   cv::Mat1f distance;
   cv::distanceTransform(look.ink, distance, cv::DIST_L2, cv::DIST_MASK_5);
   const cv::Mat1b middle = middleLines(distance);
-  std::vector<double> halfWidths;
-  for (int y = 0; y < middle.rows; ++y)
-    for (int x = 0; x < middle.cols; ++x)
-      if (middle(y, x) != 0) halfWidths.push_back(distance(y, x));
-  if (halfWidths.empty()) return false;
-  look.lineWidthPx = 2.0 * upperMedian(halfWidths);
+  const std::optional<double> widthPx = widthOfLines(distance, middle);
+  if (!widthPx) return false;
+  look.lineWidthPx = *widthPx;
   look.brush = static_cast<int>(std::ceil(kWiderThanLines * look.lineWidthPx + 1.0));
   if (look.brush > kWidestBrush) return false;
   const Brush brush(look.brush);
@@ -172,8 +211,7 @@ bool lookAtLines(ToneLook& look, const RunContext& context) {
 }
 
 bool lookAtGround(ToneLook& look, const RunContext& context) {
-  const Brush brush(look.brush);
-  look.ground = brush.lower(brush.raise(look.flat));
+  look.ground = withoutNarrow(look.flat, look.brush);
   // What the brush cut off the corners of an area comes back, as far as the brush reaches.
   for (int i = 0; i < look.brush && !context.isCancelled(); ++i) {
     cv::Mat1b lower;

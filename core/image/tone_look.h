@@ -9,11 +9,17 @@
 
 #include "core/base/run_context.h"
 #include "core/image/grey_image.h"
+#include "core/image/threshold/region_thresholds.h"
 
 namespace batten {
 
 inline constexpr int kToneCellPx = 8;            // side of the cells of the first look: wider than a line
 inline constexpr double kMostPaperWindow = 0.5;  // of the page: in so wide a window some paper is seen
+
+/// Pixels of a page along one of the copy that is searched for tones: its longer side is no more than 1750 pixels.
+int toneScaleOf(const GreyImage& page);
+/// A copy so much smaller, of means.
+GreyImage reducedPage(const GreyImage& page, int factor, const RunContext&);
 
 /// The brightness of a page, cell by cell.
 struct ToneCells {
@@ -40,9 +46,16 @@ struct ToneLook {
 };
 
 /// The ink of a page by automatic thresholds, and its brightness. Absent: there is none, or cancelled.
-std::optional<ToneLook> inkOfPage(const GreyImage&, const RunContext&);
+/// @param thresholds absent, or becomes what they are.
+std::optional<ToneLook> inkOfPage(const GreyImage&, const RunContext&, RegionThresholds* thresholds = nullptr);
 /// The brightness of a page where the paper is of another: @param paperAt grey 0..255 of the paper at a place in px.
 cv::Mat1b flattened(const GreyImage& page, const std::function<double(int x, int y)>& paperAt, const RunContext&);
+/// The ink's middle lines: where the distance to paper is largest. @param distance of each pixel of ink.
+cv::Mat1b middleLines(const cv::Mat1f& distance);
+/// [px] Twice the distance to paper along middle lines, in their middle. Absent: there are none.
+std::optional<double> widthOfLines(const cv::Mat1f& distance, const cv::Mat1b& middle);
+/// A picture without what is darker and narrower than a brush.
+cv::Mat1b withoutNarrow(const cv::Mat1b& picture, int brush);
 /// Adds what is known of lines and of the ground below them. False: no ink is wider than the lines, or cancelled.
 bool lookAtLines(ToneLook&, const RunContext&);
 /// The ground and its lines alone, where the brightness is another; what is near lines stays. False: cancelled.
@@ -50,6 +63,8 @@ bool lookAtGround(ToneLook&, const RunContext&);
 
 /// Pieces of a mask whose box is at least `lengthPx` long or high.
 cv::Mat1b longPieces(const cv::Mat1b& mask, double lengthPx);
+/// A picture, where it is covered that of the nearest place that is not.
+cv::Mat1b fromBeside(const cv::Mat1b& picture, const cv::Mat1b& covered);
 /// Each pixel by the value of its label.
 cv::Mat1b labelled(const cv::Mat1i& labels, const std::vector<std::uint8_t>& values);
 /// Of 255 - flat where the mask is not 0; 0 where it is nowhere. @param share 0..1

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kFarthestMargin = 0.3;    // of the plane, from its side
 constexpr double kMostBend = 0.02;         // of its length: a ruled line on paper that curls
-constexpr double kLeastSeen = 0.85;        // of the steps along it
+constexpr double kLeastSeenAlong = 0.85;   // of the steps along it
 constexpr double kMostMarginMisfit = 2.5;  // [grid] of nine in ten places, off a cubic: paper bends, pens tremble
-constexpr int kStep = 4;                   // [grid] along the line
+constexpr int kMarginStep = 4;             // [grid] along the line
 constexpr int kLookFor = 3;                // [grid] to either side of where it is expected
 constexpr int kPaperBeside = 7;            // [grid] to either side: paper shows within
 constexpr float kLeastOfDepth = 0.4f;      // of the line's own depth, where it is seen
@@ -30,13 +30,13 @@ class MarginTrack {
     if (const auto seed = look(static_cast<int>(seedX), seedY)) {
       depth_ = seed->depth;
       follow(static_cast<int>(seedX), seed->y, 1);
-      follow(static_cast<int>(seedX) - kStep, seed->y, -1);
+      follow(static_cast<int>(seedX) - kMarginStep, seed->y, -1);
     }
   }
 
   /// A cubic in 2 x / width - 1; absent if the line is hidden too often, or bends otherwise.
   std::optional<Eigen::Vector4d> course() const {
-    if (steps_ == 0 || static_cast<double>(xs_.size()) < kLeastSeen * steps_) return std::nullopt;
+    if (steps_ == 0 || static_cast<double>(xs_.size()) < kLeastSeenAlong * steps_) return std::nullopt;
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < xs_.size(); ++i) {
@@ -64,15 +64,15 @@ class MarginTrack {
     return {1.0, u, u * u, u * u * u};
   }
 
-  /// The darkest place near an expected one, over kStep columns from x on. Absent at the border of the plane.
+  /// The darkest place near an expected one, over kMarginStep columns from x on. Absent at the border of the plane.
   std::optional<Look> look(int x, double expected) const {
     const int middle = static_cast<int>(std::lround(expected));
-    if (x < 0 || x + kStep > grey_.width() || middle < kPaperBeside || middle + kPaperBeside >= grey_.height())
+    if (x < 0 || x + kMarginStep > grey_.width() || middle < kPaperBeside || middle + kPaperBeside >= grey_.height())
       return std::nullopt;
     std::array<float, 2 * kPaperBeside + 1> levels{};
-    for (int i = 0; i < kStep; ++i) {
+    for (int i = 0; i < kMarginStep; ++i) {
       for (int d = -kPaperBeside; d <= kPaperBeside; ++d)
-        levels[d + kPaperBeside] += grey_.at(x + i, middle + d) / kStep;
+        levels[d + kPaperBeside] += grey_.at(x + i, middle + d) / kMarginStep;
     }
     const auto first = levels.begin() + kPaperBeside - kLookFor;
     const auto darkest = std::min_element(first, first + 2 * kLookFor + 1);
@@ -89,14 +89,14 @@ class MarginTrack {
 
   void follow(int x, double y, int direction) {
     double slope = 0.0;  // a step
-    for (; x >= 0 && x + kStep <= grey_.width(); x += direction * kStep) {
+    for (; x >= 0 && x + kMarginStep <= grey_.width(); x += direction * kMarginStep) {
       ++steps_;
       const double expected = y + slope;
       const auto found = look(x, expected - 0.5);
       if (found && found->depth >= kLeastOfDepth * depth_) {
         slope = kSlopeInertia * slope + (1.0 - kSlopeInertia) * (found->y - y);
         y = found->y;
-        xs_.push_back(x + 0.5 * kStep);
+        xs_.push_back(x + 0.5 * kMarginStep);
         ys_.push_back(y);
       } else {
         y = expected;

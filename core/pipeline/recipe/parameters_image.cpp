@@ -257,8 +257,8 @@ void appendPage(std::vector<Parameter>& table) {
   table.push_back(choice<ShadingUse>(
       kThresholds,
       {"paper.shading", "Drawn shading", "",
-       "Areas of even tone, as the shading of marker or airbrush, count as paper where lines are drawn on and around "
-       "them, so that the lines are found. Keep: they are ink, and their borders are traced."},
+       "Areas of tone, as the shading of marker, airbrush or pencil, count as paper where lines are drawn on and "
+       "around them, so that the lines are found. Keep: they are ink, and their borders are traced."},
       {{"leave-out", "Remove", ShadingUse::LeaveOut}, {"keep", "Keep", ShadingUse::Keep}},
       [](auto& r) -> auto& { return r.preparation.shading; }));
   table.push_back(rectifyParameter());

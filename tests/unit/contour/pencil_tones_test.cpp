@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A box shaded with a pencil: the lines on its tones, between them and around them are lines, and the tones are none.
+
+#include "core/image/pencil_tones.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/image/page_preparation.h"
+#include "core/image/without_tones.h"
+#include "tests/support/dense_page.h"
+#include "tests/support/render_page.h"
+#include "tests/support/stress_page.h"
+#include "tests/unit/contour/traced_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kBoxWidth = 800, kBoxHeight = 600;
+constexpr double kBoxLinePx = 4.0;
+constexpr std::uint32_t kBoxSeeds[] = {1, 2, 3};
+
+std::vector<Vec2> edgeOfBox(const Vec2& from, const Vec2& to) {
+  std::vector<Vec2> line;
+  const int n = static_cast<int>((to - from).norm());
+  for (int i = 0; i <= n; ++i) line.push_back(from + (to - from) * (static_cast<double>(i) / n));
+  return line;
+}
+
+const Vec2 kBoxA(150.0, 150.0), kBoxB(400.0, 200.0), kBoxC(400.0, 480.0), kBoxD(150.0, 420.0), kBoxE(620.0, 140.0),
+    kBoxF(620.0, 400.0);
+
+/// The edges of two faces and a line across each.
+std::vector<std::vector<Vec2>> firmLines() {
+  return {edgeOfBox(kBoxA, kBoxB),
+          edgeOfBox(kBoxB, kBoxC),
+          edgeOfBox(kBoxC, kBoxD),
+          edgeOfBox(kBoxD, kBoxA),
+          edgeOfBox(kBoxB, kBoxE),
+          edgeOfBox(kBoxE, kBoxF),
+          edgeOfBox(kBoxF, kBoxC),
+          edgeOfBox({440.0, 320.0}, {585.0, 250.0}),
+          edgeOfBox({190.0, 220.0}, {360.0, 380.0})};
+}
+/// On paper: the lines that the box was constructed with.
+std::vector<std::vector<Vec2>> lightLines() {
+  return {edgeOfBox({60.0, 540.0}, {740.0, 560.0}), edgeOfBox({60.0, 60.0}, {560.0, 90.0}),
+          edgeOfBox({680.0, 60.0}, {700.0, 500.0}), edgeOfBox({90.0, 100.0}, {80.0, 500.0})};
+}
+
+/// @param side, front 0..1 of the pencil on the faces; that of the front grows along it. @param light 0..1 of that of
+/// the light lines. @param tooth 0..1 how far the paper's grain tears it.
+GreyImage boxPage(double side, double front, double light, double tooth, std::uint32_t seed) {
+  std::vector<float> cover = test::fillCoverage({kBoxB, kBoxE, kBoxF, kBoxC}, kBoxWidth, kBoxHeight);
+  const std::vector<float> onFront = test::fillCoverage({kBoxA, kBoxB, kBoxC, kBoxD}, kBoxWidth, kBoxHeight);
+  const std::vector<float> firm = test::coverageOf(firmLines(), kBoxLinePx, kBoxWidth, kBoxHeight);
+  const std::vector<float> faint = test::coverageOf(lightLines(), kBoxLinePx, kBoxWidth, kBoxHeight);
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    const double x = static_cast<double>(i % kBoxWidth);
+    const double graded = front * std::clamp((x - kBoxA.x()) / (kBoxB.x() - kBoxA.x()), 0.0, 1.0);
+    const double tone = side * static_cast<double>(cover[i]) + graded * static_cast<double>(onFront[i]);
+    const double line = std::max(0.9 * static_cast<double>(firm[i]), light * static_cast<double>(faint[i]));
+    cover[i] = static_cast<float>(1.0 - (1.0 - tone) * (1.0 - line));
+  }
+  test::grainCoverage(
+      cover, kBoxWidth, kBoxHeight, [=](double, double) { return tooth; }, seed);
+  return test::scanOfLines(std::move(cover), kBoxWidth, kBoxHeight, seed).grey;
+}
+
+test::LineScore boxScore(const GreyImage& page) {
+  std::vector<std::vector<Vec2>> found;
+  for (const Contour& c : tracedPage(page).contours) {
+    std::vector<Vec2>& line = found.emplace_back();
+    for (const ContourPoint& p : c.points) line.push_back(p.at);
+  }
+  std::vector<std::vector<Vec2>> drawn = firmLines();
+  for (auto& line : lightLines()) drawn.push_back(std::move(line));
+  return test::scoreLines(drawn, found, kBoxWidth, kBoxHeight);
+}
+
+/// Pencil lines, shaded.
+GreyImage shadedBox(std::uint32_t seed) { return boxPage(0.5, 0.4, 0.28, 0.8, seed); }
+
+TEST(PencilTones, LinesOnThemAreFoundAndTheirBordersAreNone) {
+  for (const std::uint32_t seed : kBoxSeeds) {
+    const GreyImage page = shadedBox(seed);
+    const std::optional<ToneAreas> tones = findPencilTones(page, {});
+    ASSERT_TRUE(tones) << "seed " << seed;
+    const test::LineScore before = boxScore(page), after = boxScore(withoutTones(page, *tones, {}));
+    EXPECT_GT(before.falsePx, 1500.0) << "seed " << seed << ": borders of the tones";
+    EXPECT_LT(after.falsePx, 200.0) << "seed " << seed;
+    EXPECT_GT(after.covered, 0.98) << "seed " << seed;
+    EXPECT_LT(after.rmsPx, 0.5) << "seed " << seed;
+  }
+}
+
+// What the default recipe does with such a page.
+TEST(PencilTones, AreLeftOutOfThePageUnlessKept) {
+  Scan scan;
+  scan.grey = shadedBox(4);
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page && page->grey);
+  EXPECT_NEAR(page->shadedShare, 0.2, 0.06);
+  EXPECT_EQ(page->grey->row(30)[30], scan.grey.row(30)[30]) << "paper is untouched";
+  EXPECT_EQ(page->grey->row(300)[85], scan.grey.row(300)[85]) << "lines elsewhere are untouched";
+  PreparationParams kept;
+  kept.shading = ShadingUse::Keep;
+  EXPECT_FALSE(preparePage(scan, kept, {})->grey);
+}
+
+// A pen has one darkness. What it fills and hatches stays ink.
+TEST(PencilTones, InkOfOneDarknessHasNone) {
+  std::vector<std::vector<Vec2>> lines = firmLines();
+  for (auto& line : test::hatchLines({500.0, 300.0}, 30.0, 20, 10.0, 180.0, 0.0)) lines.push_back(std::move(line));
+  std::vector<float> cover = test::coverageOf(lines, kBoxLinePx, kBoxWidth, kBoxHeight);
+  const std::vector<float> solid = test::fillCoverage({kBoxA, kBoxB, kBoxC, kBoxD}, kBoxWidth, kBoxHeight);
+  std::vector<float> filled = cover;
+  for (std::size_t i = 0; i < filled.size(); ++i) filled[i] = std::max(filled[i], solid[i]);
+  EXPECT_FALSE(findPencilTones(test::scanOfLines(cover, kBoxWidth, kBoxHeight, 1).grey, {})) << "hatched";
+  EXPECT_FALSE(findPencilTones(test::scanOfLines(filled, kBoxWidth, kBoxHeight, 1).grey, {})) << "filled";
+}
+
+// Without a shaded face; shaded so faintly that no threshold takes it for ink.
+TEST(PencilTones, PencilLinesAloneHaveNone) {
+  EXPECT_FALSE(findPencilTones(boxPage(0.0, 0.0, 0.28, 0.8, 1), {}));
+  EXPECT_FALSE(findPencilTones(boxPage(0.12, 0.05, 0.28, 0.8, 1), {})) << "faint";
+}
+
+// A face as dark as the lines around it was filled.
+TEST(PencilTones, ASolidBesideThemStays) {
+  const GreyImage page = boxPage(0.97, 0.8, 0.28, 0.1, 1);
+  const std::optional<ToneAreas> tones = findPencilTones(page, {});
+  ASSERT_TRUE(tones);
+  const GreyImage without = withoutTones(page, *tones, {});
+  for (int x = 480; x < 600; x += 10) EXPECT_EQ(without.row(300)[x], page.row(300)[x]) << "at " << x;
+}
+
+TEST(PencilTones, AreTheSameWithAnyNumberOfThreadsAndNotLookedForAfterACancel) {
+  const GreyImage page = shadedBox(5);
+  RunContext one, eight;
+  one.threads = 1;
+  eight.threads = 8;
+  const auto a = findPencilTones(page, one), b = findPencilTones(page, eight);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(withoutTones(page, *a, one), withoutTones(page, *b, eight));
+  RunContext stopped;
+  stopped.cancel.cancel();
+  EXPECT_FALSE(findPencilTones(page, stopped));
+}
+
+}  // namespace
+}  // namespace batten
