@@ -197,7 +197,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
                                   &rows,
                                   params.minWidths,
                                   split->known.get(),
-                                  &split->clear,
+                                  split->clear ? &*split->clear : nullptr,
                                   page};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());

@@ -277,7 +277,6 @@ GraininessMap addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeP
 PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                      const CentrelineOptions& options, const RunContext& context) {
   const BitImage* shapes = options.shapes;
-  const int pixelsPerPx = options.pixelsPerPx();
   PathsFound found;
   found.strokes = centrelinesOf(strokes, options, params, context);
   std::vector<StrokePath>& paths = found.strokes.paths;
@@ -291,7 +290,7 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || isPencil(i);
   std::vector<bool> pencil;
   if (anyPencil) {
-    found.bodies = pencilBodies(strokes, grey, paths, grain, pixelsPerPx, options.clear, context);
+    found.bodies = pencilBodies(strokes, grey, paths, grain, options, context);
     if (context.isCancelled()) return found;
     found.strokes = centrelinesOf(*found.bodies, options, params, context, JunctionsOf::Pencil);
     const GraininessMap ofBodies = addFaintEnds(found, grey, params, options, context);

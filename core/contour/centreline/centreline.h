@@ -40,7 +40,7 @@ struct CentrelineOptions {
   const BitImage* rows = nullptr;    ///< Dashes of broken lines, which stay however short they are.
   double minWidths = 3.0;            ///< ContourParams::minWidths.
   StrokesOfInk* known = nullptr;    ///< By the same parameters: what it holds is not sought again, but taken out of it.
-  const BitImage* clear = nullptr;  ///< Paper that no pencil closes, however near its strokes; absent or empty: any.
+  const BitImage* clear = nullptr;  ///< Paper that no pencil closes, however near its strokes; absent: any.
   /// The page, where mask and grey are enlarged (fine_page.h): the middles are measured on it, whose noise is that of
   /// the scan. Absent: on the grey.
   const GreyImage* page = nullptr;

@@ -53,11 +53,12 @@ BitImage grainHoles(const BitImage& taken, const BitImage& rest, const BitImage&
 }  // namespace
 
 BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
-                      const GraininessMap& grain, int pixelsPerPx, const BitImage* clear, const RunContext& context) {
+                      const GraininessMap& grain, const CentrelineOptions& options, const RunContext& context) {
+  const int pixelsPerPx = options.pixelsPerPx();
   const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
   const double closing = grainClosing(width);
   BitImage body = closeGrain(strokes, width, pixelsPerPx > 1, context);
-  if (clear != nullptr && clear->width > 0) body = without(std::move(body), *clear);
+  if (options.clear != nullptr) body = without(std::move(body), *options.clear);
   bool anyPen = false;
   for (int i = 0; i < std::ssize(paths); ++i) anyPen = anyPen || !grain.isPencil(i);
   BitImage ownPens(strokes.width, strokes.height);

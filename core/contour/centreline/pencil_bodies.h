@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/run_context.h"
+#include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/graininess.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/image/bits/bit_image.h"
@@ -13,9 +14,8 @@ namespace batten {
 
 /// The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
 /// paper, beside pens too: there a threshold closes it as well.
-/// @param pixelsPerPx 1, or more on an enlarged page. @param clear CentrelineOptions::clear. @return the strokes as
-/// they were when cancelled.
+/// @return the strokes as they were when cancelled.
 BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
-                      const GraininessMap& grain, int pixelsPerPx, const BitImage* clear, const RunContext& context);
+                      const GraininessMap& grain, const CentrelineOptions& options, const RunContext& context);
 
 }  // namespace batten

@@ -117,18 +117,19 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
   return pen;
 }
 
-// Of what a pencil drew, the paper within pieces no larger than a line of lettering.
-BitImage paperInLettering(const BitImage& pencil, const GreyImage& grey, const PaperBackground& sheet, double penPx,
-                          const RunContext& context) {
+// Of what a pencil drew, the paper within pieces no larger than a line of lettering; absent: there is none.
+std::optional<BitImage> paperInLettering(const BitImage& pencil, const GreyImage& grey, const PaperBackground& sheet,
+                                         double penPx, const RunContext& context) {
   constexpr double kLongestWidths = 64.0;  // a dozen letters
   const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
-  return clearPaper(without(BitImage(pencil), large), grey, sheet, penPx, context);
+  BitImage paper = clearPaper(without(BitImage(pencil), large), grey, sheet, penPx, context);
+  return paper.count() > 0 ? std::optional(std::move(paper)) : std::nullopt;
 }
 
 // Paper that ink has closed: what the sheet is, by which it is found, or that which was.
 struct PaperInInk {
   const PaperBackground* sheet = nullptr;  // absent: none is looked for
-  BitImage clear = {};                     // InkSplit::clear
+  std::optional<BitImage> clear = {};      // InkSplit::clear
 };
 
 Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
@@ -150,12 +151,12 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   if (paper.sheet != nullptr && split.penPx) {
     const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink, strokes = both(BitImage(pens), split.strokes);
     const BitImage open = withoutClosedPaper(strokes, grey, *paper.sheet, *split.penPx, context);
-    BitImage clear;
+    std::optional<BitImage> clear;
     if (pencil.any()) clear = paperInLettering(without(BitImage(ink), pens), grey, *paper.sheet, *split.penPx, context);
     if (context.isCancelled()) return cancelled();
-    if (open != strokes || clear.count() > 0) {
+    if (open != strokes || clear) {
       BitImage opened = either(without(BitImage(ink), strokes), open);
-      if (clear.width > 0) opened = without(std::move(opened), clear);
+      if (clear) opened = without(std::move(opened), *clear);
       return splitByLabel(opened, grey, params, page, {nullptr, std::move(clear)}, context);
     }
   }
@@ -180,7 +181,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, page != nullptr, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
-  if (paper.clear.width > 0) *body = without(std::move(*body), paper.clear);
+  if (paper.clear) *body = without(std::move(*body), *paper.clear);
   split.clear = std::move(paper.clear);
   Result<InkLabels> ofBody = labelInk(*body, context, params.mergeWidths, pixelsPerPx);
   if (!ofBody) return fail(ofBody.error());

@@ -33,7 +33,7 @@ struct InkSplit {
   RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.
                       ///< What was painted is apart from what was not.
   std::unique_ptr<StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
-  BitImage clear = {};                  ///< Paper that lettering of a pencil had closed. Empty: none was found.
+  std::optional<BitImage> clear = {};   ///< Paper that lettering of a pencil had closed; absent: none was found.
   std::optional<double> penPx = {};     ///< [px] width of the strokes; absent: none was looked for, or there are none.
 };
 
