@@ -25,11 +25,11 @@ struct PencilInk {
 
 /// The ink of a page by trace mode. Both pictures have the size of the ink and share no pixel.
 struct InkSplit {
-  BitImage strokes;                      ///< Along their middle.
-  BitImage shapes;                       ///< Along their border.
-  BitImage swellings = {};               ///< Of the strokes: where one swells (InkLabels). Empty: nowhere.
-  std::optional<PencilInk> pencil = {};  ///< Absent: nothing was drawn with a pencil.
-  std::optional<BitImage> painted = {};  ///< Ink whose kind the user has painted; absent: he painted nothing.
+  BitImage strokes;                        ///< Along their middle.
+  BitImage shapes;                         ///< Along their border.
+  std::optional<BitImage> swellings = {};  ///< InkLabels::swellings.
+  std::optional<PencilInk> pencil = {};    ///< Absent: nothing was drawn with a pencil.
+  std::optional<BitImage> painted = {};    ///< Ink whose kind the user has painted; absent: he painted nothing.
   RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.
                       ///< What was painted is apart from what was not.
   std::unique_ptr<StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
