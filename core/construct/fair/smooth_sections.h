@@ -25,9 +25,9 @@ class SmoothSections {
   /// Takes the fits of stretches(); where one has left its points further sharp features are noted. True when there
   /// are.
   bool check(std::vector<ConstructedPiece> fits, bool lastRound, CancelCheck run = {});
-  /// The whole: stretches and sharp features in one curve, with the reports together; what is not near its points is
-  /// replaced by a quintic through stations.
-  Result<ConstructedPiece> joined(const RunContext&) const;
+  /// The whole, made of the fits: stretches and sharp features in one curve, with the reports together; what is not
+  /// near its points is replaced by a quintic through stations.
+  Result<ConstructedPiece> joined(const RunContext&) &&;
 
  private:
   /// A fit that has left some of its points in the last round.
@@ -38,13 +38,9 @@ class SmoothSections {
   };
   /// Of those fits only what is near the points; tight curves come between.
   void keepNear(const std::vector<OutlierFit>&, const std::vector<ConstructPiece>& pieces);
-  /// The stretches and their fits, cut where these are on their points.
-  struct Stretches {
-    std::vector<PointRange> smooth;
-    std::vector<ConstructedPiece> fits;
-  };
-  Stretches endingOnPoints(CancelCheck run) const;
-  Result<ConstructedPiece> joinedParts(const RunContext&) const;
+  /// Cuts the stretches and their fits where these are on their points. Unfinished when cancelled.
+  void endOnPoints(CancelCheck run);
+  Result<ConstructedPiece> joinedParts(const RunContext&);
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;
   std::vector<PiecePoint> pointsOf(const PointRange&) const;
