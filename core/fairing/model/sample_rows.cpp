@@ -77,8 +77,15 @@ BATTEN_HOT_LOOP void addQuinticSquares(const double* rows, int samples, const Sa
   addFourRows<4>(rows, samples, squares, weights, stiff, mass);
   addFourRows<8>(rows, samples, squares, weights, stiff, mass);
 }
-void addAnySquares(int stride, const double* rows, int samples, const SampleRows::Squares& squares,
-                   const SampleRows::SquareWeights* weights, double* stiff, double* mass) {
+/// Rows of the samples of one span.
+struct SpanRows {
+  const double* first;
+  int samples, stride;
+};
+void addAnySquares(const SpanRows& span, const SampleRows::Squares& squares, const SampleRows::SquareWeights* weights,
+                   double* stiff, double* mass) {
+  const auto [first, samples, stride] = span;
+  const double* rows = first;
   for (int i = 0; i < samples; ++i, rows += static_cast<std::ptrdiff_t>(SampleRows::kRows) * stride) {
     const double *across = rows + stride, *along = across + stride;
     for (int b = 0; b < stride; ++b) {
@@ -251,7 +258,7 @@ void SampleRows::addSquares(const Squares& squares, CancelCheck check, BandedMat
     if (stride_ == kFreeQuintic) {
       addQuinticSquares(rows, samples, squares, weights, stiff.data(), heavy.data());
     } else {
-      addAnySquares(stride_, rows, samples, squares, weights, stiff.data(), heavy.data());
+      addAnySquares({rows, samples, stride_}, squares, weights, stiff.data(), heavy.data());
     }
     eachEntry(index, stride_, stiffness, [&](double& entry, std::size_t place) { entry = stiff[place]; });
     eachEntry(index, stride_, mass, [&](double& entry, std::size_t place) { entry = heavy[place]; });
