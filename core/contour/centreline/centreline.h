@@ -15,15 +15,6 @@
 
 namespace batten {
 
-/// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening
-/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless EdgeParams::mode or the
-/// user decides otherwise. Both masks have the size of `ink`.
-struct StrokeSplit {
-  BitImage strokes;
-  BitImage shapes;
-};
-Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const RunContext&);
-
 /// What was found along all ink of a page before it was split.
 struct StrokesOfInk {
   BitImage ink, skeleton;

@@ -163,10 +163,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
   if (!pencil.any()) return split;
-  EdgeParams whole = params;
-  whole.choices.clear();
-  whole.strokeWidth = EdgeParams{}.strokeWidth;
-  Result<StrokeSplit> byPiece = splitStrokes(ink, whole, context);
+  Result<StrokeSplit> byPiece = splitStrokes(ink, context);
   if (!byPiece) return fail(byPiece.error());
   const RunPieces& pieces = pencil.pieces();
   PencilInk drawn;
