@@ -290,7 +290,7 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || isPencil(i);
   std::vector<bool> pencil;
   if (anyPencil) {
-    found.bodies = pencilBodies(strokes, grey, paths, grain, options, context);
+    found.bodies = pencilBodies(strokes, grey, paths, grain, {options.pixelsPerPx(), options.clear}, context);
     if (context.isCancelled()) return found;
     found.strokes = centrelinesOf(*found.bodies, options, params, context, JunctionsOf::Pencil);
     const GraininessMap ofBodies = addFaintEnds(found, grey, params, options, context);
