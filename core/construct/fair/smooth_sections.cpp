@@ -178,7 +178,7 @@ void SmoothSections::keepNear(const std::vector<OutlierFit>& leaving, const std:
       const double from = atStart ? fits_[i].curve.start() : at[r.first % n].parameter;
       const double to = atEnd ? fits_[i].curve.end() : at[r.last % n].parameter;
       auto part = stretchOf(fits_[i], from, to, piece.closed);
-      if (!part) continue;  // left to the tight curve
+      if (!part) continue;  // left to the corner fill
       kept.push_back(std::move(*part));
       ranges.push_back({r.first + smooth_[i].first, r.last + smooth_[i].first});
     }
@@ -188,7 +188,7 @@ void SmoothSections::keepNear(const std::vector<OutlierFit>& leaving, const std:
   smooth_ = std::move(ranges);
 }
 
-// A fit may end beside its points by what makes none of them an outlier. The tight curve that goes on from there would
+// A fit may end beside its points by what makes none of them an outlier. The corner fill that goes on from there would
 // have to turn back to them: beside a sharp feature a fit ends where it is on its points.
 void SmoothSections::endOnPoints(CancelCheck run) {
   constexpr double kOffPx = 0.7, kOnPx = 0.35;  // beside the points; on them

@@ -14,7 +14,7 @@
 namespace batten {
 
 /// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and sharp
-/// features. One of more than 1000 sharp features becomes one tight curve along its points, with a note. All in px.
+/// features. One of more than 1000 sharp features becomes one corner fill along its points, with a note. All in px.
 class SmoothSections {
  public:
   SmoothSections(const ConstructPiece& piece, bool isStroke, const FairFitOptions&);
@@ -36,7 +36,7 @@ class SmoothSections {
     PointDeviation deviation;
     std::vector<PointRange> outliers;
   };
-  /// Of those fits only what is near the points; tight curves come between.
+  /// Of those fits only what is near the points; corner fills come between.
   void keepNear(const std::vector<OutlierFit>&, const std::vector<ConstructPiece>& pieces);
   /// Cuts the stretches and their fits where these are on their points. Unfinished when cancelled.
   void endOnPoints(CancelCheck run);
