@@ -175,6 +175,24 @@ int fillTexture(InkSplit& split, const EdgeParams& edges, const GreyImage& grey,
   return even.filled;
 }
 
+// Adds what strokes enclose and fill to the blots, unless the page is followed along middles alone.
+void addFillings(FoundLines& found, const InkSplit& split, const ContourSet& lines, const EdgeParams& edges,
+                 const RunContext& context) {
+  if (edges.mode == EdgeMode::Centreline) {
+    found.blots = chosenOf(found.blots, found.regions, edges);
+  } else if (edges.mergeWidths <= 0.0 && !lines.report.isGrouped) {
+    found.blots = either(std::move(found.blots),
+                         notChosen(findFillings(split, lines, context), found.regions, split.painted, edges));
+  }
+}
+
+void appendLongLines(ContourSet& to, ContourSet&& lines, const ContourParams& params) {
+  const std::size_t all = lines.contours.size();
+  std::erase_if(lines.contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
+  lines.report.droppedShort += static_cast<int>(all - lines.contours.size());
+  append(to, std::move(lines));
+}
+
 // Ink and grey of a page, or of one that was enlarged.
 struct InkedPage {
   const BitImage& ink;
@@ -216,12 +234,7 @@ Result<FoundLines> findLines(const InkedPage& inked, const EdgeParams& edges, co
     const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
     faint = dropFaint(found, *split, faintMarks(marks, ink, *lines, grey, split->penPx, context));
   }
-  if (edges.mode == EdgeMode::Centreline) {
-    found.blots = chosenOf(found.blots, found.regions, edges);
-  } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {
-    found.blots = either(std::move(found.blots),
-                         notChosen(findFillings(*split, *lines, context), found.regions, split->painted, edges));
-  }
+  addFillings(found, *split, *lines, edges, context);
   if (context.isCancelled()) return cancelled();
   const bool isPaintedInVain = split->painted && both(found.blots, *split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
@@ -239,10 +252,7 @@ Result<FoundLines> findLines(const InkedPage& inked, const EdgeParams& edges, co
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);
   found.painted = std::move(split->painted);
   found.set = std::move(*borders);
-  const std::size_t all = lines->contours.size();
-  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
-  lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
-  append(found.set, std::move(*lines));
+  appendLongLines(found.set, std::move(*lines), params);
   if (isPaintedInVain)
     addNote(found.set,
             "Ink that was painted for a centre line is too short and wide for one: it was traced by its outline.");

@@ -132,6 +132,26 @@ struct PaperInInk {
   std::optional<BitImage> clear = {};      // InkSplit::clear
 };
 
+struct OpenedInk {
+  BitImage ink;
+  std::optional<BitImage> clear;  // InkSplit::clear
+};
+
+// The ink with the paper open again that strokes which have run together, or lettering, have closed; absent: there is
+// none.
+std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& grey, const InkSplit& split,
+                                         const PencilPieces& pencil, const PaperBackground& sheet,
+                                         const RunContext& context) {
+  const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink, strokes = both(BitImage(pens), split.strokes);
+  const BitImage open = withoutClosedPaper(strokes, grey, sheet, *split.penPx, context);
+  OpenedInk opened;
+  if (pencil.any()) opened.clear = paperInLettering(without(BitImage(ink), pens), grey, sheet, *split.penPx, context);
+  if (context.isCancelled() || (open == strokes && !opened.clear)) return std::nullopt;
+  opened.ink = either(without(BitImage(ink), strokes), open);
+  if (opened.clear) opened.ink = without(std::move(opened.ink), *opened.clear);
+  return opened;
+}
+
 Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
                               const GreyImage* page, PaperInInk paper, const RunContext& context) {
   const double pixelsPerPx = page != nullptr ? kFineFactor : 1.0;
@@ -149,16 +169,9 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   if (context.isCancelled()) return cancelled();
   // Strokes that have run together are told anew once the paper between them is open.
   if (paper.sheet != nullptr && split.penPx) {
-    const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink, strokes = both(BitImage(pens), split.strokes);
-    const BitImage open = withoutClosedPaper(strokes, grey, *paper.sheet, *split.penPx, context);
-    std::optional<BitImage> clear;
-    if (pencil.any()) clear = paperInLettering(without(BitImage(ink), pens), grey, *paper.sheet, *split.penPx, context);
+    auto opened = withPaperOpened(ink, grey, split, pencil, *paper.sheet, context);
     if (context.isCancelled()) return cancelled();
-    if (open != strokes || clear) {
-      BitImage opened = either(without(BitImage(ink), strokes), open);
-      if (clear) opened = without(std::move(opened), *clear);
-      return splitByLabel(opened, grey, params, page, {nullptr, std::move(clear)}, context);
-    }
+    if (opened) return splitByLabel(opened->ink, grey, params, page, {nullptr, std::move(opened->clear)}, context);
   }
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
