@@ -146,9 +146,9 @@ struct ConstructedPiece {
   /// rational quadratics) and control polygons (their own degree).
   NurbsCurve curve;
   ConstructReport report;
-  /// What fairing starts from; empty: `curve` itself. Of a light curve the one that it was made of, degree 5; of one
+  /// What fairing starts from; absent: `curve` itself. Of a light curve the one that it was made of, degree 5; of one
   /// that was simplified (LightNote::isSimplified) the same curve with more knots.
-  NurbsCurve dense = {};
+  std::optional<NurbsCurve> dense = {};
 };
 
 }  // namespace batten

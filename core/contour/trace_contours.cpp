@@ -175,10 +175,35 @@ int fillTexture(InkSplit& split, const EdgeParams& edges, const GreyImage& grey,
   return even.filled;
 }
 
-// `page`: what an enlarged `grey` was made of, else absent.
-Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page,
-                             const PaperBackground* paper, const EdgeParams& edges, const ContourParams& params,
+// Adds what strokes enclose and fill to the blots, unless the page is followed along middles alone.
+void addFillings(FoundLines& found, const InkSplit& split, const ContourSet& lines, const EdgeParams& edges,
+                 const RunContext& context) {
+  if (edges.mode == EdgeMode::Centreline) {
+    found.blots = chosenOf(found.blots, found.regions, edges);
+  } else if (edges.mergeWidths <= 0.0 && !lines.report.isGrouped) {
+    found.blots = either(std::move(found.blots),
+                         notChosen(findFillings(split, lines, context), found.regions, split.painted, edges));
+  }
+}
+
+void appendLongLines(ContourSet& to, ContourSet&& lines, const ContourParams& params) {
+  const std::size_t all = lines.contours.size();
+  std::erase_if(lines.contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
+  lines.report.droppedShort += static_cast<int>(all - lines.contours.size());
+  append(to, std::move(lines));
+}
+
+// Ink and grey of a page, or of one that was enlarged.
+struct InkedPage {
+  const BitImage& ink;
+  const GreyImage& grey;
+  const GreyImage* page = nullptr;         // what an enlarged `grey` was made of, else absent
+  const PaperBackground* paper = nullptr;  // PageAids::paper
+};
+
+Result<FoundLines> findLines(const InkedPage& inked, const EdgeParams& edges, const ContourParams& params,
                              const RunContext& context) {
+  const auto& [ink, grey, page, paper] = inked;
   FoundLines found;
   if (edges.mode == EdgeMode::Outline && edges.choices.empty() && edges.painted.empty()) {
     Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, std::nullopt, nullptr, context);
@@ -197,7 +222,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
                                   &rows,
                                   params.minWidths,
                                   split->known.get(),
-                                  &split->clear,
+                                  split->clear ? &*split->clear : nullptr,
                                   page};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());
@@ -209,12 +234,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
     const BitImage marks = notChosen(either(found.blots, split->shapes), found.regions, split->painted, edges);
     faint = dropFaint(found, *split, faintMarks(marks, ink, *lines, grey, split->penPx, context));
   }
-  if (edges.mode == EdgeMode::Centreline) {
-    found.blots = chosenOf(found.blots, found.regions, edges);
-  } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {
-    found.blots = either(std::move(found.blots),
-                         notChosen(findFillings(*split, *lines, context), found.regions, split->painted, edges));
-  }
+  addFillings(found, *split, *lines, edges, context);
   if (context.isCancelled()) return cancelled();
   const bool isPaintedInVain = split->painted && both(found.blots, *split->painted).count() > 0;
   split->shapes = either(std::move(split->shapes), found.blots);
@@ -232,10 +252,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const G
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);
   found.painted = std::move(split->painted);
   found.set = std::move(*borders);
-  const std::size_t all = lines->contours.size();
-  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
-  lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
-  append(found.set, std::move(*lines));
+  appendLongLines(found.set, std::move(*lines), params);
   if (isPaintedInVain)
     addNote(found.set,
             "Ink that was painted for a centre line is too short and wide for one: it was traced by its outline.");
@@ -254,33 +271,33 @@ std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
 }
 
 // The lines before the outlines are refined, and what the user chose of them.
-Result<ContourSet> findChosenLines(const BitImage& ink, const GreyImage& grey, const GreyImage* page,
-                                   const PaperBackground* paper, const EdgeParams& edges, const ContourParams& params,
+Result<ContourSet> findChosenLines(const InkedPage& inked, const EdgeParams& edges, const ContourParams& params,
                                    const RunContext& context) {
-  Result<FoundLines> found = findLines(ink, grey, page, paper, edges, params, context);
+  Result<FoundLines> found = findLines(inked, edges, params, context);
   if (!found) return fail(found.error());
   if (edges.mode == EdgeMode::Automatic) {
-    auto net = bordersOfLostNet(found->set, ink, edges, params, context);
+    auto net = bordersOfLostNet(found->set, inked.ink, edges, params, context);
     if (!net) return fail(net.error());
     if (*net) found->set = std::move(**net);
   }
-  noteChoices(found->set, found->regions, edges.choices, found->blots, page != nullptr ? kFineFactor : 1.0, context);
+  noteChoices(found->set, found->regions, edges.choices, found->blots, inked.page != nullptr ? kFineFactor : 1.0,
+              context);
   // A line of several strokes lies beside their ink.
   const bool isOfOne = edges.mergeWidths <= 0.0 && !found->set.report.isGrouped;
   if (edges.mode == EdgeMode::Automatic && !hasOwnLengths(params)) {
-    if (isOfOne) dropGrain(found->set, grey, found->isPencil, found->painted, context);
-    dropPageEdgeLines(found->set, grey);
+    if (isOfOne) dropGrain(found->set, inked.grey, found->isPencil, found->painted, context);
+    dropPageEdgeLines(found->set, inked.grey);
   }
-  if (isOfAllInk(edges, params)) noteUntraced(found->set, ink);
+  if (isOfAllInk(edges, params)) noteUntraced(found->set, inked.ink);
   return std::move(found->set);
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                            const ContourParams& params, const FinePage* fine, const PaperBackground* paper,
-                            const RunContext& context) {
-  Result<ContourSet> found = fine != nullptr ? findChosenLines(fine->ink, *fine->grey, &grey, nullptr,
-                                                               onFinePage(edges), onFinePage(params), context)
-                                             : findChosenLines(ink, grey, nullptr, paper, edges, params, context);
+                            const ContourParams& params, const PageAids& aids, const RunContext& context) {
+  const FinePage* fine = aids.fine;
+  Result<ContourSet> found =
+      fine != nullptr ? findChosenLines({fine->ink, *fine->grey, &grey}, onFinePage(edges), onFinePage(params), context)
+                      : findChosenLines({ink, grey, nullptr, aids.paper}, edges, params, context);
   if (!found) return found;
   if (fine != nullptr) found = fromFinePage(std::move(*found));
   ContourSet* set = &*found;
@@ -322,15 +339,14 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
 }  // namespace
 
 Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                                 const ContourParams& params, const RunContext& context, const FinePage* fine,
-                                 const PaperBackground* paper) {
+                                 const ContourParams& params, const RunContext& context, const PageAids& aids) {
   if (auto error = validate(edges)) return fail(*error);
   if (auto error = validate(params)) return fail(*error);
   if (ink.width != grey.width || ink.height != grey.height) {
     return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
   }
   try {
-    return traceAll(ink, grey, edges, params, fine, paper, context);
+    return traceAll(ink, grey, edges, params, aids, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to trace the lines: raise the smallest length.");
   }

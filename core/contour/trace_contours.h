@@ -12,14 +12,18 @@
 
 namespace batten {
 
+/// What is known of a page beside its ink; absent: nothing.
+struct PageAids {
+  const FinePage* fine = nullptr;  ///< Where strokes are thin: the topology comes from its mask, the positions from the
+                                   ///< grey of the page all the same.
+  const PaperBackground* paper = nullptr;  ///< Where they are not: by it paper is found that strokes of a pen have
+                                           ///< closed (ink/ink_split.h).
+};
+
 /// Finds the lines of a page: outlines by crack following, centre lines by thinning, both refined on the raw grey
 /// values. The mask gives the topology only; positions come from `grey` if EdgeParams::subpixel is on.
-/// @param fine where strokes are thin: the topology comes from its mask instead, the positions from `grey` all the
-/// same.
-/// @param paper where strokes are not thin: by it paper is found that strokes of a pen have closed (ink/ink_split.h).
 /// @return NoCurve, with advice, if no line is long enough.
 Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const ContourParams&,
-                                 const RunContext&, const FinePage* fine = nullptr,
-                                 const PaperBackground* paper = nullptr);
+                                 const RunContext&, const PageAids& aids = {});
 
 }  // namespace batten

@@ -170,11 +170,12 @@ class Follower {
       found = descend(curve(), p, last_.u, std::max(curve().start(), last_.u - window_),
                       std::min(curve().end(), last_.u + window_));
       if (closed_) found = acrossSeam(p, found);
+      constexpr double kFar = 3.0;  // times the root mean square of the distances so far
       const double possible = last_.distance + (p - lastPoint_).norm();
       const double usual = std::sqrt(sumSquares_ / count_);
       // A larger distance than any before is never taken on trust: a search that has lost its branch creeps away by no
       // more than is possible, and makes the large distance the usual one.
-      if (found.distance > possible * (1.0 + 1e-9) || found.distance > 3.0 * usual || found.distance > largest_) {
+      if (found.distance > possible * (1.0 + 1e-9) || found.distance > kFar * usual || found.distance > largest_) {
         const ClosestPoint anywhere = closestWith(table_, p);
         if (anywhere.distance < found.distance) found = anywhere;
       }

@@ -106,11 +106,11 @@ std::optional<NurbsCurve> withEndsOf(const NurbsCurve& curve, NurbsCurve fitted)
 
 }  // namespace
 
-NurbsCurve fairableShape(const NurbsCurve& curve) {
-  if (curve.isRational()) return {};
+std::optional<NurbsCurve> fairableShape(const NurbsCurve& curve) {
+  if (curve.isRational()) return std::nullopt;
   const int degree = std::max(kFairableDegree, curve.degree());
   auto shape = curve.degree() < degree ? elevated(curve, degree) : Result<NurbsCurve>(curve);
-  if (!shape) return {};
+  if (!shape) return std::nullopt;
   const ArcLength arc(*shape);
   const double longest = kLongestSpan * arc.total();
   const std::vector<double> breaks = shape->breaks();
@@ -119,11 +119,12 @@ NurbsCurve fairableShape(const NurbsCurve& curve) {
     const int parts = std::clamp(static_cast<int>(std::ceil(length / longest)), 1, kMostParts);
     for (int k = 1; k < parts; ++k) {
       auto finer = insertKnot(*shape, breaks[i - 1] + (breaks[i] - breaks[i - 1]) * k / parts, 1);
-      if (!finer) return {};
+      if (!finer) return std::nullopt;
       shape = std::move(finer);
     }
   }
-  return *shape == curve ? NurbsCurve() : *shape;
+  if (*shape == curve) return std::nullopt;
+  return std::move(*shape);
 }
 
 std::optional<NurbsCurve> smoothShape(const NurbsCurve& curve, bool closed, double tolerance) {

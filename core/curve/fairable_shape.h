@@ -8,9 +8,9 @@
 namespace batten {
 
 /// What fairing starts from where a curve has too little freedom of its own: the same shape with degree 5 or more and
-/// no span longer than a sixteenth of its length. Empty where it has enough; also for rational curves, which cannot be
+/// no span longer than a sixteenth of its length. Absent where it has enough; also for rational curves, which cannot be
 /// raised exactly.
-NurbsCurve fairableShape(const NurbsCurve&);
+std::optional<NurbsCurve> fairableShape(const NurbsCurve&);
 
 /// A quintic with simple knots (C4) that lies within `tolerance` of a curve without corners, by least squares at equal
 /// arc length; open curves keep the place, direction and curvature of their ends exactly. For curves of pieces that

@@ -73,7 +73,7 @@ Quintic endedAt(const Vec2& end, const Quintic& q, const Edges& edges) {
   return result;
 }
 
-bool turnsOver(const Edges& edges) {
+bool bendsBothWays(const Edges& edges) {
   double least = 0.0, most = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double turn = cross(edges.directions[i], edges.directions[i + 1]);
@@ -150,7 +150,7 @@ EdgeLengthResult followCurvature(std::span<const Quintic> path, const SpecifiedC
     for (Vec2& p : q) p += shift;
     const Vec2 end = q[5];
     const auto edges = edgesOf(q);
-    if (edges && !turnsOver(*edges)) {
+    if (edges && !bendsBothWays(*edges)) {
       const auto solved = solvePiece(q, *edges, values[k], scale, options.pinEnds, context);
       result.iterations += solved.run.iterations;
       if (solved.run.why != Termination::Converged) result.why = solved.run.why;

@@ -27,7 +27,7 @@ struct EdgeLengthResult {
 
 /// Shape modification on a specified curvature (001 section 6, Eq 12 to 16): the directions of the five edges of every
 /// control polygon stay, their lengths a_1..a_5 change until the curvature is nearest to the specified one (least
-/// squares). Solved for log a by Levenberg-Marquardt: edges never turn round, and large changes do not explode as
+/// squares). Solved for log a by Levenberg-Marquardt: edges never reverse, and large changes do not explode as
 /// Gauss-Newton does. Joints keep their direction; neighbours get one curvature there, so the path is G2 where it was
 /// G1. Pieces without length in an edge, or with an inflection, stay as they are (the paper assumes none).
 EdgeLengthResult followCurvature(std::span<const Quintic> path, const SpecifiedCurvature& wanted,

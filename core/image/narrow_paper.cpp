@@ -145,14 +145,18 @@ GreyImage cutOut(const GreyImage& image, const Tile& tile) {
   return part;
 }
 
+/// Narrow paper, and that of it which is wide enough to keep a piece of it.
+struct OpenedPaper {
+  BitImage narrow, wide;
+};
+
 /// Sets what is narrow paper among the bits of one word of each of these rows.
 class TileOpener {
  public:
   TileOpener(const GreyImage& image, const PaperBackground& paper, const NarrowLimits& limits)
       : image_(image), paper_(paper), limits_(limits), kernel_(gaussianKernel(kVariance)) {}
 
-  void open(const BitImage& candidates, int word, int y0, int y1, BitImage& opened, BitImage& wide,
-            const RunContext& alone) const {
+  void open(const BitImage& candidates, int word, int y0, int y1, OpenedPaper& paper, const RunContext& alone) const {
     std::uint64_t columns = 0;
     for (int y = y0; y < y1; ++y) columns |= candidates.row(y)[word];
     if (columns == 0) return;
@@ -169,9 +173,9 @@ class TileOpener {
       for (std::uint64_t bits = candidates.row(y)[word]; bits != 0; bits &= bits - 1) {
         const int bit = std::countr_zero(bits);
         if (!narrow.isAt(64 * word + bit, y)) continue;
-        opened.row(y)[word] |= std::uint64_t{1} << bit;
+        paper.narrow.row(y)[word] |= std::uint64_t{1} << bit;
         const bool isWide = !(limits_.leastGapPx > 0.0) || narrow.gapAt(64 * word + bit, y) >= limits_.leastGapPx;
-        if (isWide) wide.row(y)[word] |= std::uint64_t{1} << bit;
+        if (isWide) paper.wide.row(y)[word] |= std::uint64_t{1} << bit;
       }
     }
   }
@@ -186,17 +190,18 @@ class TileOpener {
 BitImage opened(BitImage ink, const BitImage& candidates, const GreyImage& image, const PaperBackground& paper,
                 const NarrowLimits& limits, const RunContext& context) {
   const TileOpener opener(image, paper, limits);
-  BitImage narrow(ink.width, ink.height), wide(ink.width, ink.height);
+  OpenedPaper found{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height)};
   RunContext alone = context;
   alone.threads = 1;
   parallelFor(context, (ink.height + kTileRows - 1) / kTileRows, 1, [&](int begin, int end) {
     for (int y = begin * kTileRows; y < std::min(ink.height, end * kTileRows); y += kTileRows) {
       for (int word = 0; word < ink.wordsPerRow; ++word)
-        opener.open(candidates, word, y, std::min(ink.height, y + kTileRows), narrow, wide, alone);
+        opener.open(candidates, word, y, std::min(ink.height, y + kTileRows), found, alone);
     }
   });
   if (context.isCancelled()) return ink;
-  return without(std::move(ink), keepPieces(narrow, {.minArea = limits.leastArea, .seeds = &wide}, context));
+  return without(std::move(ink),
+                 keepPieces(found.narrow, {.minArea = limits.leastArea, .seeds = &found.wide}, context));
 }
 
 }  // namespace

@@ -342,11 +342,13 @@ GreyImage paintedOver(GreyImage out, const BitImage& inside, int cellPx, const R
   if (steps.empty() || context.isCancelled()) return out;
   const double grain = robustSigma(steps) / std::sqrt(2.0);
   // Ink within the sheet must not bleed out of it: darker cells than around do not count.
+  constexpr float kNoDarker = 0.97f;  // times the mean around; with ink over a twentieth of it a cell is darker
+  constexpr int kAroundCells = 31;    // 15 to either side
   const std::vector<float> first = pushPull(level, weight, columns, rows);
   cv::Mat1f smooth(rows, columns, const_cast<float*>(first.data())), around;
-  cv::blur(smooth, around, {31, 31}, {-1, -1}, cv::BORDER_REPLICATE);
+  cv::blur(smooth, around, {kAroundCells, kAroundCells}, {-1, -1}, cv::BORDER_REPLICATE);
   for (std::size_t i = 0; i < level.size(); ++i) {
-    if (level[i] < 0.97f * around(static_cast<int>(i) / columns, static_cast<int>(i) % columns)) weight[i] = 0.0f;
+    if (level[i] < kNoDarker * around(static_cast<int>(i) / columns, static_cast<int>(i) % columns)) weight[i] = 0.0f;
   }
   const std::vector<float> paper = pushPull(level, weight, columns, rows);
   parallelFor(context, out.height, kRowsPerBlock, [&](int begin, int end) {

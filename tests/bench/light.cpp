@@ -33,11 +33,11 @@
 #include "core/curve/corners_inside.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
-#include "core/curve/uniform_quintic.h"
 #include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/bench/accuracy_peers.h"
 #include "tests/bench/cubic_chain.h"
+#include "tests/support/dense_curve.h"
 #include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"
 
@@ -47,21 +47,6 @@ using namespace batten::test;
 namespace {
 
 constexpr int kArcCountsAs = 3;  // an arc or circle counts as what it takes to draw it
-
-std::optional<NurbsCurve> denseCurve(const TruthPiece& piece, bool closed) {
-  std::vector<double> t(1, 0.0);
-  for (std::size_t i = 1; i < piece.points.size(); ++i) {
-    t.push_back(t.back() + (piece.points[i] - piece.points[i - 1]).norm());
-  }
-  const double length = t.back() + (closed ? (piece.points.front() - piece.points.back()).norm() : 0.0);
-  std::vector<double> weights(t.size(), 1.0);
-  if (!closed) weights.front() = weights.back() = 1e6;
-  const UniformKnots knots{length, std::max(6, static_cast<int>(std::lround(length / 6.0))), closed};
-  const auto fitted = fitUniformQuintic(knots, t, piece.points, weights, 1e-9);
-  if (!fitted) return std::nullopt;
-  auto curve = fitted->toNurbs();
-  return curve ? std::optional(*curve) : std::nullopt;
-}
 
 struct Sum {
   int points = 0, before = 0, extrema = 0, asked = 0, dense = 0;
@@ -119,7 +104,7 @@ void printShapes() {
       const bool closed = shape.corners.empty();
       for (const TruthPiece& piece : shape.pieces) {
         cubics += cubicChainPoints(piece, closed, tolerance);
-        if (const auto dense = denseCurve(piece, closed)) add(sum, *dense, closed, tolerance, 0.5);
+        add(sum, denseCurve(piece, closed), closed, tolerance, 0.5);
       }
       const auto potrace = potracePoints(shape, tolerance >= 1.0 ? 5.0 : tolerance >= 0.5 ? 1.0 : 0.2);
       const std::string traced = potrace ? std::to_string(*potrace) : "-";

@@ -11,6 +11,7 @@ namespace batten {
 namespace {
 
 constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
+constexpr double kDoubtfulShare = 0.5;  // of that cost: what costs less is noise
 constexpr double kSamePlacePx = 1.0;    // nearer marks are one
 constexpr double kMostShift = 0.02;     // of the curve's length, by which fewer control points move an extremum
 QString extremumText(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
@@ -43,9 +44,9 @@ QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
                                                   : extremumText("not certain")) +
             significance;
   } else {
-    text += (note.removalCost >= note.askedCost         ? extremumText("drawn, but removed")
-             : note.removalCost >= 0.5 * note.askedCost ? extremumText("doubtful, dropped")
-                                                        : extremumText("noise, dropped")) +
+    text += (note.removalCost >= note.askedCost                    ? extremumText("drawn, but removed")
+             : note.removalCost >= kDoubtfulShare * note.askedCost ? extremumText("doubtful, dropped")
+                                                                   : extremumText("noise, dropped")) +
             significance;
   }
   if (mark.wantedToKeep) {

@@ -151,8 +151,8 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
     if (!again) break;
   }
   std::vector<ConstructedPiece> out;
-  for (const SmoothSections& part : parts) {
-    auto piece = part.joined(context);
+  for (SmoothSections& part : parts) {
+    auto piece = std::move(part).joined(context);
     if (context.isCancelled()) return cancelled();
     if (!piece) return fail(piece.error());
     out.push_back(std::move(*piece));

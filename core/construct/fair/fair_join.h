@@ -12,7 +12,7 @@
 
 namespace batten {
 
-/// Position with first and second derivative where a tight curve begins or ends.
+/// Position with first and second derivative where a corner fill begins or ends.
 using CurveEnd = std::array<Vec2, 3>;
 CurveEnd startOf(const NurbsCurve&);
 CurveEnd endOf(const NurbsCurve&);

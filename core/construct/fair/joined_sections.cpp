@@ -118,7 +118,7 @@ class SectionChain {
     return fill({smooth_.back().last + 1, pointCount_ - 1}, endOf(fits_.back().curve), {});
   }
 
-  /// The tight curve between a smooth section and the one before it.
+  /// The corner fill between a smooth section and the one before it.
   Result<void> fillBefore(int to) {
     const int from = (to + count_ - 1) % count_;
     int next = smooth_[to].first;

@@ -23,7 +23,7 @@ struct FittedSections {
   std::span<const PointRange> sharp, smooth;
   std::span<const ConstructedPiece> fits;  ///< One per smooth section.
 };
-/// Fits and tight curves through the sharp features as one curve, with the reports together. All in px.
+/// Fits and corner fills through the sharp features as one curve, with the reports together. All in px.
 Result<ConstructedPiece> joinSections(const ConstructPiece&, const FittedSections&, const RunContext&);
 
 }  // namespace batten

@@ -81,8 +81,7 @@ std::string scatteredNote(std::size_t places) {
   return "Too many sharp turns for the fair fit (" + std::to_string(places) + ", at most " +
          std::to_string(kMostSharpFeatures) +
          "): a curve close to the points was used. Put scattered points in the order in which the line runs, and mark "
-         "the "
-         "corners that are meant.";
+         "the corners that are meant.";
 }
 
 }  // namespace
@@ -179,7 +178,7 @@ void SmoothSections::keepNear(const std::vector<OutlierFit>& leaving, const std:
       const double from = atStart ? fits_[i].curve.start() : at[r.first % n].parameter;
       const double to = atEnd ? fits_[i].curve.end() : at[r.last % n].parameter;
       auto part = stretchOf(fits_[i], from, to, piece.closed);
-      if (!part) continue;  // left to the tight curve
+      if (!part) continue;  // left to the corner fill
       kept.push_back(std::move(*part));
       ranges.push_back({r.first + smooth_[i].first, r.last + smooth_[i].first});
     }
@@ -189,13 +188,12 @@ void SmoothSections::keepNear(const std::vector<OutlierFit>& leaving, const std:
   smooth_ = std::move(ranges);
 }
 
-// A fit may end beside its points by what makes none of them an outlier. The tight curve that goes on from there would
+// A fit may end beside its points by what makes none of them an outlier. The corner fill that goes on from there would
 // have to turn back to them: beside a sharp feature a fit ends where it is on its points.
-SmoothSections::Stretches SmoothSections::endingOnPoints(CancelCheck run) const {
+void SmoothSections::endOnPoints(CancelCheck run) {
   constexpr double kOffPx = 0.7, kOnPx = 0.35;  // beside the points; on them
   constexpr double kGrainShare = 0.5;           // of the standard deviation of the grain more
   constexpr int kLongestShare = 3;              // of a stretch so much is cut off at most
-  Stretches found{smooth_, fits_};
   const std::vector<ConstructPiece> pieces = stretches();
   const int all = static_cast<int>(piece_.points.size());
   const auto allowed = [&](const PiecePoint& point) {
@@ -214,7 +212,7 @@ SmoothSections::Stretches SmoothSections::endingOnPoints(CancelCheck run) const 
         (piece_.closed || smooth_[i].last < all - 1) && isOff(curve.point(curve.end()), points.back());
     if (!isOffAtStart && !isOffAtEnd) continue;
     const std::vector<PointOffset> at = pointDeviation(curve, pieces[i], run).points;
-    if (run.isCancelled()) return found;
+    if (run.isCancelled()) return;
     const auto isOn = [&](int k) { return at[k].offPx <= kOnPx + allowed(points[k]); };
     const int n = static_cast<int>(at.size());
     int first = 0, last = n - 1;
@@ -226,10 +224,9 @@ SmoothSections::Stretches SmoothSections::endingOnPoints(CancelCheck run) const 
     auto part = stretchOf(fits_[i], first > 0 ? at[first].parameter : curve.start(),
                           last < n - 1 ? at[last].parameter : curve.end(), false);
     if (!part) continue;
-    found.fits[i] = std::move(*part);
-    found.smooth[i] = {smooth_[i].first + first, smooth_[i].first + last};
+    fits_[i] = std::move(*part);
+    smooth_[i] = {smooth_[i].first + first, smooth_[i].first + last};
   }
-  return found;
 }
 
 Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& context) const {
@@ -263,8 +260,8 @@ void SmoothSections::noteUnmet(ConstructReport& report) const {
   }
 }
 
-Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const {
-  if (sharp_.empty()) return fits_.front();
+Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) && {
+  if (sharp_.empty()) return std::move(fits_.front());
   if (scattered_ && piece_.isDrawn && std::cmp_greater(*scattered_, kMostDrawnTurns))
     return fail(tooScattered(*scattered_));
   auto whole = joinedParts(context);
@@ -272,10 +269,10 @@ Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const
   return whole;
 }
 
-Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
-  const Stretches stretches = endingOnPoints(context);
+Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) {
+  endOnPoints(context);
   if (context.isCancelled()) return cancelled();
-  auto whole = joinSections(piece_, {sharp_, stretches.smooth, stretches.fits}, context);
+  auto whole = joinSections(piece_, {sharp_, smooth_, fits_}, context);
   if (context.isCancelled()) return cancelled();
   if (whole && scattered_) {
     whole->report.note = scatteredNote(*scattered_);

@@ -14,7 +14,7 @@
 namespace batten {
 
 /// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and sharp
-/// features. One of more than 1000 sharp features becomes one tight curve along its points, with a note. All in px.
+/// features. One of more than 1000 sharp features becomes one corner fill along its points, with a note. All in px.
 class SmoothSections {
  public:
   SmoothSections(const ConstructPiece& piece, bool isStroke, const FairFitOptions&);
@@ -25,9 +25,9 @@ class SmoothSections {
   /// Takes the fits of stretches(); where one has left its points further sharp features are noted. True when there
   /// are.
   bool check(std::vector<ConstructedPiece> fits, bool lastRound, CancelCheck run = {});
-  /// The whole: stretches and sharp features in one curve, with the reports together; what is not near its points is
-  /// replaced by a quintic through stations.
-  Result<ConstructedPiece> joined(const RunContext&) const;
+  /// The whole, made of the fits: stretches and sharp features in one curve, with the reports together; what is not
+  /// near its points is replaced by a quintic through stations.
+  Result<ConstructedPiece> joined(const RunContext&) &&;
 
  private:
   /// A fit that has left some of its points in the last round.
@@ -36,15 +36,11 @@ class SmoothSections {
     PointDeviation deviation;
     std::vector<PointRange> outliers;
   };
-  /// Of those fits only what is near the points; tight curves come between.
+  /// Of those fits only what is near the points; corner fills come between.
   void keepNear(const std::vector<OutlierFit>&, const std::vector<ConstructPiece>& pieces);
-  /// The stretches and their fits, cut where these are on their points.
-  struct Stretches {
-    std::vector<PointRange> smooth;
-    std::vector<ConstructedPiece> fits;
-  };
-  Stretches endingOnPoints(CancelCheck run) const;
-  Result<ConstructedPiece> joinedParts(const RunContext&) const;
+  /// Cuts the stretches and their fits where these are on their points. Unfinished when cancelled.
+  void endOnPoints(CancelCheck run);
+  Result<ConstructedPiece> joinedParts(const RunContext&);
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;
   std::vector<PiecePoint> pointsOf(const PointRange&) const;

@@ -155,18 +155,18 @@ void lighten(ConstructedPiece& piece, bool closed, DetailAsked asked, const Cons
   }
   if (light->report.kind == LightKind::Dense) return;
   piece.report.light->isSimplified = simplified;
-  piece.dense = std::exchange(piece.curve, std::move(light->curve));
+  const NurbsCurve& dense = piece.dense.emplace(std::exchange(piece.curve, std::move(light->curve)));
   if (simplified) {
     if (closed && !piece.curve.isRational() && cornersInside(piece.curve).empty() && !beginsAtCorner(piece.curve))
-      piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
+      piece.curve = startedNear(piece.curve, dense.point(dense.start()));
     piece.report.light->points = piece.curve.controlPointCount();
-    piece.dense = piece.curve.isRational() ? NurbsCurve() : fairingStartOf(piece.curve, closed, options);
+    piece.dense = piece.curve.isRational() ? std::nullopt : fairingStartOf(piece.curve, closed, options);
     finishExact(piece, closed, light->report.kind);
     return;
   }
   // Shares of the length mean the same on both: what is pointed at on the one is split on the other.
   if (closed && !piece.curve.isRational()) {
-    piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
+    piece.curve = startedNear(piece.curve, dense.point(dense.start()));
     piece.report.light->points = piece.curve.controlPointCount();
   }
   finishExact(piece, closed, light->report.kind);
@@ -216,10 +216,10 @@ LightOptions lightOptions(const ConstructParams& params, const ConstructContour&
   return options;
 }
 
-NurbsCurve fairingStartOf(const NurbsCurve& light, bool closed, const LightOptions& options) {
+std::optional<NurbsCurve> fairingStartOf(const NurbsCurve& light, bool closed, const LightOptions& options) {
   const bool isJoined = light.isRational() || (hasKnotsOf(light, light.degree() - 1) && cornersInside(light).empty());
   if (isJoined) {
-    if (auto smooth = smoothShape(light, closed, kSmoothShare * options.step)) return std::move(*smooth);
+    if (auto smooth = smoothShape(light, closed, kSmoothShare * options.step)) return smooth;
   }
   return fairableShape(light);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/result.h"
@@ -23,8 +24,8 @@ LightNote lightNote(const LightCurve&, const NurbsCurve& dense, double pixelMm);
 
 /// What fairing starts from where it is to keep the ends of a light curve: the curve itself with more knots, and, where
 /// its pieces meet with one tangent or curvature only, or it is rational, a quintic close to it that has its ends.
-/// Empty: the curve itself.
-NurbsCurve fairingStartOf(const NurbsCurve& light, bool closed, const LightOptions&);
+/// Absent: the curve itself.
+std::optional<NurbsCurve> fairingStartOf(const NurbsCurve& light, bool closed, const LightOptions&);
 
 /// Makes the curves of pieces light: each keeps the dense one beside it (ConstructedPiece::dense) and says in its
 /// report what was won. A curve without a lighter version is kept, with a note.

@@ -9,7 +9,7 @@
 
 namespace batten {
 
-/// Joints that bend one way, clearly: first and last index. Elsewhere the line is straight or turns over.
+/// Joints that bend one way, clearly: first and last index. Elsewhere the line is straight or its bend changes side.
 struct JointRun {
   std::size_t first = 0, last = 0;
 };

@@ -74,15 +74,15 @@ void cutAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
 
 // The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
 StrokePathSet centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
-                            const RunContext& context, bool ofPencil = false) {
+                            const RunContext& context, JunctionsOf of = JunctionsOf::Pen) {
   const BitImage* shapes = options.shapes;
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
   const bool isKnown = options.known != nullptr && options.known->ink == all;
   if (isKnown && shapes == nullptr) return {std::move(options.known->paths), std::move(options.known->junctions)};
   BitImage skeleton = isKnown ? std::move(options.known->skeleton) : BitImage(all);
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
-  if (shapes == nullptr) return findPathsAndJunctions(skeleton, all, params, context, ofPencil);
-  StrokePathSet found = findPathsAndJunctions(without(std::move(skeleton), *shapes), all, params, context, ofPencil);
+  if (shapes == nullptr) return findPathsAndJunctions(skeleton, all, params, context, of);
+  StrokePathSet found = findPathsAndJunctions(without(std::move(skeleton), *shapes), all, params, context, of);
   cutAtRims(found.paths, *shapes);
   endAtRims(found.paths, *shapes);
   return found;
@@ -269,7 +269,7 @@ GraininessMap addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeP
   if (context.isCancelled() || trails.count() == 0) return grain;
   found.bodies = either(std::move(*found.bodies), std::move(trails));
   if (options.shapes != nullptr) found.bodies = without(std::move(*found.bodies), *options.shapes);
-  found.strokes = centrelinesOf(*found.bodies, options, params, context, true);
+  found.strokes = centrelinesOf(*found.bodies, options, params, context, JunctionsOf::Pencil);
   return grainOf(found.strokes.paths, grey, options, context);
 }
 
@@ -277,7 +277,6 @@ GraininessMap addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeP
 PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                      const CentrelineOptions& options, const RunContext& context) {
   const BitImage* shapes = options.shapes;
-  const int pixelsPerPx = options.pixelsPerPx();
   PathsFound found;
   found.strokes = centrelinesOf(strokes, options, params, context);
   std::vector<StrokePath>& paths = found.strokes.paths;
@@ -291,9 +290,9 @@ PathsFound findPaths(const BitImage& strokes, const GreyImage& grey, const EdgeP
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || isPencil(i);
   std::vector<bool> pencil;
   if (anyPencil) {
-    found.bodies = pencilBodies(strokes, grey, paths, grain, pixelsPerPx, options.clear, context);
+    found.bodies = pencilBodies(strokes, grey, paths, grain, {options.pixelsPerPx(), options.clear}, context);
     if (context.isCancelled()) return found;
-    found.strokes = centrelinesOf(*found.bodies, options, params, context, true);
+    found.strokes = centrelinesOf(*found.bodies, options, params, context, JunctionsOf::Pencil);
     const GraininessMap ofBodies = addFaintEnds(found, grey, params, options, context);
     if (context.isCancelled()) return found;
     for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(ofBodies.isPencil(i));

@@ -15,15 +15,6 @@
 
 namespace batten {
 
-/// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening
-/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless EdgeParams::mode or the
-/// user decides otherwise. Both masks have the size of `ink`.
-struct StrokeSplit {
-  BitImage strokes;
-  BitImage shapes;
-};
-Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const RunContext&);
-
 /// What was found along all ink of a page before it was split.
 struct StrokesOfInk {
   BitImage ink, skeleton;
@@ -40,7 +31,7 @@ struct CentrelineOptions {
   const BitImage* rows = nullptr;    ///< Dashes of broken lines, which stay however short they are.
   double minWidths = 3.0;            ///< ContourParams::minWidths.
   StrokesOfInk* known = nullptr;    ///< By the same parameters: what it holds is not sought again, but taken out of it.
-  const BitImage* clear = nullptr;  ///< Paper that no pencil closes, however near its strokes; absent or empty: any.
+  const BitImage* clear = nullptr;  ///< Paper that no pencil closes, however near its strokes; absent: any.
   /// The page, where mask and grey are enlarged (fine_page.h): the middles are measured on it, whose noise is that of
   /// the scan. Absent: on the grey.
   const GreyImage* page = nullptr;

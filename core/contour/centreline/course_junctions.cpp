@@ -73,14 +73,14 @@ Crossing crossingAt(const StrokeCourse& c, int begin, int last) {
 }
 
 // Whether a stroke goes on beyond a crossing as before it, but for a turn of less than this.
-bool goesOnWithin(const Crossing& crossing, double turnRad) {
+bool continuesWithin(const Crossing& crossing, double turnRad) {
   return crossing.before && crossing.after &&
          crossing.before->direction.dot(crossing.after->direction) >= std::cos(turnRad);
 }
 
 // Tangent of the angle at which a crossing leaves the mean direction of its sides; nothing where these turn.
 std::optional<double> slantOf(const Crossing& crossing) {
-  if (!goesOnWithin(crossing, kSameWayRad)) return std::nullopt;
+  if (!continuesWithin(crossing, kSameWayRad)) return std::nullopt;
   const Vec2 along = (crossing.before->direction + crossing.after->direction).normalized();
   const Vec2 chord = crossing.after->at - crossing.before->at;
   const double length = chord.dot(along);
@@ -182,7 +182,7 @@ void hideBlots(StrokeCourse& c) {
     if (begin <= 0 || end + 1 >= n) continue;
     const auto isInk = [](const CoursePoint& p) { return p.part == StrokePart::Ink; };
     if (!std::all_of(c.points.begin() + begin - 1, c.points.begin() + end + 2, isInk)) continue;
-    if (!goesOnWithin(between(c, begin, end), kBlotTurnRad)) continue;
+    if (!continuesWithin(between(c, begin, end), kBlotTurnRad)) continue;
     for (int k = begin; k <= end; ++k) c.points[k].part = StrokePart::Junction;
   }
 }

@@ -53,11 +53,11 @@ BitImage grainHoles(const BitImage& taken, const BitImage& rest, const BitImage&
 }  // namespace
 
 BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
-                      const GraininessMap& grain, int pixelsPerPx, const BitImage* clear, const RunContext& context) {
+                      const GraininessMap& grain, const PencilBodyOptions& options, const RunContext& context) {
   const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
   const double closing = grainClosing(width);
-  BitImage body = closeGrain(strokes, width, pixelsPerPx > 1, context);
-  if (clear != nullptr && clear->width > 0) body = without(std::move(body), *clear);
+  BitImage body = closeGrain(strokes, width, options.pixelsPerPx > 1, context);
+  if (options.clear != nullptr) body = without(std::move(body), *options.clear);
   bool anyPen = false;
   for (int i = 0; i < std::ssize(paths); ++i) anyPen = anyPen || !grain.isPencil(i);
   BitImage ownPens(strokes.width, strokes.height);
@@ -67,7 +67,8 @@ BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std:
     body = either(without(std::move(body), ownPens), strokes);
   }
   if (context.isCancelled()) return strokes;
-  const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context, pixelsPerPx);
+  const OrientedLines found =
+      filterOrientedLines(without(body, ownPens), grey, grain, width, context, options.pixelsPerPx);
   const BitImage carved = either(without(body, found.gaps), without(found.lines, ownPens));
   return either(carved, grainHoles(without(std::move(body), carved), carved, strokes, width, context));
 }

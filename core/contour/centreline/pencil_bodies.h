@@ -11,11 +11,15 @@
 
 namespace batten {
 
+struct PencilBodyOptions {
+  int pixelsPerPx = 1;              ///< More on an enlarged page.
+  const BitImage* clear = nullptr;  ///< Paper that stays paper, however near the strokes; absent: what they leave.
+};
+
 /// The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
 /// paper, beside pens too: there a threshold closes it as well.
-/// @param pixelsPerPx 1, or more on an enlarged page. @param clear CentrelineOptions::clear. @return the strokes as
-/// they were when cancelled.
+/// @return the strokes as they were when cancelled.
 BitImage pencilBodies(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
-                      const GraininessMap& grain, int pixelsPerPx, const BitImage* clear, const RunContext& context);
+                      const GraininessMap& grain, const PencilBodyOptions& options, const RunContext& context);
 
 }  // namespace batten

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/contour/centreline/centreline.h"
-#include "core/contour/chosen_ink.h"
 #include "core/image/bits/ink_grain.h"
 #include "core/image/bits/ink_holes.h"
 #include "core/image/bits/run_pieces.h"
@@ -135,6 +133,7 @@ int heightAt(const BitImage& ink, int x, int y, int most) {
   return height;
 }
 
+constexpr double kWidestStroke = 0.025;  // of the side of a square as large as the page: 6 mm on A4
 constexpr double kLongChord = 0.7;       // of the diameter of a disc
 constexpr double kLeastLongRuns = 0.35;  // of the area of a piece: with less it cannot be half a disc's chords
 
@@ -164,22 +163,14 @@ std::vector<bool> shapesByWidth(const BitImage& ink, const RunPieces& pieces, do
   return shapes;
 }
 
-StrokeSplit split(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
+StrokeSplit split(const BitImage& ink, const RunContext& context) {
   StrokeSplit result{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height)};
   const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
   if (context.isCancelled()) return result;
-  std::vector<bool> shapes(pieces.runs.size(), params.mode == EdgeMode::Outline);
-  if (params.mode == EdgeMode::Automatic) {
-    const double side = std::sqrt(static_cast<double>(ink.width) * ink.height);
-    shapes = shapesByWidth(ink, pieces, params.strokeWidth * side);
-  }
-  const ChosenInk chosen(pieces, params.choices);
-  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
-    const auto choice = chosen.choiceOf(pieces.piece[i]);
-    const EdgeMode own = choice ? params.choices[*choice].mode : EdgeMode::Automatic;
-    const bool shape = own == EdgeMode::Automatic ? shapes[i] : own == EdgeMode::Outline;
-    copyBits(ink, pieces.runs[i], shape ? result.shapes : result.strokes);
-  }
+  const double side = std::sqrt(static_cast<double>(ink.width) * ink.height);
+  const std::vector<bool> shapes = shapesByWidth(ink, pieces, kWidestStroke * side);
+  for (int i = 0; i < std::ssize(pieces.runs); ++i)
+    copyBits(ink, pieces.runs[i], shapes[i] ? result.shapes : result.strokes);
   return result;
 }
 
@@ -223,11 +214,11 @@ BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, co
   return kept;
 }
 
-Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
+Result<StrokeSplit> splitStrokes(const BitImage& ink, const RunContext& context) {
   if (ink.width <= 0 || ink.height <= 0) return StrokeSplit{ink, ink};
   if (context.isCancelled()) return cancelled();
   try {
-    StrokeSplit result = split(ink, params, context);
+    StrokeSplit result = split(ink, context);
     if (context.isCancelled()) return cancelled();
     return result;
   } catch (const cv::Exception& e) {

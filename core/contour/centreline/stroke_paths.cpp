@@ -360,12 +360,11 @@ std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, cons
 }
 
 StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
-                                    const RunContext& context, bool ofPencil) {
+                                    const RunContext& context, JunctionsOf of) {
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
   pruneSpurs(graph, params.spurFactor);
-  const JunctionsOf ofPenOrPencil = ofPencil ? JunctionsOf::Pencil : JunctionsOf::Pen;
-  const JunctionsOf of = isOfBundles(params) ? JunctionsOf::Bundles : ofPenOrPencil;
+  if (isOfBundles(params)) of = JunctionsOf::Bundles;
   mergeJunctions(graph, of, params.junctions);
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params, of).make();

@@ -9,6 +9,7 @@
 #include "core/base/run_context.h"
 #include "core/base/vec2.h"
 #include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/skeleton_junctions.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
 
@@ -46,9 +47,10 @@ struct StrokePathSet {
 
 /// The strokes of a skeleton: spurs pruned, junctions of one crossing merged, smooth edges led through (see
 /// EdgeParams). Deterministic order. Empty when cancelled.
-/// @param ofPencil the ink is what strokes of a pencil became, with the grain closed.
+/// @param of Pencil: the ink is what strokes of a pencil became, with the grain closed. Where strokes are merged all
+/// are of bundles, whatever is given.
 StrokePathSet findPathsAndJunctions(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
-                                    const RunContext& context, bool ofPencil = false);
+                                    const RunContext& context, JunctionsOf of = JunctionsOf::Pen);
 /// Its paths alone.
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context);

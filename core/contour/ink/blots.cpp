@@ -65,13 +65,13 @@ BitImage leftBeside(const BitImage& ink, std::optional<double> penPx, const Cont
 }
 
 // What strokes of a pen enclose and fill. What is left beside a line that swells is none.
-BitImage penFillings(const BitImage& ink, const BitImage& shapes, const BitImage& swellings,
+BitImage penFillings(const BitImage& ink, const BitImage& shapes, const std::optional<BitImage>& swellings,
                      std::optional<double> penPx, const ContourSet& lines, const RunContext& context) {
   constexpr double kLeastArea = 3.0;   // [squared pen widths] a dot of two pens across
   constexpr double kBodyWidths = 2.5;  // strokes that cross at any angle hold no larger disc, and a pixel
   BitImage fillings = leftBeside(ink, penPx, lines, context);
   if (fillings.count() == 0 || !penPx) return fillings;
-  if (swellings.width > 0) fillings = without(std::move(fillings), swellings);
+  if (swellings) fillings = without(std::move(fillings), *swellings);
   const int half = stepsOfWide(*penPx);
   const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * *penPx + 1.0))));
   const BitImage bodies = grown(shrunken(ink, body, context), body + 1, context);

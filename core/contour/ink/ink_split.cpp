@@ -2,6 +2,7 @@
 #include "core/contour/ink/ink_split.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -117,19 +118,69 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
   return pen;
 }
 
-// Of the closed ink of a pencil, the paper within pieces no larger than a line of lettering.
-BitImage paperInLettering(const BitImage& pencil, const GreyImage& grey, const PaperBackground& sheet, double penPx,
-                          const RunContext& context) {
-  constexpr double kLongestWidths = 64.0;  // a dozen letters
+// The pieces that may be a line of lettering, or part of one.
+BitImage letteringOf(const BitImage& ink, double penPx, const RunContext& context) {
+  constexpr double kLongestWidths = 64.0, kHighestWidths = 24.0;  // [pens] a dozen letters, with their tails
+  constexpr double kLetterWidths = 16.0;                          // [pens] a large letter alone
+  constexpr double kLongerThanHigh = 1.5;                         // of two letters or more
+  struct Box {
+    int x0 = std::numeric_limits<int>::max(), y0 = x0, x1 = 0, y1 = 0;
+  };
+  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
+  std::vector<Box> boxes(pieces.runs.size());
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const InkRun& run = pieces.runs[i];
+    Box& box = boxes[pieces.piece[i]];
+    box = {std::min(box.x0, run.x0), std::min(box.y0, run.y), std::max(box.x1, run.x1), std::max(box.y1, run.y + 1)};
+  }
+  BitImage lettering(ink.width, ink.height);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const Box& box = boxes[pieces.piece[i]];
+    const double longer = std::max(box.x1 - box.x0, box.y1 - box.y0) / penPx;
+    const double lower = std::min(box.x1 - box.x0, box.y1 - box.y0) / penPx;
+    const bool isLine = longer <= kLongestWidths && lower <= kHighestWidths && longer >= kLongerThanHigh * lower;
+    if (isLine || longer <= kLetterWidths) setBits(lettering, pieces.runs[i]);
+  }
+  return lettering;
+}
+
+// Of what a pencil drew, the paper within pieces no larger than a line of lettering, and within lettering that which
+// the closing of its grain fills; absent: there is none.
+std::optional<BitImage> paperInLettering(const BitImage& pencil, const BitImage& closed, const GreyImage& grey,
+                                         const PaperBackground& sheet, double penPx, const RunContext& context) {
+  constexpr double kLongestWidths = 64.0;  // [pens]
   const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
-  return clearPaper(without(BitImage(pencil), large), grey, sheet, penPx, context);
+  const BitImage small = either(without(BitImage(pencil), large), letteringOf(closed, penPx, context));
+  BitImage paper = clearPaper(small, grey, sheet, penPx, context);
+  return paper.count() > 0 ? std::optional(std::move(paper)) : std::nullopt;
 }
 
 // Paper that ink has closed: what the sheet is, by which it is found, or that which was.
 struct PaperInInk {
   const PaperBackground* sheet = nullptr;  // absent: none is looked for
-  BitImage clear = {};                     // InkSplit::clear
+  std::optional<BitImage> clear = {};      // InkSplit::clear
 };
+
+struct OpenedInk {
+  BitImage ink;
+  std::optional<BitImage> clear;  // InkSplit::clear
+};
+
+// The ink with the paper open again that strokes which have run together, or lettering, have closed; absent: there is
+// none. @param closed what a pencil drew, its grain closed.
+std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& grey, const InkSplit& split,
+                                         const std::optional<BitImage>& closed, const BitImage& pens,
+                                         const PaperBackground& sheet, const RunContext& context) {
+  const BitImage strokes = both(BitImage(pens), split.strokes);
+  const BitImage open = withoutClosedPaper(strokes, grey, sheet, *split.penPx, context);
+  OpenedInk opened;
+  if (closed)
+    opened.clear = paperInLettering(without(BitImage(ink), pens), *closed, grey, sheet, *split.penPx, context);
+  if (context.isCancelled() || (open == strokes && !opened.clear)) return std::nullopt;
+  opened.ink = either(without(BitImage(ink), strokes), open);
+  if (opened.clear) opened.ink = without(std::move(opened.ink), *opened.clear);
+  return opened;
+}
 
 Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
                               const GreyImage* page, PaperInInk paper, const RunContext& context) {
@@ -148,29 +199,22 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   if (context.isCancelled()) return cancelled();
   // Strokes that have run together are told anew once the paper between them is open.
   if (paper.sheet != nullptr && split.penPx) {
-    const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink, strokes = both(BitImage(pens), split.strokes);
-    const BitImage open = withoutClosedPaper(strokes, grey, *paper.sheet, *split.penPx, context);
-    BitImage clear;
+    const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink;
+    std::optional<BitImage> closed;
     if (pencil.any()) {
       const double pencilPx = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
-      const Result<BitImage> drawn = withGrainClosed(without(BitImage(ink), pens), pencilPx, page != nullptr, context);
-      if (!drawn) return fail(drawn.error());
-      clear = paperInLettering(*drawn, grey, *paper.sheet, *split.penPx, context);
+      Result<BitImage> body = withGrainClosed(without(BitImage(ink), pens), pencilPx, page != nullptr, context);
+      if (!body) return fail(body.error());
+      closed = std::move(*body);
     }
+    auto opened = withPaperOpened(ink, grey, split, closed, pens, *paper.sheet, context);
     if (context.isCancelled()) return cancelled();
-    if (open != strokes || clear.count() > 0) {
-      BitImage opened = either(without(BitImage(ink), strokes), open);
-      if (clear.width > 0) opened = without(std::move(opened), clear);
-      return splitByLabel(opened, grey, params, page, {nullptr, std::move(clear)}, context);
-    }
+    if (opened) return splitByLabel(opened->ink, grey, params, page, {nullptr, std::move(opened->clear)}, context);
   }
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
   if (!pencil.any()) return split;
-  EdgeParams whole = params;
-  whole.choices.clear();
-  whole.strokeWidth = EdgeParams{}.strokeWidth;
-  Result<StrokeSplit> byPiece = splitStrokes(ink, whole, context);
+  Result<StrokeSplit> byPiece = splitStrokes(ink, context);
   if (!byPiece) return fail(byPiece.error());
   const RunPieces& pieces = pencil.pieces();
   PencilInk drawn;
@@ -185,7 +229,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, page != nullptr, context);
   if (!body) return fail(body.error());
   if (context.isCancelled()) return cancelled();
-  if (paper.clear.width > 0) *body = without(std::move(*body), paper.clear);
+  if (paper.clear) *body = without(std::move(*body), *paper.clear);
   split.clear = std::move(paper.clear);
   Result<InkLabels> ofBody = labelInk(*body, context, params.mergeWidths, pixelsPerPx);
   if (!ofBody) return fail(ofBody.error());

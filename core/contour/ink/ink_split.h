@@ -25,15 +25,15 @@ struct PencilInk {
 
 /// The ink of a page by trace mode. Both pictures have the size of the ink and share no pixel.
 struct InkSplit {
-  BitImage strokes;                      ///< Along their middle.
-  BitImage shapes;                       ///< Along their border.
-  BitImage swellings = {};               ///< Of the strokes: where one swells (InkLabels). Empty: nowhere.
-  std::optional<PencilInk> pencil = {};  ///< Absent: nothing was drawn with a pencil.
-  std::optional<BitImage> painted = {};  ///< Ink whose kind the user has painted; absent: he painted nothing.
-  RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.
-                      ///< What was painted is apart from what was not.
+  BitImage strokes;                        ///< Along their middle.
+  BitImage shapes;                         ///< Along their border.
+  std::optional<BitImage> swellings = {};  ///< InkLabels::swellings.
+  std::optional<PencilInk> pencil = {};    ///< Absent: nothing was drawn with a pencil.
+  std::optional<BitImage> painted = {};    ///< Ink whose kind the user has painted; absent: he painted nothing.
+  RunPieces regions;  ///< What the user changes the kind of with one click: connected parts of one kind, before the
+                      ///< choices. What was painted is apart from what was not.
   std::unique_ptr<StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
-  BitImage clear = {};                  ///< Paper that lettering of a pencil had closed. Empty: none was found.
+  std::optional<BitImage> clear = {};   ///< Paper that lettering of a pencil had closed; absent: none was found.
   std::optional<double> penPx = {};     ///< [px] width of the strokes; absent: none was looked for, or there are none.
 };
 

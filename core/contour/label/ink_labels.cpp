@@ -256,12 +256,12 @@ void releaseBundles(const InkGraph& graph, const PiecesOfPage& page, double merg
     if (isKnot && width <= kKnotPens * pen + 1.0) return true;
     return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
   };
-  labels.swellings = BitImage(labels.shapes.width, labels.shapes.height);
+  BitImage& swellings = labels.swellings.emplace(labels.shapes.width, labels.shapes.height);
   for (std::size_t i = 0; i < shapes.runs.size(); ++i) {
     const ShapeRegion& region = regions.at(shapes.piece[i]);
     const bool swells = isSwelling(region, graph, page.widestPenPx);
     if (!swells && !isBundle(region)) continue;
-    if (swells) setBits(labels.swellings, shapes.runs[i]);
+    if (swells) setBits(swellings, shapes.runs[i]);
     setBits(labels.strokes, shapes.runs[i]);
     clearBits(labels.shapes, shapes.runs[i]);
   }

@@ -14,8 +14,8 @@ struct InkLabels {
   BitImage strokes;   ///< Lines of a pen, to be followed along their middle.
   BitImage shapes;    ///< Filled areas, dots and broad lettering, to be followed along their border.
   BitImage skeleton;  ///< Of all the ink.
-  /// Of the strokes: where one swells that goes on without a step in width. Empty: nothing was looked for.
-  BitImage swellings = {};
+  /// Of the strokes: where one swells that goes on without a step in width. Absent: nothing was looked for.
+  std::optional<BitImage> swellings = {};
   /// [px] median width of the strokes, weighed by their lengths in widths; absent: there is none.
   std::optional<double> penPx = {};
 };

@@ -28,6 +28,9 @@ constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
 
 constexpr double kAnyDistance = std::numeric_limits<double>::infinity();  // no limit
+constexpr double kLeastHandle = 0.01, kMostHandle = 3.0;  ///< [chord] Others make a loop or a cusp, or nearly.
+constexpr double kLeastMatchedHandle = 0.05;  ///< [chord] Curvatures that ask for a shorter one are not matched.
+constexpr double kMostCurvatureStep = 0.3;    ///< Of the logarithm of a handle in one round: farther it is not linear.
 constexpr int kCurvatureRounds = 12;          ///< Steps towards the curvatures at both ends.
 constexpr double kMaxCurvatureError = 0.008;  ///< At the end of a cubic; two that meet may jump by twice as much.
 constexpr double kLeastCurvature = 0.05;      ///< [1/length of the curve] What a curvature error is measured against.
@@ -123,9 +126,9 @@ class Approximation {
           slope.transpose() * slope + 1e-9 * slope.squaredNorm() * Eigen::Matrix2d::Identity();
       const Eigen::Vector2d step = -(normal.inverse() * (slope.transpose() * off));
       if (!step.allFinite()) return;
-      length.array() *= step.array().max(-0.3).min(0.3).exp();
+      length.array() *= step.array().max(-kMostCurvatureStep).min(kMostCurvatureStep).exp();
     }
-    if (!(length.minCoeff() > 0.05 * chord && length.maxCoeff() < 3.0 * chord)) return;
+    if (!(length.minCoeff() > kLeastMatchedHandle * chord && length.maxCoeff() < kMostHandle * chord)) return;
     c[1] = c[0] + length[0] * d0;
     c[2] = c[3] - length[1] * d1;
   }
@@ -170,7 +173,8 @@ class Approximation {
     if (!(det > 1e-12 * a00 * a11)) return false;
     const double h0 = (b0 * a11 - b1 * a01) / det, h1 = (b1 * a00 - b0 * a01) / det;
     const double chord = (c[3] - c[0]).norm();
-    if (!(h0 > 0.01 * chord && h1 > 0.01 * chord && h0 < 3.0 * chord && h1 < 3.0 * chord)) return false;
+    const double least = kLeastHandle * chord, most = kMostHandle * chord;
+    if (!(h0 > least && h1 > least && h0 < most && h1 < most)) return false;
     c[1] = c[0] + h0 * d0;
     c[2] = c[3] - h1 * d1;
     return true;

@@ -77,8 +77,15 @@ BATTEN_HOT_LOOP void addQuinticSquares(const double* rows, int samples, const Sa
   addFourRows<4>(rows, samples, squares, weights, stiff, mass);
   addFourRows<8>(rows, samples, squares, weights, stiff, mass);
 }
-void addAnySquares(int stride, const double* rows, int samples, const SampleRows::Squares& squares,
-                   const SampleRows::SquareWeights* weights, double* stiff, double* mass) {
+/// Rows of the samples of one span.
+struct SpanRows {
+  const double* first;
+  int samples, stride;
+};
+void addAnySquares(const SpanRows& span, const SampleRows::Squares& squares, const SampleRows::SquareWeights* weights,
+                   double* stiff, double* mass) {
+  const auto [first, samples, stride] = span;
+  const double* rows = first;
   for (int i = 0; i < samples; ++i, rows += static_cast<std::ptrdiff_t>(SampleRows::kRows) * stride) {
     const double *across = rows + stride, *along = across + stride;
     for (int b = 0; b < stride; ++b) {
@@ -128,7 +135,7 @@ void SampleRows::withStride(const Body& body) const {
 
 template <class Body>
 void SampleRows::eachRun(const Body& body) const {
-  for (const Run& run : runs_) body(run, unknowns_->indices(run.span));
+  for (const SampleRun& run : runs_) body(run, unknowns_->indices(run.span));
 }
 
 void SampleRows::reset(const Unknowns& unknowns, const EqualArc& arc) {
@@ -154,7 +161,7 @@ SampleRows::Products SampleRows::times(const Eigen::VectorXd& v) const {
   Products products{Eigen::VectorXd(count_), Eigen::VectorXd(count_), Eigen::VectorXd(count_)};
   withStride([&](auto stride) {
     Near<stride()> near(stride_);
-    eachRun([&](const Run& run, std::span<const int> index) {
+    eachRun([&](const SampleRun& run, std::span<const int> index) {
       gather<stride()>(index, v, near);
       for (int i = run.begin; i < run.end; ++i) {
         products.curvature[i] = NearRow<stride()>(row(i, Curvature), stride_).dot(near);
@@ -168,7 +175,7 @@ SampleRows::Products SampleRows::times(const Eigen::VectorXd& v) const {
 
 Eigen::VectorXd SampleRows::acrossTimes(const Eigen::VectorXd& v) const {
   Eigen::VectorXd result(count_);
-  eachRun([&](const Run& run, std::span<const int> index) {
+  eachRun([&](const SampleRun& run, std::span<const int> index) {
     for (int i = run.begin; i < run.end; ++i) {
       const double* values = row(i, Across);
       double sum = 0.0;
@@ -189,7 +196,7 @@ void SampleRows::addTransposed(const Eigen::VectorXd& ofCurvature, const Eigen::
                                Eigen::VectorXd& out) const {
   withStride([&](auto stride) {
     Near<stride()> near(stride_);
-    eachRun([&](const Run& run, std::span<const int> index) {
+    eachRun([&](const SampleRun& run, std::span<const int> index) {
       gather<stride()>(index, out, near);
       for (int i = run.begin; i < run.end; ++i) {
         near += ofCurvature[i] * NearRow<stride()>(row(i, Curvature), stride_);
@@ -203,7 +210,7 @@ void SampleRows::addTransposed(const Eigen::VectorXd& ofCurvature, const Eigen::
 void SampleRows::addTransposed(const Eigen::VectorXd& ofAcross, Eigen::VectorXd& out) const {
   withStride([&](auto stride) {
     Near<stride()> near(stride_);
-    eachRun([&](const Run& run, std::span<const int> index) {
+    eachRun([&](const SampleRun& run, std::span<const int> index) {
       gather<stride()>(index, out, near);
       for (int i = run.begin; i < run.end; ++i) near += ofAcross[i] * NearRow<stride()>(row(i, Across), stride_);
       scatter<stride()>(index, near, out);
@@ -214,7 +221,7 @@ void SampleRows::addTransposed(const Eigen::VectorXd& ofAcross, Eigen::VectorXd&
 void SampleRows::addTransposedSums(const Products& factors, Eigen::VectorXd& out) const {
   withStride([&](auto stride) {
     Near<stride()> near(stride_);
-    eachRun([&](const Run& run, std::span<const int> index) {
+    eachRun([&](const SampleRun& run, std::span<const int> index) {
       gather<stride()>(index, out, near);
       for (int i = run.begin; i < run.end; ++i) {
         near += factors.curvature[i] * NearRow<stride()>(row(i, Curvature), stride_) +
@@ -231,7 +238,7 @@ void SampleRows::addSquares(const Squares& squares, CancelCheck check, BandedMat
   std::vector<double> stiff(std::ptrdiff_t{stride_} * stride_);
   std::vector<double> heavy(stiff.size());
   const std::size_t width = stiffness.halfWidth() + 1;
-  eachRun([&](const Run& run, std::span<const int> index) {
+  eachRun([&](const SampleRun& run, std::span<const int> index) {
     if (index.empty() || check.isCancelled()) return;
     const double* rows = row(run.begin, Curvature);
     const SquareWeights* weights = &squares.weights[run.begin];
@@ -251,7 +258,7 @@ void SampleRows::addSquares(const Squares& squares, CancelCheck check, BandedMat
     if (stride_ == kFreeQuintic) {
       addQuinticSquares(rows, samples, squares, weights, stiff.data(), heavy.data());
     } else {
-      addAnySquares(stride_, rows, samples, squares, weights, stiff.data(), heavy.data());
+      addAnySquares({rows, samples, stride_}, squares, weights, stiff.data(), heavy.data());
     }
     eachEntry(index, stride_, stiffness, [&](double& entry, std::size_t place) { entry = stiff[place]; });
     eachEntry(index, stride_, mass, [&](double& entry, std::size_t place) { entry = heavy[place]; });

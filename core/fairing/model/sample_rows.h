@@ -55,7 +55,7 @@ class SampleRows {
 
  private:
   /// Consecutive samples of one span.
-  struct Run {
+  struct SampleRun {
     int begin, end, span;
   };
   const double* row(int sample, Row row) const { return &values_[offset(sample, row)]; }
@@ -68,7 +68,7 @@ class SampleRows {
   const Unknowns* unknowns_ = nullptr;
   int stride_ = 0, count_ = 0;
   std::vector<double> values_;
-  std::vector<Run> runs_;
+  std::vector<SampleRun> runs_;
 };
 
 }  // namespace batten

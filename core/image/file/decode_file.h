@@ -7,9 +7,9 @@
 
 namespace batten {
 
-/// Decodes a picture as it is stored: 1, 3 or 4 channels of 8 or 16 bit, blue first, not turned; empty if it cannot be.
-/// Plain PNG and JPEG files are decoded by their own libraries, all else by OpenCV, which is loaded for it; where both
-/// can, they give the same bytes.
+/// Decodes a picture as it is stored: 1, 3 or 4 channels of 8 or 16 bit, blue first, not rotated; empty if it cannot
+/// be. Plain PNG and JPEG files are decoded by their own libraries, all else by OpenCV, which is loaded for it; where
+/// both can, they give the same bytes.
 cv::Mat decodeFile(std::span<const std::byte> file);
 
 /// Whether OpenCV's readers could be loaded. Without them only plain PNG and JPEG files are decoded.

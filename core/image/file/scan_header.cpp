@@ -66,7 +66,10 @@ int pnmNumber(const ByteReader& file, std::uint64_t& at) {
 }  // namespace
 
 std::optional<double> plausibleDpi(double xDpi, double yDpi) {
-  if (!(xDpi >= 20.0 && xDpi <= 20000.0 && yDpi > 0.0) || std::fabs(xDpi / yDpi - 1.0) > 0.02) return std::nullopt;
+  constexpr double kLowest = 20.0, kHighest = 20000.0;  // [dpi] what lies beyond is no resolution
+  constexpr double kUnequal = 0.02;                     // of a pixel that is no square, as of a fax
+  if (!(xDpi >= kLowest && xDpi <= kHighest && yDpi > 0.0) || std::fabs(xDpi / yDpi - 1.0) > kUnequal)
+    return std::nullopt;
   return xDpi;
 }
 

@@ -61,7 +61,7 @@ std::uint64_t tileBytes(const ScanHeader& header) {
   return header.tilePixels * (header.info.bitsPerChannel > 8 ? 8 : 4);
 }
 
-/// What reading takes at its peak: the file, the decoded picture, its grey and colours, and a turned copy.
+/// What reading takes at its peak: the file, the decoded picture, its grey and colours, and a rotated copy.
 std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);

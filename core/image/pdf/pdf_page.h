@@ -18,7 +18,7 @@ enum class PdfProblem { NotInstalled, Damaged, Locked, NoSuchPage, Cancelled };
 
 struct PdfPage {
   int pages = 1;              ///< Of the file.
-  double widthPoints = 0.0;   ///< [1/72 inch] as it is shown, turned.
+  double widthPoints = 0.0;   ///< [1/72 inch] as it is shown, rotated.
   double heightPoints = 0.0;  ///< [1/72 inch]
 };
 

@@ -10,7 +10,7 @@ namespace batten {
 inline constexpr const char* kRarePictures = "batten-pictures";
 inline constexpr const char* kDecodeRarePicture = "battenDecodePicture";  // its function
 
-/// Decodes a picture as it is stored: its channels, its depth, not turned. Empty if it cannot be.
+/// Decodes a picture as it is stored: its channels, its depth, not rotated. Empty if it cannot be.
 using DecodeRarePicture = void (*)(const std::byte* file, std::size_t size, cv::Mat& picture);
 
 }  // namespace batten

@@ -267,7 +267,7 @@ RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDow
   family.spacingPx = lattice.spacing * shrink;
   family.widthPx = found.look.width * shrink;
   family.depth = found.look.depth;
-  // Lines go on to the borders of the page, where they may be hidden. Of a turned page many cross no more than a
+  // Lines go on to the borders of the page, where they may be hidden. Of a rotated page many cross no more than a
   // corner, too little to be seen as lines.
   constexpr int kPlacesAcross = 8;
   const double least = -1.0, most = grey.height + 1.0;

@@ -12,7 +12,7 @@ namespace batten {
 /// Of the paper's light: what printed rulings take is less.
 inline constexpr double kDarkRuling = 0.55;
 
-/// Finds the ruled lines or the grid of the paper, also on a page that is turned by up to 11 degrees, curled, or seen
+/// Finds the ruled lines or the grid of the paper, also on a page that is rotated by up to 11 degrees, curled, or seen
 /// in perspective so that its lines fan out. Lines count as ruling only if they are thin, at least five, equally spaced
 /// over at least half of the page, each seen along most of it and with ink that goes on along it; dark ones must make a
 /// grid or fill the page. One family of evenly spaced lines across and one down; where two pages lie end to end on the

@@ -25,6 +25,12 @@ constexpr float kCertain = 6.0f;      // times the noise
 constexpr float kFloorShare = 0.06f;  // of the strong edges, where the paper has no noise to measure edges by
 constexpr int kStrengthBins = 2048;   // 256 grey levels
 constexpr float kBinsPerGrey = 8.0f;  // of the strengths of edges
+/// [grey/px] Across a region light changes by no more than this, nor by more noises and a little: what is steeper was
+/// drawn all over it.
+constexpr double kLeastSlopeLimit = 0.5, kSlopeNoises = 3.0, kSlopeMore = 0.02;
+constexpr double kLeastNoise = 0.15;                       // [grey/px] what rounding leaves where the scan has none
+constexpr double kLowestNoise = 0.5, kHighestNoise = 1.5;  // of the median: a region full of ink tells no noise
+constexpr float kTan22 = 0.4142f, kTan67 = 2.4142f;        // half way from one of four directions to the next
 
 struct RegionNoise {
   RegionValues slopeX{}, slopeY{}, spread{};
@@ -53,9 +59,9 @@ RegionNoise measureNoise(const Plane& u, const RunContext& context) {
     noise.spread[region] = 0.5 * (spreadAround(gx, mx) + spreadAround(gy, my));
   });
   const double median = upperMedian(RegionValues(noise.spread));
-  const double slopeLimit = std::max(0.5, 3.0 * median + 0.02);
+  const double slopeLimit = std::max(kLeastSlopeLimit, kSlopeNoises * median + kSlopeMore);
   for (std::size_t r = 0; r < kRegions; ++r) {
-    noise.spread[r] = std::max(0.15, std::clamp(noise.spread[r], 0.5 * median, 1.5 * median));
+    noise.spread[r] = std::max(kLeastNoise, std::clamp(noise.spread[r], kLowestNoise * median, kHighestNoise * median));
     noise.slopeX[r] = std::clamp(noise.slopeX[r], -slopeLimit, slopeLimit);
     noise.slopeY[r] = std::clamp(noise.slopeY[r], -slopeLimit, slopeLimit);
   }
@@ -165,10 +171,10 @@ bool isCrest(const Plane& u, const ThreeRows& squares, int x, int y) {
   const float gx = u.row(y)[x + 1] - u.row(y)[x - 1], gy = u.row(y + 1)[x] - u.row(y - 1)[x];
   const float ax = std::fabs(gx), ay = std::fabs(gy);
   int dx = 1, dy = 0;
-  if (ay > 2.4142f * ax) {
+  if (ay > kTan67 * ax) {
     dx = 0;
     dy = 1;
-  } else if (ay > 0.4142f * ax) {
+  } else if (ay > kTan22 * ax) {
     dy = (gx > 0) == (gy > 0) ? 1 : -1;
   }
   const float here = squares.here[x];

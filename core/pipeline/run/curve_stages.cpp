@@ -240,7 +240,7 @@ class ContourBuilder {
   void take(TracedCurve& curve, ConstructedPiece made) const {
     const Piece& piece = pieces_.pieces[curve.piece];
     curve.sketched = made.curve;
-    curve.dense = made.dense;
+    curve.dense = std::move(made.dense);
     curve.construct = std::move(made.report);
     curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_), context_);
   }

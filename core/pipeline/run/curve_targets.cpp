@@ -33,7 +33,7 @@ Result<TargetOutcomes> noMemory() {
 void measureFromSeen(FairedCurve& faired, const TracedCurve& curve, int sketchedExtrema, const RunContext& context) {
   FairingReport& report = faired.report;
   report.extremaBefore = sketchedExtrema;
-  if (curve.dense.isEmpty()) return;
+  if (!curve.dense) return;
   if (report.maxDeviationMm == 0.0 || faired.curve == curve.dense) {
     faired.curve = curve.sketched;
     report.extremaAfter = sketchedExtrema;

@@ -176,7 +176,7 @@ class LineFairing {
   FairedCurve measured(FairedCurve faired) const {
     faired.report.extremaBefore = countedExtrema(curve_.sketched, curve_.closed, context_);
     if (faired.report.extremaAfter > faired.report.extremaBefore) return refused(std::move(faired), kHasMoreExtrema);
-    if (curve_.dense.isEmpty()) return faired;
+    if (!curve_.dense) return faired;
     faired.report.maxDeviationMm = movedMm(faired.curve, curve_, context_);
     const bool isWithin = faired.report.maxDeviationMm <= curve_.fairingUsed.toleranceMm;
     return isWithin ? faired : refused(std::move(faired), kLeavesTolerance);
@@ -218,7 +218,7 @@ void startFromSeenEnds(TracedCurve& curve, const LightOptions& light) {
   const auto isHeld = [](const EndHold& hold) { return hold.tangent || hold.curvature; };
   const FairingParams& params = curve.fairingUsed;
   if (curve.closed || params.mode == FairingMode::None || !(isHeld(params.startHold) || isHeld(params.endHold))) return;
-  if (curve.dense.isEmpty() || !curve.construct.light || curve.isSimplified()) return;
+  if (!curve.dense || !curve.construct.light || curve.isSimplified()) return;
   curve.dense = fairingStartOf(curve.sketched, false, light);
 }
 

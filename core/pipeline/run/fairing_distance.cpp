@@ -8,7 +8,7 @@
 namespace batten {
 
 double startsOffMm(const TracedCurve& curve, CancelCheck check) {
-  return curve.dense.isEmpty() ? 0.0 : movedMm(curve.dense, curve, check);
+  return curve.dense ? movedMm(*curve.dense, curve, check) : 0.0;
 }
 
 double movedMm(const NurbsCurve& moved, const TracedCurve& curve, CancelCheck check) {

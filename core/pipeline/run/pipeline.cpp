@@ -217,8 +217,8 @@ class PipelineRun {
     if (!found) return fail(found.error());
     const std::optional<FinePage>& fine = **found;
     const auto trace = [&](const BitImage& ink, const FinePage* page) {
-      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_, page,
-                           wantsFinePage() ? &out_.thresholds->paper : nullptr);
+      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_,
+                           {page, wantsFinePage() ? &out_.thresholds->paper : nullptr});
     };
     if (recipe_.regions.empty()) {
       auto set = trace(out_.filtered->ink, fine ? &*fine : nullptr);

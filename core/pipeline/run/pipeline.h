@@ -46,7 +46,7 @@ struct TracedCurve {
   bool closed = false;
   bool included = true;  ///< The user's choice.
   NurbsCurve sketched;
-  NurbsCurve dense;  ///< See ConstructedPiece::dense; empty: `sketched` itself.
+  std::optional<NurbsCurve> dense;  ///< See ConstructedPiece::dense; absent: `sketched` itself.
   ConstructReport construct;
   CurveFigures sketchedFigures;
   NurbsCurve faired;  ///< Equal to `sketched` while the mode is None.
@@ -55,7 +55,7 @@ struct TracedCurve {
   CurveFigures fairedFigures;
 
   /// What fairing and its targets start from.
-  const NurbsCurve& fairingStart() const { return dense.isEmpty() ? sketched : dense; }
+  const NurbsCurve& fairingStart() const { return dense ? *dense : sketched; }
   /// What the user sees is not the line but what was meant by it (construct.detail).
   bool isSimplified() const { return construct.light && construct.light->isSimplified; }
 };

@@ -7,6 +7,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
+#include "tests/unit/construct/any_pieces.h"
 #include "tests/unit/construct/roof_line.h"
 #include "tests/unit/construct/stations_of.h"
 
@@ -132,24 +133,7 @@ TEST(ConstructBezierChain, WithoutLowPassIsThePathOfThePaperWithOneCurvatureAtEv
 }
 
 TEST(ConstructBezierChain, AnythingGivesAFiniteCurveOrAnError) {
-  std::mt19937 random(9);
-  std::normal_distribution<double> where(0.0, 40.0);
-  for (int trial = 0; trial < 150; ++trial) {
-    ConstructPiece piece;
-    piece.closed = trial % 3 == 0;
-    const auto count = random() % 12;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec2 p(where(random), where(random));
-      piece.points.push_back({p});
-      if (random() % 4 != 0) piece.stations.push_back({p, Vec2(where(random), where(random)), p, p});
-    }
-    const auto made = constructBezierChain(piece, {}, {});
-    if (!made) {
-      EXPECT_EQ(made.error().code, ErrorCode::Numerical);
-      continue;
-    }
-    for (const Vec2& p : made->curve.controlPoints()) ASSERT_TRUE(p.allFinite());
-  }
+  test::expectFiniteOrError(150, [](const ConstructPiece& piece) { return constructBezierChain(piece, {}, {}); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/construct/fair/fair_fit.h"
 #include "core/construct/fair/fair_join.h"
@@ -144,7 +145,7 @@ TEST(SharpFeatures, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
       SmoothSections parts(piece, false, {});
       ASSERT_EQ(parts.stretches().size(), 1U);
       EXPECT_TRUE(parts.check({fit->front()}, true));
-      const auto whole = parts.joined({});
+      const auto whole = std::move(parts).joined({});
       ASSERT_TRUE(whole.has_value()) << whole.error().message;
       EXPECT_EQ(whole->report.why, Termination::Converged) << closed;
       EXPECT_NE(whole->report.note.find("at 1 place"), std::string::npos) << whole->report.note;
@@ -184,7 +185,7 @@ TEST(SharpFeatures, AFitIsCutWhereItIsOnItsPointsBesideASharpTurn) {
     fits[i].curve = NurbsCurve::make(5, std::move(knots), std::move(controls)).value();
   }
   EXPECT_FALSE(parts.check(fits, true));
-  const auto whole = parts.joined({});
+  const auto whole = std::move(parts).joined({});
   ASSERT_TRUE(whole.has_value()) << whole.error().message;
   EXPECT_LT(farthest(positionsOf(piece.points), whole->curve), 0.6 * kOffPx);
 }

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/stroke_mask.h"
 #include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"
@@ -334,7 +335,7 @@ TEST(SplitStrokes, ThinIsAStrokeAndFatIsAShape) {
       ink.set(x, y, disc || bar);
     }
   }
-  const auto split = splitStrokes(ink, {}, {});
+  const auto split = splitStrokes(ink, {});
   ASSERT_TRUE(split);
   EXPECT_TRUE(split->shapes.at(150, 200));
   EXPECT_FALSE(split->strokes.at(150, 200));

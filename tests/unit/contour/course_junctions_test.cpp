@@ -126,17 +126,19 @@ TEST(StrokeStubs, AShortStemStandsOutOfABowl) {
 }
 
 TEST(StrokeStubs, TheLegsOfAnAGoOnBelowItsBar) {
-  // The bar and the upper half of a leg make an acute corner, from which the lower half points away.
-  constexpr double kTop = 40.0, kBar = 80.0, kFoot = 104.0, kSpread = 0.4;
+  // The bar and the upper half of a leg make an acute corner, from which the lower half points away; the bar is too
+  // short for a direction.
+  constexpr double kTop = 30.0, kSpread = 0.3, kBarPens = 4.2, kFootPens = 6.0;
   const auto leg = [](double side, double y) { return Vec2(200.0 + side * kSpread * (y - kTop), y); };
   for (const double pen : {7.0, 9.0, 11.0}) {
-    const test::InkPage page = test::scannedInks({stroke({leg(-1.0, kFoot), leg(0.0, kTop), leg(1.0, kFoot)}, pen),
-                                                  stroke({leg(-1.0, kBar), leg(1.0, kBar)}, pen)},
-                                                 kPageWidth, kPageHeight, 4.0);
+    const double bar = kTop + kBarPens * pen, foot = kTop + kFootPens * pen;
+    const test::InkPage page = test::scannedInks(
+        {stroke({leg(-1.0, foot), leg(0.0, kTop), leg(1.0, foot)}, pen), stroke({leg(-1.0, bar), leg(1.0, bar)}, pen)},
+        kPageWidth, kPageHeight, 4.0);
     const auto set = centrelines(page.ink, page.grey, {}, {});
     ASSERT_TRUE(set) << pen;
     for (const double side : {-1.0, 1.0}) {
-      for (const double y : {0.5 * (kBar + kFoot), kFoot - 0.25 * pen}) {
+      for (const double y : {0.5 * (bar + foot), foot - 0.25 * pen}) {
         double nearest = 1e9;
         for (const Contour& c : set->contours)
           for (const ContourPoint& p : c.points) nearest = std::min(nearest, (p.at - leg(side, y)).norm());

@@ -4,13 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/junction_pairing.h"
+#include "core/polyline/polyline_tools.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/ink_page.h"
+#include "tests/unit/contour/traced_page.h"
 
 namespace batten {
 namespace {
@@ -181,6 +187,40 @@ TEST(JunctionPairing, AChoiceForOneCrossingLeavesTheOthers) {
   const auto chosen = centrelines(ink, scan.grey, edges, {});
   ASSERT_TRUE(chosen);
   EXPECT_GT(chosen->junctions.size(), 1u) << "every junction is one of its own again";
+}
+
+// A stroke crosses two others that lie close together, where a third one ends on the first of them: between the two the
+// skeleton of all is one short edge, whose own direction tells nothing.
+TEST(JunctionPairing, AStraightStrokeGoesOnThroughTwoJunctionsCloseTogether) {
+  const Vec2 crossing(209.0, 198.0), along = Vec2(0.63, 0.776).normalized();
+  const Vec2 from = crossing - 140.0 * along, to = crossing + 110.0 * along;
+  int whole = 0, all = 0;
+  for (const double widthPx : {3.0, 5.0}) {
+    const auto isWhole = [&](const Contour& c) {
+      double begin = std::numeric_limits<double>::infinity(), end = begin, off = 0.0;
+      for (const ContourPoint& p : c.points) {
+        begin = std::min(begin, (p.at - from).norm());
+        end = std::min(end, (p.at - to).norm());
+        off = std::max(off, awayFromSegment(p.at, from, to).norm());
+      }
+      return begin < widthPx && end < widthPx && off < 1.0;
+    };
+    for (const double belowWidths : {2.0, 2.33, 2.67, 3.0, 3.67}) {
+      for (const double shiftPx : {-3.0, -1.0, 0.0, 2.0}) {
+        const Vec2 foot(crossing.x() + shiftPx, crossing.y());
+        const double otherY = crossing.y() + belowWidths * widthPx;
+        const std::vector<std::vector<Vec2>> lines = {{from, to},
+                                                      {{foot.x(), 110.0}, foot},
+                                                      {{150.0, 202.0}, {270.0, 193.0}},
+                                                      {{100.0, otherY}, {420.0, otherY - 3.0}}};
+        const Scan scan = test::scanOfLines(test::coverageOf(lines, widthPx, 480, 360), 480, 360, 7);
+        const ContourSet set = tracedPage(scan.grey);
+        whole += std::ranges::any_of(set.contours, isWhole) ? 1 : 0;
+        ++all;
+      }
+    }
+  }
+  EXPECT_GE(whole, 0.9 * all) << "of " << all;
 }
 
 }  // namespace

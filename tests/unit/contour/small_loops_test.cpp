@@ -35,7 +35,7 @@ std::vector<Vec2> ellipse(const Vec2& centre, double rx, double ry) {
 class LoopLines {
  public:
   LoopLines(const test::InkPage& page, const PaperBackground* paper) {
-    auto set = traceContours(page.ink, page.grey, {}, {}, {}, nullptr, paper);
+    auto set = traceContours(page.ink, page.grey, {}, {}, {}, {.paper = paper});
     EXPECT_TRUE(set) << (set ? "" : set.error().message);
     if (set) contours_ = std::move(set->contours);
   }

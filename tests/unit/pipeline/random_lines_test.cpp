@@ -163,7 +163,7 @@ TEST_P(RandomLines, GiveSoundCurvesInEveryWay) {
       expectSoundConstruction(made->front(), contour.pieces[0]);
       // Fairing starts from the dense curve, where it is kept beside a light one.
       const ConstructedPiece& first = made->front();
-      curves.push_back(first.dense.isEmpty() ? first.curve : first.dense);
+      curves.push_back(first.dense.value_or(first.curve));
     }
     for (std::size_t i = 0; i < modes.size(); ++i) {
       // The curves take turns: every mode meets every construction.
