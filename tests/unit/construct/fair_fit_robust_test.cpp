@@ -130,7 +130,7 @@ TEST(FairFit, ASmallLetterKeepsItsShape) {
         nearest = std::min(nearest, (c.point(c.start() + k / 200.0 * (c.end() - c.start())) - p).norm());
       farthest = std::max(farthest, nearest);
     }
-    EXPECT_LT(farthest, 0.6) << radius;
+    EXPECT_LT(farthest, 0.4) << radius;
   }
 }
 

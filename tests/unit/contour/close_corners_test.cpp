@@ -88,12 +88,12 @@ ContourSet laidBeyondACorner(const std::vector<Vec2>& beyond) {
 
 // Beside a corner of two strokes such points round the turn; a bow that they go round is the line's own.
 TEST(CornerMarks, WhatWasLaidBesideACornerStaysWhereTheLineBends) {
-  constexpr double kRadius = 7.0;
+  constexpr double kRadius = 12.0;
   const Vec2 corner(140, 100);
   std::vector<Vec2> bow, straight;
   for (int k = 0; k <= 22; ++k) {
     const double angle = k / kRadius;
-    bow.push_back(corner + kRadius * Vec2(1.0 - std::cos(angle), -std::sin(angle)));
+    bow.push_back(corner + kRadius * Vec2(std::cos(angle) - 1.0, -std::sin(angle)));
     straight.push_back(corner + Vec2(0.0, -1.0 * k));
   }
   const auto nearestTo = [&](const std::vector<Vec2>& beyond) {
