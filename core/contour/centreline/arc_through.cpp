@@ -16,6 +16,8 @@ Vec2 LocalFrame::local(const Vec2& p) const {
   return {along.dot(d), cross(along, d)};
 }
 
+Vec2 LocalFrame::page(const Vec2& d) const { return d.x() * along + d.y() * leftNormal(along); }
+
 std::optional<LocalArc> arcThrough(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();

@@ -24,6 +24,8 @@ struct LocalArc {
 struct LocalFrame {
   Vec2 origin = Vec2::Zero(), along = Vec2::UnitX();
   Vec2 local(const Vec2& p) const;
+  /// A direction or distance of the frame, on the page.
+  Vec2 page(const Vec2& d) const;
 };
 
 /// The arc that lies nearest to both stretches of points, which count alike, by least squares of the equation above;

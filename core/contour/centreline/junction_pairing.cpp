@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/arc_through.h"
+#include "core/contour/centreline/end_rows.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -28,6 +30,11 @@ constexpr double kMissPerWidthDeg = 20.0;    // what a stroke that goes on a wid
 constexpr double kWidthPerOctaveDeg = 40.0;  // and one whose width changes to the double
 // More than a pair that may go on can cost: at right angles to both courses, one [octaves] as much wider.
 constexpr double kWorstAsideDeg = 90.0, kWorstOctaves = 4.0;
+// A strip that turns by an angle and, to go aside, leaves its course by another has the bending energy of the sum of
+// the square of the one and twelve times that of the other.
+constexpr double kAsideEnergy = 12.0;
+constexpr double kCrossingDeg = 20.0;  // what it costs that strokes side by side change sides: less bend is no reason,
+constexpr double kNoCrossingDeg = 90.0;                    // and in ink that is too wide for it none is
 constexpr double kArcWidths = 10.0;                        // [stroke widths] of each end that an arc is laid through,
 constexpr double kLeastArcShare = 0.5;                     // and what must be seen of that
 constexpr double kArcMissPx = 0.4, kArcMissWidths = 0.05;  // left by a true arc: of the pixels, of the width
@@ -42,8 +49,12 @@ struct PairCost {
 // The pairs of the greatest sum of gains, tried one end after the other.
 class BestPairs {
  public:
-  BestPairs(int ends, const std::vector<PairCost>& costs)
-      : gain_(ends, std::vector<std::optional<double>>(ends)), used_(ends) {
+  /// @param rows absent: any pairs may cross.
+  BestPairs(int ends, const std::vector<PairCost>& costs, std::optional<EndRows> rows, double narrowestPx)
+      : gain_(ends, std::vector<std::optional<double>>(ends)),
+        used_(ends),
+        rows_(std::move(rows)),
+        narrowestPx_(narrowestPx) {
     for (const PairCost& c : costs) gain_[c.a][c.b] = c.gain;
   }
   std::vector<std::pair<int, int>> find() {
@@ -64,16 +75,31 @@ class BestPairs {
     for (int b = a + 1; b < n; ++b) {
       if (used_[b] || !gain_[a][b] || !(*gain_[a][b] > 0.0)) continue;
       used_[b] = true;
+      const double gain = *gain_[a][b] - crossingCost({a, b});
       now_.emplace_back(a, b);
-      tryFrom(a + 1, sum + *gain_[a][b]);
+      tryFrom(a + 1, sum + gain);
       now_.pop_back();
       used_[b] = false;
     }
     tryFrom(a + 1, sum);
   }
 
+  // [deg^2] Of a pair with those that are chosen.
+  double crossingCost(const std::pair<int, int>& pair) const {
+    if (!rows_) return 0.0;
+    double sum = 0.0;
+    for (const std::pair<int, int>& other : now_) {
+      if (!rows_->changeSides(pair, other)) continue;
+      const double deg = rows_->mayCross(pair, other, narrowestPx_) ? kCrossingDeg : kNoCrossingDeg;
+      sum += deg * deg;
+    }
+    return sum;
+  }
+
   std::vector<std::vector<std::optional<double>>> gain_;  // [a][b], a < b; absent: no stroke goes that way
   std::vector<bool> used_;
+  std::optional<EndRows> rows_;
+  double narrowestPx_;
   std::vector<std::pair<int, int>> now_, best_;
   double bestSum_ = 0.0;
 };
@@ -164,31 +190,39 @@ std::vector<MeetingEnd> measureEnds(std::span<const EdgeFromEnd> edges, const Sk
   return ends;
 }
 
-double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, const PairingScale& scale) {
+double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, const PairingScale& scale, double freePx) {
   const Vec2 d = q.at - p.at;
   const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
+  const auto asideDeg = [&](double free) {
+    return std::atan2(std::max(0.0, miss - free), d.norm()) * 180.0 / std::numbers::pi;
+  };
+  if (scale.areInRows) {
+    const double aside = asideDeg(kMissNoisePx + freePx), turn = turnDeg(-p.out, q.out);
+    return std::sqrt(turn * turn + kAsideEnergy * aside * aside);
+  }
   // A pixel more or less says nothing about a width.
   const double octaves = std::max(0.0, std::abs(std::log2(p.radius / q.radius)) - 0.5 / std::min(p.radius, q.radius));
-  const double aside = std::atan2(std::max(0.0, miss - kMissNoisePx), d.norm()) * 180.0 / std::numbers::pi;
   const double missDeg =
       std::max(kMissPerWidthDeg * miss / std::max({2.0 * scale.usualRadius, 2.0 * scale.nodeRadius, 1.0}),
-               scale.ofBundles ? 0.0 : kAsideTurns * aside);
+               scale.ofBundles ? 0.0 : kAsideTurns * asideDeg(kMissNoisePx));
   return turnDeg(-p.out, q.out) + missDeg + kWidthPerOctaveDeg * octaves;
 }
 
 std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, const PairingScale& scale) {
   const int n = static_cast<int>(ends.size());
   std::vector<PairCost> costs;
+  const auto rows = scale.areInRows ? std::optional<EndRows>(ends) : std::nullopt;
   // Whatever may go on does: the worst two pairs are better than one good one.
   const double worst = scale.maxBendDeg + kAsideTurns * kWorstAsideDeg + kWorstOctaves * kWidthPerOctaveDeg;
   for (int a = 0; a < n; ++a) {
     for (int b = a + 1; b < n; ++b) {
       if (turnDeg(-ends[a].out, ends[b].out) > scale.maxBendDeg) continue;
-      const double cost = pairCostDeg(ends[a], ends[b], scale);
+      const double cost = pairCostDeg(ends[a], ends[b], scale, rows ? rows->freePx(a, b) : 0.0);
       costs.push_back({a, b, std::max(1.0, worst * worst - cost * cost)});
     }
   }
-  return n <= kMostEnds ? BestPairs(n, costs).find() : greedyPairs(n, std::move(costs));
+  if (n > kMostEnds) return greedyPairs(n, std::move(costs));
+  return BestPairs(n, costs, rows, scale.narrowest).find();
 }
 
 std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edges, std::span<const MeetingEnd> ends,

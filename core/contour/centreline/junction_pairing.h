@@ -31,14 +31,18 @@ struct PairingScale {
   double usualRadius = 0.5;  ///< [px] of the strokes of the page.
   double maxBendDeg = 0.0;   ///< An end that bends to every other by more stays alone.
   bool ofBundles = false;    ///< Strokes will be merged: one may go on aside, as another one of its bundle.
+  /// The ends lie in two rows (end_rows.h): what is wider holds more strokes, and no bolder one.
+  bool areInRows = false;
+  double narrowest = 0.0;  ///< [px] SkeletonNode::narrowest
 };
 
 /// [deg] What it costs that two ends are one stroke: their bend, and with it how far one lies aside of the other's
-/// course and how their widths differ.
-double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, const PairingScale&);
+/// course and how their widths differ; in rows how a strip would bend from one to the other.
+/// @param freePx in rows, how far aside is no matter (EndRows::freePx).
+double pairCostDeg(const MeetingEnd& p, const MeetingEnd& q, const PairingScale&, double freePx = 0.0);
 
 /// Which ends of a junction are one stroke: over all of it at once, by their bend, by how far one lies aside of the
-/// other's course, and by how alike their widths are.
+/// other's course, and by how alike their widths are. Strokes side by side in ink too wide for a crossing do not cross.
 /// @return pairs of indices into `ends`, the lower one first.
 std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, const PairingScale&);
 

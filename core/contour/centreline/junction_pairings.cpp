@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
+
+#include "core/contour/centreline/end_rows.h"
 
 namespace batten {
 namespace {
@@ -26,10 +29,11 @@ class PairingSearch {
  public:
   PairingSearch(std::span<const MeetingEnd> ends, const PairingScale& scale)
       : used_(ends.size()), openCost_(scale.maxBendDeg * scale.maxBendDeg) {
-    for (const MeetingEnd& p : ends) {
+    const auto rows = scale.areInRows ? std::optional<EndRows>(ends) : std::nullopt;
+    for (int a = 0; a < std::ssize(ends); ++a) {
       std::vector<double>& row = cost_.emplace_back();
-      for (const MeetingEnd& q : ends) {
-        const double deg = pairCostDeg(p, q, scale);
+      for (int b = 0; b < std::ssize(ends); ++b) {
+        const double deg = pairCostDeg(ends[a], ends[b], scale, rows ? rows->freePx(a, b) : 0.0);
         row.push_back(deg * deg);
       }
     }

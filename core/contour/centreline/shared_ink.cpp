@@ -30,6 +30,20 @@ struct OuterEnd {
   double width = 1.0;        // [px]
 };
 
+double meanAcross(const OuterEnd& outer) {
+  double sum = 0.0;
+  for (const Vec2& p : outer.points) sum += p.y();
+  return sum / static_cast<double>(outer.points.size());
+}
+
+// The course of the outermost stroke of this width in an end that holds several.
+std::vector<Vec2> outermost(const OuterEnd& outer, bool isUpper, double width) {
+  std::vector<Vec2> points = outer.points;
+  const double aside = (isUpper ? 0.5 : -0.5) * (outer.width - width);
+  for (Vec2& p : points) p.y() += aside;
+  return points;
+}
+
 class SharedEdge {
  public:
   SharedEdge(const SkeletonGraph& graph, int edge) : graph_(graph), edge_(edge) {}
@@ -57,6 +71,7 @@ class SharedEdge {
   };
   std::optional<Pairing> paired(int other) const;
   double clearPx() const;
+  bool mayCross(int other) const;
   double widthsLeftBy(double half) const;
 
   const SkeletonGraph& graph_;
@@ -129,21 +144,36 @@ double SharedEdge::widthsLeftBy(double half) const {
   return sum / std::max<double>(1.0, static_cast<double>(graph_.edge(edge_).points.size()));
 }
 
-// The first end of one side goes on to end `other` of the other.
+// Where strokes cross, one lies on the other: the ink is narrower by one than that of strokes side by side.
+bool SharedEdge::mayCross(int other) const {
+  double row = 0.0;
+  for (const auto& side : ends_) row = std::max(row, side[0].width + side[1].width);
+  const double thinner = std::min(std::max(ends_[0][0].width, ends_[1][other].width),
+                                  std::max(ends_[0][1].width, ends_[1][1 - other].width));
+  return 2.0 * graph_.narrowRadius(edge_) <= row - kLyingShare * thinner + kGridOfWidthPx;
+}
+
+// The first end of one side goes on to end `other` of the other. Where both keep to their sides each may be one of a
+// bundle: of an end that is wider the outermost stroke goes on.
 std::optional<SharedEdge::Pairing> SharedEdge::paired(int other) const {
+  const auto isUpper = [&](int side, int k) { return meanAcross(ends_[side][k]) > meanAcross(ends_[side][1 - k]); };
+  const bool keepSides = isUpper(0, 0) == isUpper(1, other);
   std::array<LocalArc, 2> arcs;
   std::array<double, 2> halves;  // [px] of the widths
   double left = 0.0;
   std::array<double, 2> turns;  // [deg] from one end to the other
   for (const int k : {0, 1}) {
     const OuterEnd &p = ends_[0][k], &q = ends_[1][k == 0 ? other : 1 - other];
-    const std::optional<LocalArc> arc = arcThrough(p.points, q.points);
+    const double width = std::min(p.width, q.width);
+    const std::vector<Vec2> a = keepSides ? outermost(p, isUpper(0, k), width) : p.points;
+    const std::vector<Vec2> b = keepSides ? outermost(q, isUpper(0, k), width) : q.points;
+    const std::optional<LocalArc> arc = arcThrough(a, b);
     if (!arc) return std::nullopt;
     arcs[k] = *arc;
-    halves[k] = 0.25 * (p.width + q.width);
+    halves[k] = keepSides ? 0.5 * width : 0.25 * (p.width + q.width);
     turns[k] = turnDeg(p.points.front() - p.points.back(), q.points.back() - q.points.front());
-    const double wider = 0.5 * (p.width - q.width);
-    left += 0.25 * (squaresLeft(*arc, p.points) + squaresLeft(*arc, q.points) + 2.0 * wider * wider);
+    const double wider = keepSides ? 0.0 : 0.5 * (p.width - q.width);
+    left += 0.25 * (squaresLeft(*arc, a) + squaresLeft(*arc, b) + 2.0 * wider * wider);
   }
   double along = 0.0, widths = 0.0;
   int count = 0;
@@ -161,7 +191,7 @@ std::optional<SharedEdge::Pairing> SharedEdge::paired(int other) const {
   widths /= std::max(1, count);
   const double most = mostLeftPx(width_), mostAlong = kAlongPx + kAlongWidths * width_;
   Pairing found;
-  found.fits = left <= most * most && along <= mostAlong * mostAlong;
+  found.fits = left <= most * most && along <= mostAlong * mostAlong && (keepSides || mayCross(other));
   for (const int k : {0, 1}) {
     if (turns[k] > kRingTurnDeg && !(widthsLeftBy(halves[1 - k]) > kClearRing * kClearRing * widths))
       found.fits = false;

@@ -129,6 +129,12 @@ void SkeletonGraph::removeEdge(int edge) {
   l.alive = false;
 }
 
+double SkeletonGraph::narrowRadius(int edge) const {
+  std::vector<float> radii;
+  for (const StrokePathPoint& p : edges_[edge].points) radii.push_back(p.radius);
+  return radii.empty() ? 0.0 : static_cast<double>(elementOfRank(radii, std::ssize(radii) / 4));
+}
+
 double SkeletonGraph::meanRadius(int edge) const {
   double sum = 0.0;
   for (const StrokePathPoint& p : edges_[edge].points) sum += static_cast<double>(p.radius);

@@ -52,6 +52,8 @@ struct SkeletonNode {
   Vec2 centre = Vec2::Zero();  ///< [px]
   double radius = 0.0;         ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
   std::vector<int> ends;       ///< Of edges, 2 * edge + side.
+  /// [px] Least half-width of the ink between the junctions of which it was made; 0 where it was one from the start.
+  double narrowest = 0.0;
   std::optional<LedThrough> led = {};  ///< Not valid any more where other ends have come.
 
   const LedThrough* leading() const { return led && ends.size() == led->discs.size() ? &*led : nullptr; }
@@ -61,6 +63,12 @@ struct SkeletonNode {
 
 /// [px]
 double strokePathLength(const std::vector<StrokePathPoint>& points, bool closed);
+
+/// Of the half-width of the thinner of two strokes: so much narrower than where all lie side by side is the ink at the
+/// least where one lies on the other, half-way.
+inline constexpr double kLyingShare = 0.5;
+/// [px] What the grid of pixels changes of a width that is twice a radius.
+inline constexpr double kGridOfWidthPx = 1.0;
 
 /// Unit direction in which an edge leaves `from`, where its end `side` is: of the chord of about `reach` px from there.
 Vec2 leavingDirection(const SkeletonEdge& edge, int side, const Vec2& from, double reach);
@@ -81,6 +89,8 @@ class SkeletonGraph {
   double medianRadius() const { return medianRadius_; }
   /// [px] of the ink along one edge.
   double meanRadius(int edge) const;
+  /// [px] of the ink where an edge is narrow: a quarter of it is narrower. Strokes that cross lie on one another there.
+  double narrowRadius(int edge) const;
 
   SkeletonEdge& edge(int i) { return edges_[i]; }
   SkeletonNode& node(int i) { return nodes_[i]; }

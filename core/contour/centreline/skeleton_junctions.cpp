@@ -51,6 +51,7 @@ class JunctionMerger {
   void leadThrough(const SharedInk& shared, int node);
   void leadThrough(const Tangle& tangle, int node);
   void dropWithinDiscs();
+  void noteNarrowest(const std::vector<int>& inner);
 
   bool isOfBundles() const { return of_ == JunctionsOf::Bundles; }
 
@@ -278,6 +279,15 @@ void JunctionMerger::leadThrough(const Tangle& tangle, int node) {
   n.led = std::move(led);
 }
 
+// How narrow the ink is within each set.
+void JunctionMerger::noteNarrowest(const std::vector<int>& inner) {
+  for (const int edge : inner) {
+    double& narrowest = graph_.node(sets_.root(*graph_.edge(edge).node[0])).narrowest;
+    const double radius = graph_.narrowRadius(edge);
+    narrowest = narrowest > 0.0 ? std::min(narrowest, radius) : radius;
+  }
+}
+
 void JunctionMerger::merge(std::span<const JunctionChoice> choices) {
   std::vector<Tangle> tangles;
   if (!isOfBundles()) tangles = findTangles(graph_);
@@ -298,6 +308,7 @@ void JunctionMerger::merge(std::span<const JunctionChoice> choices) {
     for (const int node : tangle.nodes) sets_.join(tangle.nodes.front(), node);
     inner.insert(inner.end(), tangle.inner.begin(), tangle.inner.end());
   }
+  noteNarrowest(inner);
   std::vector<std::pair<int, int>> sharedAt;  // edge, node
   for (const int edge : inner) {
     if (shared_[edge]) sharedAt.emplace_back(edge, *graph_.edge(edge).node[0]);

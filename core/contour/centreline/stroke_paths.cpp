@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/statistics.h"
+#include "core/contour/centreline/end_rows.h"
 #include "core/contour/centreline/junction_choices.h"
 #include "core/contour/centreline/junction_pairing.h"
 #include "core/contour/centreline/junction_pairings.h"
@@ -88,7 +89,8 @@ class StrokePathMaker {
     const std::vector<EdgeFromEnd> edges = edgesOf(node);
     const std::vector<MeetingEnd> meeting = measureEnds(edges, node, graph_.medianRadius());
     for (int i = 0; i < std::ssize(meeting); ++i) ends_[node.ends[i]] = meeting[i];
-    const EndPairs own = ownPairs(node, edges, meeting);
+    const PairingScale scale = scaleOf(node, meeting);
+    const EndPairs own = ownPairs(node, edges, meeting, scale);
     setPartners(node, own);
     if (node.ends.size() < 3) return std::nullopt;
     StrokeJunction junction;
@@ -96,7 +98,7 @@ class StrokePathMaker {
     junction.radiusPx = node.radius;
     junction.pairs = own;
     for (int i = 0; i < std::ssize(edges); ++i) junction.branchesPx.push_back(placeOn(edges[i], meeting[i].first));
-    JunctionPairings found = findPairings(meeting, own, scaleOf(node));
+    JunctionPairings found = findPairings(meeting, own, scale);
     junction.pairings = std::move(found.pairings);
     const LedThrough* led = node.leading();
     junction.isDoubtful = led != nullptr ? led->isDoubtful : found.isDoubtful;
@@ -120,16 +122,19 @@ class StrokePathMaker {
     junction->choice = choice;
   }
 
-  EndPairs ownPairs(const SkeletonNode& node, std::span<const EdgeFromEnd> edges,
-                    std::span<const MeetingEnd> meeting) const {
+  static EndPairs ownPairs(const SkeletonNode& node, std::span<const EdgeFromEnd> edges,
+                           std::span<const MeetingEnd> meeting, const PairingScale& scale) {
     if (const LedThrough* led = node.leading(); led != nullptr) return led->pairs;
-    const PairingScale scale = scaleOf(node);
     if (const auto alongArc = pairAlongArc(edges, meeting, scale)) return {*alongArc};
     return pairEnds(meeting, scale);
   }
 
-  PairingScale scaleOf(const SkeletonNode& node) const {
-    return {node.radius, graph_.medianRadius(), params_.maxBendDeg, isOfBundles(params_)};
+  PairingScale scaleOf(const SkeletonNode& node, std::span<const MeetingEnd> meeting) const {
+    PairingScale scale{node.radius, graph_.medianRadius(), params_.maxBendDeg, isOfBundles(params_)};
+    // The grain of a pencil changes the widths of its strokes.
+    scale.areInRows = of_ == JunctionsOf::Pen && EndRows::areIn(meeting);
+    scale.narrowest = node.narrowest;
+    return scale;
   }
 
   // Whether strokes part at both ends of an edge of which only one is led through: two may lie on one another there.
@@ -166,7 +171,7 @@ class StrokePathMaker {
       for (const int end : node.ends)
         if (!partner_[end] && !isHiddenLink(end / 2)) candidates[side].push_back(end);
     }
-    PairingScale scale = scaleOf(*junctionAt(near[0]));
+    PairingScale scale = scaleOf(*junctionAt(near[0]), {});
     scale.nodeRadius = std::max(scale.nodeRadius, junctionAt(near[1])->radius);
     const auto costOf = [&](int a, int b) { return pairCostDeg(ends_[a], ends_[b], scale); };
     const auto bendOf = [&](int a, int b) { return turnDeg(-ends_[a].out, ends_[b].out); };
@@ -192,7 +197,7 @@ class StrokePathMaker {
       junction.pairs = pairsAt(node);
       std::vector<MeetingEnd> meeting;
       for (const int end : node.ends) meeting.push_back(ends_[end]);
-      junction.pairings = findPairings(meeting, junction.pairs, scaleOf(node)).pairings;
+      junction.pairings = findPairings(meeting, junction.pairs, scaleOf(node, meeting)).pairings;
     }
   }
 

@@ -38,7 +38,8 @@ constexpr double kExplainedWidths = 0.75;  // from the nearest arc: ink farther 
 constexpr double kPaperWidths = 0.25, kPaperPx = 0.5;
 // [stroke widths per radian] Of two pairings that leave as little the one that turns less is likelier.
 constexpr double kTurnWidths = 0.6;
-constexpr double kClearSquares = 4.0;  // the next best pairing leaves so many times more where one is clear
+constexpr double kSideBySideHalf = 0.27;  // tan 15 degrees: of half the angle of strokes that look side by side
+constexpr double kClearSquares = 4.0;     // the next best pairing leaves so many times more where one is clear
 
 struct TangleEnd {
   int end = 0;
@@ -79,6 +80,13 @@ class TangleFinder {
   std::optional<TangleArc> arcOf(const TangleEnd& p, const TangleEnd& q) const;
   bool isWithinInk(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const;
   void match(int from, double sum, int open);
+  std::vector<Vec2> coursePlaces(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const;
+  struct Crossing {
+    Vec2 at = Vec2::Zero(), across = Vec2::Zero();
+    double halfTangent = 0.0;  // of half the angle
+  };
+  std::optional<Crossing> crossingOf(const std::pair<int, int>& one, const std::pair<int, int>& other) const;
+  bool mayCross(const std::vector<std::pair<int, int>>& pairs) const;
   bool explainsAll(const std::vector<std::pair<int, int>>& pairs) const;
   bool isOfTwo(int edge, const std::vector<std::pair<int, int>>& pairs) const;
 
@@ -190,19 +198,71 @@ std::optional<TangleEnd> TangleFinder::measure(int end, double sizePx) const {
   return found;
 }
 
-// Whether the ink is there all along, by the discs of its skeleton.
-bool TangleFinder::isWithinInk(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const {
+// Places about a pixel apart on an arc between its ends.
+std::vector<Vec2> TangleFinder::coursePlaces(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const {
   const Vec2 from = p.points.front(), way = q.points.front() - from;
   const int steps = std::max(1, static_cast<int>(way.norm()));
+  std::vector<Vec2> places;
   for (int k = 1; k < steps; ++k) {
     const Vec2 local = arc.frame.local(from + way * (static_cast<double>(k) / steps));
     const Vec2 on = local + arc.arc.toArc(local);
-    const Vec2 at = arc.frame.origin + on.x() * arc.frame.along + on.y() * leftNormal(arc.frame.along);
-    const bool isIn = std::ranges::any_of(ink_, [&](const StrokePathPoint& s) {
+    places.push_back(arc.frame.origin + arc.frame.page(on));
+  }
+  return places;
+}
+
+// Whether the ink is there all along, by the discs of its skeleton.
+bool TangleFinder::isWithinInk(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const {
+  return std::ranges::all_of(coursePlaces(arc, p, q), [&](const Vec2& at) {
+    return std::ranges::any_of(ink_, [&](const StrokePathPoint& s) {
       return (s.at - at).norm() <= static_cast<double>(s.radius) + kPaperWidths * usualWidth_ + kPaperPx;
     });
-    if (!isIn) return false;
+  });
+}
+
+std::optional<TangleFinder::Crossing> TangleFinder::crossingOf(const std::pair<int, int>& one,
+                                                               const std::pair<int, int>& other) const {
+  const TangleArc &arc = arcs_.at(one), &crossed = arcs_.at(other);
+  std::optional<bool> wasLeft;
+  for (const Vec2& at : coursePlaces(arc, ends_[one.first], ends_[one.second])) {
+    const Vec2 local = crossed.frame.local(at), across = crossed.arc.normalAt(local);
+    const bool isLeft = across.dot(crossed.arc.toArc(local)) > 0.0;
+    if (wasLeft && *wasLeft != isLeft) {
+      const Vec2 own = arc.frame.page(arc.arc.normalAt(arc.frame.local(at))), its = crossed.frame.page(across);
+      return Crossing{at, own, std::tan(0.5 * std::asin(std::min(1.0, std::abs(cross(own, its)))))};
+    }
+    wasLeft = isLeft;
   }
+  return std::nullopt;
+}
+
+// Where two strokes cross one lies on the other: ink that is wider there than the wider of them and what runs beside
+// holds both side by side.
+bool TangleFinder::mayCross(const std::vector<std::pair<int, int>>& pairs) const {
+  const auto areSideBySide = [&](const std::pair<int, int>& one, const std::pair<int, int>& other) {
+    const std::optional<Crossing> crossing = crossingOf(one, other);
+    if (!crossing) return false;
+    const Vec2& at = crossing->at;
+    const auto [thinner, wider] = std::minmax({arcs_.at(one).widthPx, arcs_.at(other).widthPx});
+    double low = -0.5 * wider, high = 0.5 * wider;
+    for (const std::pair<int, int>& beside : pairs) {
+      const TangleArc& arc = arcs_.at(beside);
+      if (beside == one || beside == other || arc.distance(at) > 0.5 * (arc.widthPx + wider) + thinner) continue;
+      const double away = crossing->across.dot(arc.frame.page(arc.arc.toArc(arc.frame.local(at))));
+      low = std::min(low, away - 0.5 * arc.widthPx);
+      high = std::max(high, away + 0.5 * arc.widthPx);
+    }
+    // At larger angles the ink is soon wider.
+    const double reach = std::min(wider, 0.5 * kLyingShare * thinner / std::max(1e-9, crossing->halfTangent));
+    std::vector<float> radii;
+    for (const StrokePathPoint& s : ink_)
+      if ((s.at - at).norm() <= reach) radii.push_back(s.radius);
+    const double most = high - low + kLyingShare * thinner + kGridOfWidthPx;
+    return crossing->halfTangent <= kSideBySideHalf && !radii.empty() &&
+           2.0 * static_cast<double>(elementOfRank(radii, std::ssize(radii) / 4)) > most;
+  };
+  for (auto one = pairs.begin(); one != pairs.end(); ++one)
+    if (std::any_of(pairs.begin(), one, [&](const auto& other) { return areSideBySide(*one, other); })) return false;
   return true;
 }
 
@@ -314,7 +374,7 @@ bool TangleFinder::tellStrokes(Tangle& tangle) {
   best_.clear();
   bestSum_ = nextSum_ = std::numeric_limits<double>::infinity();
   match(0, 0.0, n % 2);
-  if (!std::isfinite(bestSum_) || !explainsAll(best_)) return false;
+  if (!std::isfinite(bestSum_) || !explainsAll(best_) || !mayCross(best_)) return false;
   if (!std::ranges::all_of(tangle.inner, [&](int edge) { return isOfTwo(edge, best_); })) return false;
   tangle.isDoubtful = nextSum_ < kClearSquares * bestSum_;
   for (const auto& [a, b] : best_) tangle.strokes.emplace_back(ends_[a].end, ends_[b].end);
