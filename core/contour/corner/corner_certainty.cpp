@@ -35,9 +35,9 @@ constexpr double kFaintSlackRad = 2.0 * kRadPerDeg;               // and by so m
 constexpr double kNoiseLimit = 3.5;                               // standard deviations
 constexpr double kDentReach = 8.0;                                // units
 constexpr double kDentShare = 0.5;                                // of the turn that turns back
-constexpr double kLeastDivisor = 1e-9;                  // keeps shares finite where there is no side or no turn
-constexpr double kNoDentTurn = 70.0 * kRadPerDeg;       // beside a turn back a gentler one may be a side of a dent
-constexpr double kLeastPennedTurn = 40.0 * kRadPerDeg;  // the same of a pen's stroke, whose middle has no dents
+constexpr double kLeastDivisor = 1e-9;                   // keeps shares finite where there is no side or no turn
+constexpr double kNoDentTurn = 70.0 * kRadPerDeg;        // beside a turn back a gentler one may be a side of a dent
+constexpr double kLeastPennedTurn = 40.0 * kRadPerDeg;   // the same of a pen's stroke, whose middle has no dents
 constexpr double kMostBlendedTurn = 170.0 * kRadPerDeg;  // of a sharper one the ink tells no length
 constexpr double kBentShare = 0.1;                       // of the turn: by so much the sides of such go on to turn,
 constexpr double kBentSlackRad = 2.0 * kRadPerDeg;       // and so much more
@@ -148,7 +148,7 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
     demand(isPenned ? kLeastPennedTurn : kNoDentTurn, angle);
     if (isPenned) demand(turnOfSides(e, arc, unit), kBentShare * angle + kBentSlackRad);
   }
-  if (isStroke)
+  if (isPenned)
     demand(kLeastSeenSide * unit, std::max(kLeastDivisor, std::min(seenSide(e.freeBefore, angle, e.angleBefore, unit),
                                                                    seenSide(e.freeAfter, angle, e.angleAfter, unit))));
   if (e.isLocated) {

@@ -29,7 +29,7 @@ struct CornerEvidence {
 /// larger rounding has room between what was seen of its sides. It has sides of 2.5 units and more, and they bend
 /// far less than it turns: chords over 3 and 6 units agree. Where the line turns back again within 8 units it may be a
 /// dent, unless it turns by 70 degrees; the middle of a pen's stroke has none, but may be a wave: there 40 degrees are
-/// enough, of sides that do not go on turning. Of a side of a stroke 1.5 units must be free of the ink of its corners.
+/// enough, of sides that do not go on turning. Of its sides 1.5 units must be free of the ink of their corners.
 class CornerJudge {
  public:
   explicit CornerJudge(const Contour&);

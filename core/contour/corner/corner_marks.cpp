@@ -38,7 +38,7 @@ void locate(const Contour& contour, const GreyImage* grey, const RunContext& con
   for (const PlacedCorner& placed : corners) places.push_back(placed.corner.pointIndex);
   const std::vector<CornerFix> fixes = locateCorners(contour, places, context, grey);
   for (int i = 0; i < std::ssize(fixes); ++i) {
-    // One found without a mark counts for how its sides meet there: sides that lead elsewhere, over the hook of an end
+    // One found between short sides counts for how these meet there: sides that lead elsewhere, over the hook of an end
     // or past a neighbour that counts no more, are not those.
     const double zone = roundedZonePx(contour, places[i]),
                  apart = (fixes[i].position - corners[i].corner.positionPx).norm();
