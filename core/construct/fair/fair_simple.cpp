@@ -23,7 +23,7 @@ constexpr double kStraightBelowPx = 12.0, kQuadraticBelowPx = 25.0;
 constexpr int kFewestCurved = 4, kFewestCubic = 8;  // points: fewer show no bend, no change of it
 constexpr int kHighestDegree = 5;
 constexpr double kPointsPerDegree = 3.0;   // at least: fewer would be led through their noise
-constexpr int kMissPoints = 5;             // over which a miss is a mean: a few px of line, as noise is short
+constexpr int kMissPoints = 3;             // over which a miss is a mean: a few px of line, as noise is short
 constexpr double kMuchNearer = 0.7;        // of the miss before: less is not worth a degree
 constexpr double kSolved = 1e-6;           // of the right side: a solution that misses it by more is none
 constexpr int kCircleRounds = 8;           // of Gauss and Newton, from a good start

@@ -37,7 +37,20 @@ constexpr double kDentReach = 8.0;                                // units
 constexpr double kDentShare = 0.5;                                // of the turn that turns back
 constexpr double kLeastDivisor = 1e-9;                   // keeps shares finite where there is no side or no turn
 constexpr double kNoDentTurn = 70.0 * kRadPerDeg;        // beside a turn back a gentler one may be a side of a dent
+constexpr double kLeastPennedTurn = 40.0 * kRadPerDeg;   // the same of a pen's stroke, whose middle has no dents
+constexpr double kMostBlendedTurn = 170.0 * kRadPerDeg;  // of a sharper one the ink tells no length
+constexpr double kBentShare = 0.1;                       // of the turn: by so much the sides of such go on to turn,
+constexpr double kBentSlackRad = 2.0 * kRadPerDeg;       // and so much more
+constexpr double kBlurUnits = 0.35;                      // beyond what the other side's ink bends, blur does
+constexpr double kLeastSeenSide = 1.5;                   // units of a stroke's side that its corners leave free
 constexpr double kSteepness = 4.0, kOddsAtLimit = 19.0;  // 19 to 1 where the worst share is just 1
+
+// [px] What is seen of a stroke's side between two corners, or a corner and an end: where two sides come together the
+// ink has one middle until they are the width of the stroke apart.
+double seenSide(double free, double turn, const std::optional<double>& next, double width) {
+  const auto blended = [&](double angle) { return 0.5 * width * std::tan(0.5 * std::min(angle, kMostBlendedTurn)); };
+  return free - blended(turn) - (next ? blended(std::abs(*next)) : 0.5 * width);
+}
 
 }  // namespace
 
@@ -73,6 +86,20 @@ double CornerJudge::chordTurn(double arc, double near, double before, double aft
   return -std::atan2(cross(in, out), in.dot(out));
 }
 
+// [rad] By which the sides go on turning the same way beyond the corner, each as far as the middle of its leg: those of
+// a wave do.
+double CornerJudge::turnOfSides(const CornerEvidence& e, double arc, double unit) const {
+  const double from = (0.5 * std::tan(0.5 * std::min(std::abs(e.angleRad), kMostBlendedTurn)) + kBlurUnits) * unit;
+  double turned = 0.0;
+  for (const double side : {-1.0, 1.0}) {
+    const double to = std::min(0.5 * (side < 0.0 ? e.freeBefore : e.freeAfter), kShortChord * unit);
+    const Vec2 a = atArc(arc + side * from), b = atArc(arc + 0.5 * side * (from + to)), c = atArc(arc + side * to);
+    const Vec2 first = side * (b - a), then = side * (c - b);
+    if (to > from) turned -= side * std::copysign(1.0, e.angleRad) * std::atan2(cross(first, then), first.dot(then));
+  }
+  return turned;
+}
+
 // Of the largest rounding that fits between the located points on either side of a tip; infinite where there are none.
 double CornerJudge::unseenRadius(const CornerEvidence& e, int tip) const {
   const int n = static_cast<int>(contour_.points.size());
@@ -91,7 +118,8 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   const double unit = unitAt(e), angle = std::abs(e.angleRad);
   if (!(angle > 0.0)) return 0.0;
   const ContourPoint& turned = contour_.points[e.pointIndex];
-  const bool isSketched = contour_.kind == ContourKind::Centreline && turned.widthPx && !turned.sigmaPx;
+  const bool isStroke = contour_.kind == ContourKind::Centreline && turned.widthPx;
+  const bool isSketched = isStroke && !turned.sigmaPx, isPenned = isStroke && turned.sigmaPx;
   NearestPoint tip{e.pointIndex, 0.0};
   if (e.isLocated)
     tip = nearestAlong(contour_, e.pointIndex, e.positionPx, static_cast<int>(kPointsPerPx * kFarthestVertex * unit));
@@ -116,7 +144,13 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
   const auto turnsBack = [&](double free, const std::optional<double>& other) {
     return other && free < kDentReach * unit && *other * e.angleRad < 0.0 && std::abs(*other) >= kDentShare * angle;
   };
-  if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
+  if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) {
+    demand(isPenned ? kLeastPennedTurn : kNoDentTurn, angle);
+    if (isPenned) demand(turnOfSides(e, arc, unit), kBentShare * angle + kBentSlackRad);
+  }
+  if (isPenned)
+    demand(kLeastSeenSide * unit, std::max(kLeastDivisor, std::min(seenSide(e.freeBefore, angle, e.angleBefore, unit),
+                                                                   seenSide(e.freeAfter, angle, e.angleAfter, unit))));
   if (e.isLocated) {
     const double sharp = isSketched ? kSharpSketchRadius : kSharpRadius;
     double rounded = tip.distance / (sharp * unit * (1.0 / std::cos(0.5 * angle) - 1.0) + kSharpSlackPx);

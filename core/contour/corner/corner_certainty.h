@@ -28,7 +28,8 @@ struct CornerEvidence {
 /// rounding of radius r, r (sec(angle / 2) - 1), r being 1.5 units; or, where the tip of a shape was filtered away, no
 /// larger rounding has room between what was seen of its sides. It has sides of 2.5 units and more, and they bend
 /// far less than it turns: chords over 3 and 6 units agree. Where the line turns back again within 8 units it may be a
-/// dent, unless it turns by 70 degrees.
+/// dent, unless it turns by 70 degrees; the middle of a pen's stroke has none, but may be a wave: there 40 degrees are
+/// enough, of sides that do not go on turning. Of its sides 1.5 units must be free of the ink of their corners.
 class CornerJudge {
  public:
   explicit CornerJudge(const Contour&);
@@ -37,6 +38,7 @@ class CornerJudge {
  private:
   double unitAt(const CornerEvidence&) const;
   double unseenRadius(const CornerEvidence&, int tip) const;
+  double turnOfSides(const CornerEvidence&, double arc, double unit) const;
   Vec2 atArc(double) const;
   double chordTurn(double arc, double near, double before, double after) const;
 

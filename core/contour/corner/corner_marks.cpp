@@ -16,11 +16,13 @@ namespace {
 
 constexpr double kSamePlacePx = 2.0;  // marks whose points are as near stand for one corner
 constexpr double kSliverPx = 12.0;    // a piece shorter than this has no points beyond the rounded zones of its corners
-constexpr float kCornerSigmaPx = 0.1f;  // [px] noise assumed of a corner that is all its piece has
-constexpr double kGuessedZonePx = 0.5;  // of a corner that was not located: its point itself
-constexpr double kLeastAsidePx = 1.5;   // of a line so thin that half its width says nothing
-constexpr double kZonesLookedAt = 3.0;  // zones, and a sliver: what lies farther from a corner cannot be behind it
-constexpr int kManyMarks = 16;          // from here on sorting the points of the drawing pays
+constexpr float kCornerSigmaPx = 0.1f;    // [px] noise assumed of a corner that is all its piece has
+constexpr double kLeastFoundZones = 2.5;  // of a side between corners found without marks
+constexpr double kLedElsewhere = 0.25;    // of the rounded zone: where two ways to fit the sides agree, they do to less
+constexpr double kGuessedZonePx = 0.5;    // of a corner that was not located: its point itself
+constexpr double kLeastAsidePx = 1.5;     // of a line so thin that half its width says nothing
+constexpr double kZonesLookedAt = 3.0;    // zones, and a sliver: what lies farther from a corner cannot be behind it
+constexpr int kManyMarks = 16;            // from here on sorting the points of the drawing pays
 
 // A corner while the pieces are cut.
 struct PlacedCorner {
@@ -37,6 +39,15 @@ void locate(const Contour& contour, const GreyImage* grey, const RunContext& con
   for (const PlacedCorner& placed : corners) places.push_back(placed.corner.pointIndex);
   const std::vector<CornerFix> fixes = locateCorners(contour, places, context, grey);
   for (int i = 0; i < std::ssize(fixes); ++i) {
+    // One found between short sides counts for how these meet there: sides that lead elsewhere, over the hook of an end
+    // or past a neighbour that counts no more, are not those.
+    const double zone = roundedZonePx(contour, places[i]),
+                 apart = (fixes[i].position - corners[i].corner.positionPx).norm();
+    if (corners[i].corner.isLocated && !corners[i].corner.mark && (!fixes[i].exact || apart > kLedElsewhere * zone)) {
+      corners[i].exact = true;
+      corners[i].zone = zone;
+      continue;
+    }
     corners[i].corner.positionPx = fixes[i].position;
     corners[i].corner.turningAngleRad = fixes[i].angleRad;
     corners[i].exact = fixes[i].exact;
@@ -198,10 +209,13 @@ class ContourCorners {
       corners_.push_back({.corner = joint, .isJoint = true});
     }
   }
-  /// Found without a mark. What is there already wins. @pre all marks and joints are in.
-  void addFound(const Corner& corner) {
+  /// Found without a mark. What is there already wins; what was found, too, may lie a short side away.
+  /// @param zonePx what its corner rounds of the line. @pre all marks and joints are in.
+  void addFound(const Corner& corner, double zonePx) {
     const bool isTaken = std::any_of(corners_.begin(), corners_.end(), [&](const PlacedCorner& other) {
-      return (other.corner.positionPx - corner.positionPx).norm() < kSliverPx;
+      const bool isFound = !other.corner.mark && !other.isJoint;
+      const double least = isFound ? std::min(kSliverPx, kLeastFoundZones * zonePx) : kSliverPx;
+      return (other.corner.positionPx - corner.positionPx).norm() < least;
     });
     if (!isTaken) corners_.push_back({.corner = corner});
   }
@@ -282,7 +296,7 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     if (context.isCancelled()) return cancelled();
     const Contour& contour = set.contours[c];
     addJoints(contour, c, atContour[c]);
-    for (const Corner& corner : unmarked[c]) atContour[c].addFound(corner);
+    for (const Corner& corner : unmarked[c]) atContour[c].addFound(corner, roundedZonePx(contour, corner.pointIndex));
     std::vector<PlacedCorner> corners = std::move(atContour[c]).sorted();
     // A pen stroke is exact already: its corner is the point that was drawn.
     if (params.exact && !isDrawn(contour.kind) && !corners.empty()) locate(contour, grey, context, corners);

@@ -57,6 +57,7 @@ struct Corner {
   Vec2 positionPx = Vec2::Zero();  ///< [px] Where the corner is.
   double turningAngleRad = 0.0;    ///< [rad] -pi..pi, change of direction, positive to the left in the model frame.
   double snapPx = 0.0;             ///< [px] Distance from the mark.
+  bool isLocated = false;          ///< Found between short sides: positionPx is where these meet.
 };
 
 /// A stretch of one contour from corner to corner (or end), or a whole closed contour without corner. Image frame, px.

@@ -323,6 +323,15 @@ void continueSide(const Followed& f, double from, double to, CornerSide& side) {
   side.sigmaPx = std::sqrt(std::max(0.0, row.dot(f.spread * row)));
 }
 
+// What is too short to show a bend is straight.
+std::optional<CornerSide> straightSide(const std::vector<SideBlock>& blocks, CornerSide side) {
+  if (blocks.size() < 2) return std::nullopt;
+  const double from = blocks.front().x, to = blocks.back().x;
+  const State start(kStartPx, kStartSlope, 0.0, 0.0);
+  continueSide(follow(blocks, {Model::Kind::Line}, start, kPriorDensity / kBlockPx, nullptr), from, to, side);
+  return side;
+}
+
 }  // namespace
 
 Vec2 CornerSide::at(double x) const {
@@ -350,7 +359,7 @@ std::optional<CornerSide> fitCornerSide(const Contour& contour, int index, int s
   best.across = Vec2(-best.along.y(), best.along.x());
   if (!(best.along.norm() > 0.5)) return std::nullopt;  // a unit vector, or none
   const std::vector<SideBlock> blocks = blocksOf(points, best);
-  if (std::ssize(blocks) < kFewestBlocks) return std::nullopt;
+  if (std::ssize(blocks) < kFewestBlocks) return straightSide(blocks, best);
   const double density = noiseDensity(blocks, contour.kind == ContourKind::Outline ? kOutlineGroup : kStrokeGroup);
   const Extension extension = extend(blocks, density);
   continueSide(extension.f, blocks.front().x, blocks[extension.count - 1].x, best);

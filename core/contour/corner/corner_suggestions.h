@@ -17,6 +17,7 @@ struct CornerSuggestion {
   double turningAngleRad = 0.0;  ///< [rad] Change of direction, signed as Turning.
   double certainty = 0.0;  ///< 0..1 (CornerJudge; of a like corner on a stroke kCertainCorner). From that on it is
                            ///< set without a mark.
+  bool isLocated = false;  ///< Found between short sides (cornersOfShortSides): positionPx is where these meet.
 };
 
 /// A sharp feature: a stretch of a contour that is known to turn sharply, points first..last. On a closed contour

@@ -11,6 +11,7 @@
 #include "core/construct/fair/sharp_features.h"
 #include "core/contour/corner/corner_certainty.h"
 #include "core/contour/corner/corner_suggestions.h"
+#include "core/contour/corner/short_sides.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -19,6 +20,7 @@ namespace {
 constexpr double kSmallLoopPx = 70.0;                   // round: radius 11 px
 constexpr double kCertainAngleRad = 28.0 * kRadPerDeg;  // below the least turn of a certain corner
 constexpr double kCertainScalePx = 14.0;                // along the line, at which certain corners are looked for
+constexpr double kOneTurnPlacePx = 6.0;                 // places as near are of one turn
 
 // [grey] The darkest or lightest pixel of a square about a place, as far as it lies on the page.
 struct GreyRange {
@@ -78,7 +80,15 @@ std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, doubl
 }
 
 std::vector<CornerSuggestion> possibleCorners(const ContourSet& set, const RunContext& context) {
-  return suggestCornersAndCuts(set, kCertainAngleRad, kCertainScalePx, context);
+  std::vector<CornerSuggestion> all = suggestCornersAndCuts(set, kCertainAngleRad, kCertainScalePx, context);
+  for (const CornerSuggestion& corner : cornersOfShortSides(set, all, context)) {
+    std::erase_if(all, [&](const CornerSuggestion& other) {
+      return other.contour == corner.contour && other.certainty < kCertainCorner &&
+             (other.positionPx - corner.positionPx).norm() < kOneTurnPlacePx;
+    });
+    all.push_back(corner);
+  }
+  return all;
 }
 
 std::vector<Corner> certainCorners(const ContourSet& set, const GreyImage& page, std::span<const Vec2> refusedPx,
@@ -96,6 +106,7 @@ std::vector<Corner> certainCorners(const ContourSet& set, const GreyImage& page,
     corner.pointIndex = s.pointIndex;
     corner.positionPx = s.positionPx;
     corner.turningAngleRad = s.turningAngleRad;
+    corner.isLocated = s.isLocated;
     corners.push_back(corner);
   }
   for (const Vec2& place : refusedPx) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/pipeline.h"
+#include "tests/support/corner_page.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
@@ -53,6 +56,44 @@ TEST(AutomaticCorners, AreThoseOfRenderedShapesAndNoOthers) {
   }
   EXPECT_GE(found, 0.95 * known) << "of " << known;
   EXPECT_LT(std::sqrt(square / found), 0.2);
+}
+
+int cornersNear(const std::vector<Corner>& corners, const std::vector<Vec2>& places, double within) {
+  return static_cast<int>(
+      std::ranges::count_if(places, [&](const Vec2& place) { return hasCornerAt(corners, place, within); }));
+}
+
+// Sides of 18 to 30 px: beyond them begins the next corner, no bend of theirs.
+TEST(AutomaticCorners, OfSmallZigzagsAreFound) {
+  int drawn = 0, found = 0, all = 0;
+  for (const double width : {2.0, 3.0, 4.5}) {
+    for (const double blur : {0.8, 1.5}) {
+      for (const double degrees : {45.0, 60.0, 90.0}) {
+        const test::CornerPage page = test::zigzagPage({degrees * std::numbers::pi / 180.0, 12.0 + 4.0 * width}, 1);
+        const std::vector<Corner> corners = cornersWith(test::scanOfCorners(page, false, width, blur, 6.0, 1), {});
+        const int near = cornersNear(corners, page.corners, 1.0);
+        EXPECT_GE(near, 0.75 * static_cast<double>(page.corners.size()))
+            << degrees << " degrees, pen " << width << ", blur " << blur;
+        drawn += static_cast<int>(page.corners.size());
+        found += near;
+        all += static_cast<int>(corners.size());
+      }
+    }
+  }
+  EXPECT_GE(found, 0.95 * drawn) << "of " << drawn;
+  EXPECT_LE(all, 1.02 * drawn);
+}
+
+TEST(AutomaticCorners, OfSmallSmoothLinesThereAreNone) {
+  for (const double width : {3.0, 4.5}) {
+    for (const test::Smooth kind : {test::Smooth::Circle, test::Smooth::Ellipse, test::Smooth::Wave}) {
+      for (const double radius : {3.0, 5.0}) {
+        const test::CornerPage page = test::smoothPage(kind, radius * width, 1);
+        const Scan scan = test::scanOfCorners(page, kind != test::Smooth::Wave, width, 0.8, 6.0, 1);
+        EXPECT_TRUE(cornersWith(scan, {}).empty()) << "pen " << width << ", radius " << radius << " widths";
+      }
+    }
+  }
 }
 
 TEST(AutomaticCorners, GiveTheCurvesThatMarksAtTheCornersGive) {
