@@ -15,8 +15,8 @@ struct PencilPage {
   cv::Mat1f level;             ///< [of 255] Brightness of the paper's.
   cv::Mat1b smooth, ground;    ///< The same without its grain; without what is narrower than the brush, too.
   PaperBackground paper;       ///< What they are measured against.
-  double widthPx = 0.0;        ///< Of lines.
-  int brush = 0;               ///< [px] Radius of one that no line holds.
+  double widthPx = 0.0;        ///< Of thin lines, 2.4 to 4.
+  int brush = 0;               ///< [px] Radius of one that no thin line holds.
   double darkness = 0.0;       ///< [of 255] Of lines.
   double darknessAlike = 1.0;  ///< 0..1 The darkness of a faint part of the ink's middle lines by that of a dark one.
 };

@@ -64,7 +64,7 @@ std::vector<double> sumsOf(const cv::Mat1i& labels, int count, const cv::Mat1b& 
   return sums;
 }
 
-/// What is as dark as the lines beside it, and ends sharply or is black.
+/// What is black or as dark as the lines beside it, and ends sharply.
 cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lineLevel) {
   cv::Mat1f ground, level;
   page.ground.convertTo(ground, CV_32F);

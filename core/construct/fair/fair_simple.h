@@ -45,10 +45,10 @@ std::optional<LineFit> fitLine(std::span<const WeightedPoint>);
 /// The straight piece from the first to the last point: on the line, but through the pins.
 Result<NurbsCurve> lineCurve(const LineFit&, const Vec2& first, const Vec2& last, const FairPins&);
 
-/// For pieces too short for the fair fit: the polynomial of the lowest degree, up to 5, that misses the points in order
-/// by no more than `tolerancePx`, in the mean of a few neighbours (straight below 12 px, of degree 2 below 25 px and 3
-/// from there where that does); closed ones a smooth loop. Ends exactly at the pins. @return Numerical when the points
-/// are all one.
+/// For pieces too short for the fair fit: a polynomial through the points in order, straight below 12 px, of degree 2
+/// below 25 px and 3 from there; raised, up to 5, while it misses the points by more than `tolerancePx` in the mean of
+/// a few neighbours and the higher degree misses much less. Closed ones are a smooth loop. Ends exactly at the pins.
+/// @return Numerical when the points are all one.
 Result<NurbsCurve> simpleCurve(const FairData&, const FairPins&, double tolerancePx);
 
 }  // namespace batten

@@ -155,10 +155,11 @@ void lighten(ConstructedPiece& piece, bool closed, DetailAsked asked, const Cons
   }
   if (light->report.kind == LightKind::Dense) return;
   piece.report.light->isSimplified = simplified;
-  const NurbsCurve& dense = piece.dense.emplace(std::exchange(piece.curve, std::move(light->curve)));
+  piece.dense = std::exchange(piece.curve, std::move(light->curve));
+  const Vec2 start = piece.dense->point(piece.dense->start());
   if (simplified) {
     if (closed && !piece.curve.isRational() && cornersInside(piece.curve).empty() && !beginsAtCorner(piece.curve))
-      piece.curve = startedNear(piece.curve, dense.point(dense.start()));
+      piece.curve = startedNear(piece.curve, start);
     piece.report.light->points = piece.curve.controlPointCount();
     piece.dense = piece.curve.isRational() ? std::nullopt : fairingStartOf(piece.curve, closed, options);
     finishExact(piece, closed, light->report.kind);
@@ -166,7 +167,7 @@ void lighten(ConstructedPiece& piece, bool closed, DetailAsked asked, const Cons
   }
   // Shares of the length mean the same on both: what is pointed at on the one is split on the other.
   if (closed && !piece.curve.isRational()) {
-    piece.curve = startedNear(piece.curve, dense.point(dense.start()));
+    piece.curve = startedNear(piece.curve, start);
     piece.report.light->points = piece.curve.controlPointCount();
   }
   finishExact(piece, closed, light->report.kind);

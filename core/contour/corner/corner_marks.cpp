@@ -39,8 +39,8 @@ void locate(const Contour& contour, const GreyImage* grey, const RunContext& con
   for (const PlacedCorner& placed : corners) places.push_back(placed.corner.pointIndex);
   const std::vector<CornerFix> fixes = locateCorners(contour, places, context, grey);
   for (int i = 0; i < std::ssize(fixes); ++i) {
-    // One found between short sides counts for how these meet there: sides that lead elsewhere, over the hook of an end
-    // or past a neighbour that counts no more, are not those.
+    // One found between short sides stays where these meet: a fit of longer sides that fails, or meets elsewhere, has
+    // followed a hook or gone past a neighbour.
     const double zone = roundedZonePx(contour, places[i]),
                  apart = (fixes[i].position - corners[i].corner.positionPx).norm();
     if (corners[i].corner.isLocated && !corners[i].corner.mark && (!fixes[i].exact || apart > kLedElsewhere * zone)) {
@@ -55,13 +55,13 @@ void locate(const Contour& contour, const GreyImage* grey, const RunContext& con
   }
 }
 
-// Whether the first `count` points from an end of a piece lie along the straight way from the corner to the next one,
-// within half the stroke.
-bool areOnTheWay(const Piece& piece, bool fromEnd, const Vec2& corner, int count) {
+// Whether points `first` to `count` - 1, counted from an end of a piece, lie along the straight way from the corner to
+// the next one, within half the stroke.
+bool areOnTheWay(const Piece& piece, bool fromEnd, const Vec2& corner, int first, int count) {
   const int n = static_cast<int>(piece.points.size());
   const auto point = [&](int k) -> const PiecePoint& { return piece.points[fromEnd ? n - 1 - k : k]; };
   if (count >= n) return true;
-  for (int k = 0; k < count; ++k) {
+  for (int k = first; k < count; ++k) {
     const double half = std::max(kLeastAsidePx, 0.5 * static_cast<double>(point(k).widthPx.value_or(0.0f)));
     if (awayFromSegment(point(k).at, corner, point(count).at).norm() > half) return false;
   }
@@ -82,7 +82,7 @@ int pointsToDrop(const Piece& piece, bool isPen, bool fromEnd, const Vec2& corne
     if ((p - corner).norm() < zone || arc < zone) drop = k + 1;
     if (std::max(drop, guessed) == k && !piece.points[i].refined && !isPen) guessed = k + 1;
   }
-  return guessed > drop && areOnTheWay(piece, fromEnd, corner, guessed) ? guessed : drop;
+  return guessed > drop && areOnTheWay(piece, fromEnd, corner, drop, guessed) ? guessed : drop;
 }
 
 // What a corner knows where its piece has no other point.

@@ -62,6 +62,7 @@ class ShortSideSearch {
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const ShortCandidate& a, const ShortCandidate& b) { return a.score > b.score; });
     for (const ShortCandidate& c : candidates) {
+      if (context.isCancelled()) return {};
       const auto isBeside = [&](const ShortCandidate& other) { return along(c, other) < kApartUnits * unit_; };
       if (std::ranges::none_of(kept_, isBeside)) kept_.push_back(c);
     }
@@ -85,9 +86,9 @@ class ShortSideSearch {
   }
 
   std::optional<ShortCandidate> at(int i) const {
+    if (!stroke_.points[i].sigmaPx) return std::nullopt;  // the grain of a pencil bends what is short
     const double inner = roundedZonePx(stroke_, i), outer = inner + kSideUnits * unit_;
     const auto turning = turningAt(stroke_, i, inner, outer, 1);
-    if (!stroke_.points[i].sigmaPx) return std::nullopt;  // the grain of a pencil bends what is short
     if (!turning || std::abs(turning->angleRad) < kLeastShortTurn ||
         turning->score < kStraightScore * std::abs(turning->angleRad))
       return std::nullopt;

@@ -169,17 +169,29 @@ struct OpenedInk {
 // The ink with the paper open again that strokes which have run together, or lettering, have closed; absent: there is
 // none. @param closed what a pencil drew, its grain closed.
 std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& grey, const InkSplit& split,
-                                         const std::optional<BitImage>& closed, const BitImage& pens,
-                                         const PaperBackground& sheet, const RunContext& context) {
+                                         const BitImage& closed, const BitImage& pens, const PaperBackground& sheet,
+                                         const RunContext& context) {
   const BitImage strokes = both(BitImage(pens), split.strokes);
   const BitImage open = withoutClosedPaper(strokes, grey, sheet, *split.penPx, context);
   OpenedInk opened;
-  if (closed)
-    opened.clear = paperInLettering(without(BitImage(ink), pens), *closed, grey, sheet, *split.penPx, context);
+  if (closed.width > 0)
+    opened.clear = paperInLettering(without(BitImage(ink), pens), closed, grey, sheet, *split.penPx, context);
   if (context.isCancelled() || (open == strokes && !opened.clear)) return std::nullopt;
   opened.ink = either(without(BitImage(ink), strokes), open);
   if (opened.clear) opened.ink = without(std::move(opened.ink), *opened.clear);
   return opened;
+}
+
+// Moves what a pencil drew to the strokes or to the shapes, whole pieces at a time. @return its ink.
+BitImage movePencil(const BitImage& ink, const PencilPieces& pencil, const StrokeSplit& byPiece, InkSplit& split) {
+  const RunPieces& pieces = pencil.pieces();
+  BitImage drawn(ink.width, ink.height);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    if (!pencil.isPencil(pieces.piece[i])) continue;
+    setBits(drawn, pieces.runs[i]);
+    move(ink, pieces.runs[i], byPiece.shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
+  }
+  return drawn;
 }
 
 Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
@@ -200,30 +212,25 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   // Strokes that have run together are told anew once the paper between them is open.
   if (paper.sheet != nullptr && split.penPx) {
     const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink;
-    std::optional<BitImage> closed;
+    Result<BitImage> closed;  // without a pencil: nothing
     if (pencil.any()) {
       const double pencilPx = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
-      Result<BitImage> body = withGrainClosed(without(BitImage(ink), pens), pencilPx, page != nullptr, context);
-      if (!body) return fail(body.error());
-      closed = std::move(*body);
+      closed = withGrainClosed(without(BitImage(ink), pens), pencilPx, page != nullptr, context);
+      if (!closed) return fail(closed.error());
     }
-    auto opened = withPaperOpened(ink, grey, split, closed, pens, *paper.sheet, context);
+    auto opened = withPaperOpened(ink, grey, split, *closed, pens, *paper.sheet, context);
     if (context.isCancelled()) return cancelled();
-    if (opened) return splitByLabel(opened->ink, grey, params, page, {nullptr, std::move(opened->clear)}, context);
+    const bool isOther = opened && opened->ink != ink;  // else only what the closing would fill stays open
+    if (isOther) return splitByLabel(opened->ink, grey, params, page, {nullptr, std::move(opened->clear)}, context);
+    if (opened) paper.clear = std::move(opened->clear);
   }
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
   if (!pencil.any()) return split;
   Result<StrokeSplit> byPiece = splitStrokes(ink, context);
   if (!byPiece) return fail(byPiece.error());
-  const RunPieces& pieces = pencil.pieces();
   PencilInk drawn;
-  drawn.ink = BitImage(ink.width, ink.height);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    if (!pencil.isPencil(pieces.piece[i])) continue;
-    setBits(drawn.ink, pieces.runs[i]);
-    move(ink, pieces.runs[i], byPiece->shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
-  }
+  drawn.ink = movePencil(ink, pencil, *byPiece, split);
   const StrokesOfInk& known = *split.known;
   const double widthPx = medianWidth(known.paths, [&](int i) { return known.grain.isPencil(i); });
   Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, page != nullptr, context);

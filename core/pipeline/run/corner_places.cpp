@@ -88,6 +88,7 @@ std::vector<CornerSuggestion> possibleCorners(const ContourSet& set, const RunCo
     });
     all.push_back(corner);
   }
+  std::ranges::stable_sort(all, {}, &CornerSuggestion::contour);
   return all;
 }
 

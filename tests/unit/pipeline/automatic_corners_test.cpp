@@ -91,6 +91,8 @@ TEST(AutomaticCorners, OfSmallSmoothLinesThereAreNone) {
         const test::CornerPage page = test::smoothPage(kind, radius * width, 1);
         const Scan scan = test::scanOfCorners(page, kind != test::Smooth::Wave, width, 0.8, 6.0, 1);
         EXPECT_TRUE(cornersWith(scan, {}).empty()) << "pen " << width << ", radius " << radius << " widths";
+        StageCache cache;
+        EXPECT_FALSE(runPipeline(scan, {}, cache, {}, {}).faired->curves.empty());
       }
     }
   }

@@ -43,9 +43,11 @@ std::vector<Vec2> hilbertCurve(int order) {
   return line;
 }
 
+constexpr double kRowPx = 40.0;  // of waves
+
 /// Rows of waves of two heights, one behind the other.
 std::vector<Vec2> rowsOfWaves(int sizePx) {
-  constexpr double kRowPx = 40.0, kWavePx = 60.0;
+  constexpr double kWavePx = 60.0;
   const double left = 1.5 * kRowPx, right = sizePx - left;
   std::vector<Vec2> line;
   bool forward = true;
@@ -61,6 +63,18 @@ std::vector<Vec2> rowsOfWaves(int sizePx) {
     }
   }
   return line;
+}
+
+/// The same rows, each a line of its own.
+std::vector<std::vector<Vec2>> wavesApart(int sizePx) {
+  std::vector<std::vector<Vec2>> lines(1);
+  for (const Vec2& at : rowsOfWaves(sizePx)) {
+    const bool isRow = at.x() >= 1.5 * kRowPx && at.x() <= sizePx - 1.5 * kRowPx;
+    if (isRow) lines.back().push_back(at);
+    if (!isRow && !lines.back().empty()) lines.emplace_back();
+  }
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
 }
 
 Recipe asDrawn() {
@@ -122,9 +136,18 @@ TEST_F(CancellingAPage, IsHeardInEveryLongStage) {
   ASSERT_NE(constructing.pieces, nullptr);
   EXPECT_GT(constructing.pieces->pieces.size(), 300u) << "the page is to hold many pieces of one line";
   EXPECT_EQ(constructing.constructed, nullptr);
-  const PipelineOutput fairing = cancelledAfter(StageId::Curves);
+}
+
+// Straight pieces take no time to fair.
+TEST_F(CancellingAPage, IsHeardWhileManyPiecesAreFaired) {
+  constexpr int kSizePx = 960;
+  scan_ = test::scanOfLines(test::coverageOf(wavesApart(kSizePx), kStrokePx, kSizePx, kSizePx), kSizePx, kSizePx, 1);
+  Recipe uncut = asDrawn();
+  uncut.corners.automatic = false;
+  const PipelineOutput fairing = cancelledAfter(StageId::Curves, uncut);
   expectCancelled(fairing);
-  EXPECT_NE(fairing.constructed, nullptr);
+  ASSERT_NE(fairing.constructed, nullptr);
+  EXPECT_GT(fairing.constructed->curves.size(), 15u);
   EXPECT_EQ(fairing.faired, nullptr);
 }
 
