@@ -41,6 +41,7 @@ class SpurPruner {
  private:
   std::optional<int> spurTip(int edge, double factor) const;
   bool closesCorner(int edge, int node) const;
+  bool isBeyondTip(int edge, int node) const;
   bool isStroke(int edge, int tip, double factor) const;
   void markCorner(int edge, int side, const Vec2& centre, double reach);
   void leadToTip(int edge, int side, const Vec2& tip, double reach);
@@ -49,14 +50,12 @@ class SpurPruner {
   SkeletonGraph& graph_;
 };
 
-// A sharp turn of one stroke: the two other edges lie close together and the branch points out between them, no farther
-// than to the tip of such a corner. The leg of an A below its bar goes farther.
+// A sharp turn of one stroke: the two other edges lie close together and the branch points out between them.
 bool SpurPruner::closesCorner(int edge, int node) const {
   const SkeletonNode& n = graph_.node(node);
   if (n.ends.size() != 3) return false;
   const double reach = kCornerReachRadii * n.radius + kCornerReachPx;
   Vec2 spur = Vec2::Zero(), other[2];
-  double radius = std::numeric_limits<double>::infinity();  // of the sides
   int k = 0;
   for (const int end : n.ends) {
     const Vec2 d = leavingDirection(graph_.edge(end / 2), end % 2, n.centre, reach);
@@ -64,11 +63,18 @@ bool SpurPruner::closesCorner(int edge, int node) const {
       spur = d;
     } else if (k < 2) {
       other[k++] = d;
-      radius = std::min(radius, graph_.meanRadius(end / 2));
     }
   }
-  if (k != 2 || other[0].dot(other[1]) <= kAcute || spur.dot(other[0] + other[1]) >= 0.0) return false;
-  return graph_.edge(edge).length <= kTipSlack * branchToTip(n.radius + kRadiusPx, radius) + 1.0;
+  if (k != 2) return false;
+  return other[0].dot(other[1]) > kAcute && spur.dot(other[0] + other[1]) < 0.0;
+}
+
+// Whether a branch goes farther than to the tip of a sharp turn there, as the leg of an A below its bar.
+bool SpurPruner::isBeyondTip(int edge, int node) const {
+  double radius = std::numeric_limits<double>::infinity();  // of the sides
+  for (const int end : graph_.node(node).ends)
+    if (end / 2 != edge) radius = std::min(radius, graph_.meanRadius(end / 2));
+  return graph_.edge(edge).length > kTipSlack * branchToTip(graph_.node(node).radius + kRadiusPx, radius) + 1.0;
 }
 
 // A short stroke, as the stem of a letter beyond its bowl: it stands out of the ink of the others as broad as they are,
@@ -106,7 +112,8 @@ std::optional<int> SpurPruner::spurTip(int edge, double factor) const {
   const double r = graph_.node(junction).radius, rw = graph_.medianRadius() + 0.5;
   const double width = 2.0 * std::min(r, 2.0 * rw);
   if (l.length <= factor * width + 1.0) {
-    const bool isKept = isStroke(edge, tip, factor) && !closesCorner(edge, junction);
+    const bool isTip = closesCorner(edge, junction) && !isBeyondTip(edge, junction);
+    const bool isKept = isStroke(edge, tip, factor) && !isTip;
     return isKept ? std::nullopt : std::optional(tip);
   }
   // An acute corner is fat inside and has a long branch to its tip.

@@ -210,12 +210,11 @@ class ContourCorners {
     }
   }
   /// Found without a mark. What is there already wins; what was found, too, may lie a short side away.
-  /// @param zonePx what its corner rounds of the line. @pre all marks and joints are in.
-  void addFound(const Corner& corner, double zonePx) {
+  /// @param apartPx from another that was found, at least. @pre all marks and joints are in.
+  void addFound(const Corner& corner, double apartPx) {
     const bool isTaken = std::any_of(corners_.begin(), corners_.end(), [&](const PlacedCorner& other) {
       const bool isFound = !other.corner.mark && !other.isJoint;
-      const double least = isFound ? std::min(kSliverPx, kLeastFoundZones * zonePx) : kSliverPx;
-      return (other.corner.positionPx - corner.positionPx).norm() < least;
+      return (other.corner.positionPx - corner.positionPx).norm() < (isFound ? apartPx : kSliverPx);
     });
     if (!isTaken) corners_.push_back({.corner = corner});
   }
@@ -296,7 +295,12 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     if (context.isCancelled()) return cancelled();
     const Contour& contour = set.contours[c];
     addJoints(contour, c, atContour[c]);
-    for (const Corner& corner : unmarked[c]) atContour[c].addFound(corner, roundedZonePx(contour, corner.pointIndex));
+    // The border of a shape bends between corners that are so near; the line of a stroke is straight there.
+    const bool isStroke = contour.kind == ContourKind::Centreline;
+    for (const Corner& corner : unmarked[c]) {
+      const double zone = roundedZonePx(contour, corner.pointIndex);
+      atContour[c].addFound(corner, isStroke ? std::min(kSliverPx, kLeastFoundZones * zone) : kSliverPx);
+    }
     std::vector<PlacedCorner> corners = std::move(atContour[c]).sorted();
     // A pen stroke is exact already: its corner is the point that was drawn.
     if (params.exact && !isDrawn(contour.kind) && !corners.empty()) locate(contour, grey, context, corners);
