@@ -37,10 +37,12 @@ constexpr double kSolidRim = 1.5;                            // [widths] around 
 constexpr std::uint8_t kPaper = 252;                         // [of 255] what is as bright is left as it is
 constexpr std::uint8_t kClearTone = 217;                     // [of 255] seen to be shaded
 
-/// Whether places lie side by side that are darker than the paper near by in the mean, whatever grain is in them.
+/// Whether there are places enough that are darker than the paper near by in the mean, whatever grain is in them: where
+/// lines cross there are a few. It is asked of every page, and what comes after takes a quarter of a page's time.
 bool hasDarkPlaces(const GreyImage& page, const RunContext& context) {
   constexpr int kMeanPx = 4, kWide = 3, kNear = 27;  // [px] side of a mean; [cells] dark all over; of paper near by
   constexpr double kDark = 0.9;
+  constexpr int kLeastPlaces = 64;  // a square of 40 px
   const GreyImage cells = reducedPage(page, kMeanPx, context);
   const cv::Mat1w means(cells.height, cells.width, const_cast<std::uint16_t*>(cells.pixels.data()));
   const auto brightest = [&](int side) {
@@ -48,7 +50,7 @@ bool hasDarkPlaces(const GreyImage& page, const RunContext& context) {
     cv::dilate(means, out, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
     return out;
   };
-  return cv::countNonZero(brightest(kWide) < kDark * brightest(kNear)) > 0;
+  return cv::countNonZero(brightest(kWide) < kDark * brightest(kNear)) >= kLeastPlaces;
 }
 
 cv::Mat disc(int radius) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1}); }
