@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/curve/bezier_quintics.h"
 
+#include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "core/base/angle.h"
 
 namespace batten {
 
 namespace {
-
-template <std::size_t N>
-std::array<Vec2, N + 1> raised(const std::array<Vec2, N>& b) {
-  std::array<Vec2, N + 1> result;
-  result.front() = b.front();
-  for (std::size_t i = 1; i < N; ++i) {
-    const double f = static_cast<double>(i) / static_cast<double>(N);
-    result[i] = f * b[i - 1] + (1.0 - f) * b[i];
-  }
-  result.back() = b.back();
-  return result;
-}
-
-template <std::size_t N>
-Quintic asQuintic(const std::array<Vec2, N>& b) {
-  if constexpr (N == std::tuple_size_v<Quintic>) {
-    return b;
-  } else {
-    return asQuintic(raised(b));
-  }
-}
 
 /// 4/5 h / a^2 and its inverse share the unit tangent and the edge.
 struct EndEdge {
@@ -56,14 +35,28 @@ QuinticPoint evaluate(const Quintic& q, double t) {
   return {b[0], first, second};
 }
 
-Quintic elevatedLine(const Vec2& q0, const Vec2& q1) { return asQuintic(std::array<Vec2, 2>{q0, q1}); }
+Quintic elevatedToQuintic(std::span<const Vec2> points) {
+  Quintic q;
+  std::size_t n = points.size();
+  std::ranges::copy(points, q.begin());
+  for (; n < q.size(); ++n) {
+    q[n] = q[n - 1];
+    for (std::size_t i = n - 1; i > 0; --i) {
+      const double f = static_cast<double>(i) / static_cast<double>(n);
+      q[i] = f * q[i - 1] + (1.0 - f) * q[i];
+    }
+  }
+  return q;
+}
+
+Quintic elevatedLine(const Vec2& q0, const Vec2& q1) { return elevatedToQuintic(std::array{q0, q1}); }
 
 Quintic elevatedCubic(const Vec2& q0, const Vec2& q1, const Vec2& q2, const Vec2& q3) {
-  return asQuintic(std::array<Vec2, 4>{q0, q1, q2, q3});
+  return elevatedToQuintic(std::array{q0, q1, q2, q3});
 }
 
 Quintic elevatedQuadratic(const Vec2& q0, const Vec2& q1, const Vec2& q2) {
-  return asQuintic(std::array<Vec2, 3>{q0, q1, q2});
+  return elevatedToQuintic(std::array{q0, q1, q2});
 }
 
 std::optional<double> startCurvature(const Quintic& q) {

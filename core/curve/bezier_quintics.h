@@ -26,7 +26,9 @@ struct QuinticPoint {
 };
 QuinticPoint evaluate(const Quintic& q, double t);
 
-/// A straight, quadratic or cubic piece as a quintic, the same shape (001 section 5). Its ends are exactly those given.
+/// A piece of lower degree as a quintic, the same shape (001 section 5). Its ends are exactly those given.
+/// @pre 2 to 6 Bezier points
+Quintic elevatedToQuintic(std::span<const Vec2> points);
 Quintic elevatedLine(const Vec2& q0, const Vec2& q1);
 Quintic elevatedQuadratic(const Vec2& q0, const Vec2& q1, const Vec2& q2);
 Quintic elevatedCubic(const Vec2& q0, const Vec2& q1, const Vec2& q2, const Vec2& q3);

@@ -36,15 +36,14 @@ std::vector<Way> waysFor(double widthPx, double alongPx) {
   const double step = std::max(1.0, kWayStepWidths * widthPx);
   const int count = static_cast<int>(kWayReach * alongPx / step);
   const auto rounded = [](double v) { return static_cast<int>(std::lround(v)); };
+  const auto weightAt = [&](int i) { return std::exp(-0.5 * std::pow(i * step / alongPx, 2)); };
+  double sum = 0.0;
+  for (int i = -count; i <= count; ++i) sum += weightAt(i);
   for (int k = 0; k < kWays; ++k) {
     const double a = std::numbers::pi * k / kWays, x = std::cos(a), y = std::sin(a);
     Way way;
-    double sum = 0.0;
-    for (int i = -count; i <= count; ++i) sum += std::exp(-0.5 * std::pow(i * step / (alongPx), 2));
-    for (int i = -count; i <= count; ++i) {
-      const double weight = std::exp(-0.5 * std::pow(i * step / (alongPx), 2)) / sum;
-      way.taps.push_back({rounded(i * step * x), rounded(i * step * y), static_cast<float>(weight)});
-    }
+    for (int i = -count; i <= count; ++i)
+      way.taps.push_back({rounded(i * step * x), rounded(i * step * y), static_cast<float>(weightAt(i) / sum)});
     way.side = {rounded(-kWaySideWidths * widthPx * y), rounded(kWaySideWidths * widthPx * x)};
     ways.push_back(std::move(way));
   }

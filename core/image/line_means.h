@@ -7,7 +7,8 @@
 
 namespace batten {
 
-/// What means along lines in all directions tell about places of a page. Both pictures are 0 where nothing was asked.
+/// What means along lines in all directions tell about places of a page. Both pictures are 0 in tiles where nothing was
+/// asked.
 struct LineMeans {
   /// [of 255] By how much the mean along a line through the place is darker than the means along both its sides, where
   /// that is the least; of all directions the most. A step from tone to tone, dark on one side alone, has none.

@@ -152,8 +152,10 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
 }
 
 void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& context) {
-  std::optional<ToneAreas> areas = findToneAreas(greyOf(scan, page), context);
-  if (!areas && !context.isCancelled()) areas = findPencilTones(greyOf(scan, page), context);
+  const std::optional<ToneCopy> copy = toneCopyOf(greyOf(scan, page), context);
+  if (!copy) return;
+  std::optional<ToneAreas> areas = findToneAreas(*copy, context);
+  if (!areas && !context.isCancelled()) areas = findPencilTones(*copy, context);
   if (!areas || context.isCancelled()) return;
   page.grey = withoutTones(page.grey ? std::move(*page.grey) : scan.grey, *areas, context);
   page.shadedShare = areas->share;

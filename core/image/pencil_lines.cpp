@@ -19,9 +19,7 @@ namespace {
 // the width of its lines. On A4, of which the copy has 875 to 1750 px, 4 are .7 to 1.4 mm; broader lines are not found.
 constexpr double kLeastLinePx = 2.4, kMostLinePx = 4.0;
 constexpr double kInkBlurPx = 0.7;                   // by which ink is broader than its line
-constexpr double kBrushWidths = 1.25;                // as of tone_look.cpp
 constexpr double kThinWidths = 1.25;                 // half the width of ink that is no line
-constexpr int kLeastLines = 50;                      // [px] of thin middle lines, to tell how dark lines are
 constexpr double kLineQuantile = 0.6;                // of the darkness of thin ink: that of lines
 constexpr double kFaintPart = 0.1, kDarkPart = 0.8;  // quantiles of the darkness of all middle lines
 constexpr double kMiddleBlur = 0.3;                  // [widths] that keeps the middle of a line
@@ -109,10 +107,10 @@ std::optional<PencilPage> lookAtPencil(const GreyImage& searched, const RunConte
   page.paper = std::move(thresholds.paper);
   look->flat.convertTo(page.level, CV_32F);
   page.widthPx = std::clamp(*inkPx - kInkBlurPx, kLeastLinePx, kMostLinePx);
-  page.brush = ceiled(kBrushWidths * page.widthPx + 1.0);
+  page.brush = ceiled(kWiderThanLines * page.widthPx + 1.0);
   const cv::Mat1b calm = roundedTone(blurredTone(page.level, kMiddleBlur * page.widthPx));
   const cv::Mat1b thin = middle & (distance < kThinWidths * page.widthPx);
-  if (cv::countNonZero(thin) < kLeastLines) return std::nullopt;
+  if (cv::countNonZero(thin) < kLeastLinePixels) return std::nullopt;
   page.darkness = darknessQuantile(calm, thin, kLineQuantile);
   page.darknessAlike =
       darknessQuantile(calm, middle, kFaintPart) / std::max(1.0, darknessQuantile(calm, middle, kDarkPart));

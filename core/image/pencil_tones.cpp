@@ -20,9 +20,7 @@ namespace {
 // .42 of pencil and charcoal.
 constexpr double kMostAlike = 0.47;
 constexpr double kFaintestTone = 8.0, kFaintestShare = 0.15;  // [of 255], of the darkness of lines: less is paper
-constexpr double kBlack = 190.0;      // [of 255] darkness of ground on which no line could be drawn
 constexpr double kLeastDark = 0.375;  // of the darkness of lines, in the mean: ink that is torn is thresholded there
-constexpr double kAsDark = 0.85;      // of the line beside it: what is as dark is a solid, if it ends
 constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step within a brush; shades fade farther
 constexpr double kLeastBesideTone = 0.15;  // of the length of its border: lines on a tone and beside it
 constexpr double kBesideTone = 2.0;        // [widths] from a tone: lines along its border
@@ -31,11 +29,9 @@ constexpr double kLeastPatch = 4.0;  // [widths] side of a square as large as wh
 // Of its darkness: the mean deviation. Of lines and paper between them, which are two darknesses, it is twice the share
 // of the paper; where they leave less than that, nothing can be told from a tone.
 constexpr double kMostUneven = 0.75;
-constexpr double kGrainGain = 0.15;  // of the depth of grain: what is left is fainter than that of paper
 constexpr double kLeastLineGain = 0.8, kMostLineGain = 4.0;  // of lines: more would deepen noise on faint ones
 constexpr double kSolidRim = 1.5;                            // [widths] around a solid: its blurred edge stays
 constexpr std::uint8_t kPaper = 252;                         // [of 255] what is as bright is left as it is
-constexpr std::uint8_t kClearTone = 217;                     // [of 255] seen to be shaded
 
 /// Whether there are places enough that are darker than the paper near by in the mean, whatever grain is in them: where
 /// lines cross there are a few. It is asked of every page, and what comes after takes a quarter of a page's time.
@@ -71,7 +67,7 @@ cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Ma
   cv::Mat1f ground, level;
   page.ground.convertTo(ground, CV_32F);
   lineLevel.convertTo(level, CV_32F);
-  cv::Mat1b dark = shaded & ((255.0 - ground > kAsDark * (255.0 - level)) | (ground < 255.0 - kBlack));
+  cv::Mat1b dark = shaded & ((255.0 - ground > kMostOfLines * (255.0 - level)) | (ground < 255.0 - kDarkestTone));
   cv::morphologyEx(dark, dark, cv::MORPH_OPEN, disc(static_cast<int>(std::lround(page.widthPx))));
   const cv::Mat1f calm = blurredTone(page.level, page.widthPx);
   cv::Mat1f darkest, brightest;
@@ -130,7 +126,7 @@ cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat
 /// What is left of the depth at each place: little of grain, and lines are as deep as on paper.
 cv::Mat1f gainOf(const PencilPage& page, const cv::Mat1b& ground, const cv::Mat1b& lineLevel, const cv::Mat1b& lines,
                  const cv::Mat1b& solids) {
-  cv::Mat1f gain(ground.size(), static_cast<float>(kGrainGain)), depth;
+  cv::Mat1f gain(ground.size(), static_cast<float>(ToneAreas::kGrainGain)), depth;
   cv::subtract(ground, lineLevel, depth, cv::noArray(), CV_32F);
   cv::Mat1f ofLines = page.darkness / cv::max(depth, 1.0);
   ofLines = cv::min(cv::max(ofLines, kLeastLineGain), kMostLineGain);
@@ -156,19 +152,14 @@ ToneAreas areasOf(const PencilPage& page, const cv::Mat1b& tones, const cv::Mat1
   for (int y = 0; y < ground.rows; ++y)
     for (int x = 0; x < ground.cols; ++x)
       areas.paper.push_back(cv::saturate_cast<std::uint8_t>(page.paper.at(x + 0.5, y + 0.5)));
-  areas.share = static_cast<double>(cv::countNonZero(ground < kClearTone)) / static_cast<double>(ground.total());
+  areas.share = static_cast<double>(cv::countNonZero(ground < kClearGround)) / static_cast<double>(ground.total());
   return areas;
 }
 
 }  // namespace
 
-std::optional<ToneAreas> findPencilTones(const GreyImage& page, const RunContext& context) {
-  if (page.isUniform) return std::nullopt;
-  const int pixelsPerPx = toneScaleOf(page);
-  if (std::min(page.width, page.height) < 2 * kToneCellPx * pixelsPerPx) return std::nullopt;
-  std::optional<GreyImage> small;
-  if (pixelsPerPx > 1) small = reducedPage(page, pixelsPerPx, context);
-  const GreyImage& searched = small ? *small : page;
+std::optional<ToneAreas> findPencilTones(const ToneCopy& copy, const RunContext& context) {
+  const GreyImage& searched = copy.searched();
   if (context.isCancelled() || !hasDarkPlaces(searched, context)) return std::nullopt;
   const std::optional<PencilPage> look = lookAtPencil(searched, context);
   if (!look || context.isCancelled() || look->darknessAlike > kMostAlike) return std::nullopt;
@@ -181,8 +172,8 @@ std::optional<ToneAreas> findPencilTones(const GreyImage& page, const RunContext
   const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines);
   if (context.isCancelled() || cv::countNonZero(tones) == 0) return std::nullopt;
   ToneAreas areas = areasOf(*look, tones, solids, lines, lineLevel);
-  areas.pixelsPerPx = pixelsPerPx;
-  areas.lineWidthPx = look->widthPx * pixelsPerPx;
+  areas.pixelsPerPx = copy.pixelsPerPx;
+  areas.lineWidthPx = look->widthPx * copy.pixelsPerPx;
   areas.lineDarkness = look->darkness;
   return areas;
 }

@@ -15,6 +15,6 @@ namespace batten {
 /// lines beside them that end sharply are solids and stay ink, and so do areas that hardly a line is drawn on and
 /// around, those without grain, and whatever is narrower than a few lines.
 /// @return ToneAreas::gain says by how much. Absent: there are none, or the search was cancelled.
-std::optional<ToneAreas> findPencilTones(const GreyImage&, const RunContext&);
+std::optional<ToneAreas> findPencilTones(const ToneCopy&, const RunContext&);
 
 }  // namespace batten

@@ -13,13 +13,11 @@
 namespace batten {
 namespace {
 
-constexpr double kAroundTone = 1.2;     // of the longest tone: the window in which its paper is seen
-constexpr double kDarkestTone = 190.0;  // [of 255] darkness on which nothing darker could be drawn
-constexpr double kMostOfLines = 0.85;   // of the darkness of the lines on it: what is as dark is a solid
-constexpr double kDarkLines = 0.75;     // quantile of the darkness of the lines on an area
-constexpr double kSharp = 0.6;          // of the tone's darkness, within a brush: more gradual is a fade
-constexpr double kMostBare = 0.7;       // of the border sharp and without a line: more is a shape
-constexpr double kUsualBare = 0.4;      // more needs lines that are half again as dark as the tone
+constexpr double kAroundTone = 1.2;  // of the longest tone: the window in which its paper is seen
+constexpr double kDarkLines = 0.75;  // quantile of the darkness of the lines on an area
+constexpr double kSharp = 0.6;       // of the tone's darkness, within a brush: more gradual is a fade
+constexpr double kMostBare = 0.7;    // of the border sharp and without a line: more is a shape
+constexpr double kUsualBare = 0.4;   // more needs lines that are half again as dark as the tone
 constexpr double kMostOfBareLines = 2.0 / 3.0;
 constexpr double kLeastBarePiece = 4.0;    // [brushes] of a bare border that becomes a line
 constexpr double kGrainQuantile = 0.9;     // of the depth below the ground beside the lines
@@ -30,7 +28,6 @@ constexpr double kLeastRadius = 2.0;       // [brushes] of the largest circle in
 constexpr int kBlurPx = 1;                 // that a line is blurred over its border, on the copy
 constexpr int kEdgePx = 2;                 // beyond a solid: its blurred edge
 constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
-constexpr std::uint8_t kClearGround = 217;     // [of 255] seen to be shaded
 
 enum class AreaKind {
   Tone,
@@ -147,17 +144,27 @@ cv::Mat1b groundBesideLines(const ToneLook& look) {
   return fromBeside(ground, grownMask(look.lines, static_cast<int>(std::ceil(0.5 * look.lineWidthPx)) + kBlurPx));
 }
 
+// Pixels of a page along one of the copy: its longer side is no more than 1750 pixels.
+int scaleOf(const GreyImage& page) {
+  constexpr int kLongestSidePx = 1750;  // of the copy that is searched, which has half of that at least
+  return (std::max(page.width, page.height) + kLongestSidePx - 1) / kLongestSidePx;
+}
+
 }  // namespace
 
-std::optional<ToneAreas> findToneAreas(const GreyImage& page, const RunContext& context) {
+std::optional<ToneCopy> toneCopyOf(const GreyImage& page, const RunContext& context) {
   if (page.isUniform) return std::nullopt;
-  ToneAreas areas;
-  areas.pixelsPerPx = toneScaleOf(page);
+  ToneCopy copy{&page, scaleOf(page), std::nullopt};
   // A narrow strip has no shading, and its copy no pixels.
-  if (std::min(page.width, page.height) < 2 * kToneCellPx * areas.pixelsPerPx) return std::nullopt;
-  std::optional<GreyImage> small;
-  if (areas.pixelsPerPx > 1) small = reducedPage(page, areas.pixelsPerPx, context);
-  const GreyImage& searched = small ? *small : page;
+  if (std::min(page.width, page.height) < 2 * kToneCellPx * copy.pixelsPerPx) return std::nullopt;
+  if (copy.pixelsPerPx > 1) copy.smaller = reducedPage(page, copy.pixelsPerPx, context);
+  return copy;
+}
+
+std::optional<ToneAreas> findToneAreas(const ToneCopy& copy, const RunContext& context) {
+  ToneAreas areas;
+  areas.pixelsPerPx = copy.pixelsPerPx;
+  const GreyImage& searched = copy.searched();
   const ToneCells cells = toneCellsOf(searched);
   if (context.isCancelled() || !mayBeShaded(cells)) return std::nullopt;
   std::optional<ToneLook> look = inkOfPage(searched, context);

@@ -11,6 +11,16 @@
 
 namespace batten {
 
+/// A page as tones are searched on it.
+struct ToneCopy {
+  const GreyImage* page = nullptr;        ///< Never null, and must outlive this.
+  int pixelsPerPx = 1;                    ///< Pixels of the page along one of the copy.
+  std::optional<GreyImage> smaller = {};  ///< Absent: the page is small enough itself.
+  const GreyImage& searched() const { return smaller ? *smaller : *page; }
+};
+/// Absent: the page is uniform or too narrow to be shaded.
+std::optional<ToneCopy> toneCopyOf(const GreyImage& page, const RunContext&);
+
 /// Where a page is shaded, and how bright it is there without its lines.
 struct ToneAreas {
   int pixelsPerPx = 1;        ///< Pixels of the page along one of `ground`.
@@ -21,6 +31,7 @@ struct ToneAreas {
   /// the tone is as deep as lines.
   std::vector<std::uint8_t> mostGain;
   static constexpr double kGainUnit = 16.0;
+  static constexpr double kGrainGain = 0.15;  ///< Of a pencil's grain: what is left is fainter than that of paper.
   /// [1 / kGainUnit] By what the depth below the ground is multiplied, row by row, where that is known; or empty: by
   /// what the ground is darker than the paper, up to mostGain.
   std::vector<std::uint8_t> gain;
@@ -36,6 +47,6 @@ struct ToneAreas {
 /// none. An area that ends in a sharp edge without a line nearly all along, or has no lines, is a shape and stays ink;
 /// so do black, and areas of hatching and of grain.
 /// @return Absent: there are none, or the search was cancelled.
-std::optional<ToneAreas> findToneAreas(const GreyImage&, const RunContext&);
+std::optional<ToneAreas> findToneAreas(const ToneCopy&, const RunContext&);
 
 }  // namespace batten

@@ -18,14 +18,12 @@
 namespace batten {
 namespace {
 
-constexpr double kDarkCell = 0.9;         // of the paper near by: a cell that is darker all over
-constexpr int kNearCells = 4;             // within which tones end somewhere, and slow changes of the paper are small
-constexpr double kWiderThanLines = 1.25;  // [line widths] half the width of a brush that no line holds
-constexpr int kWidestBrush = 30;          // [px] a drawing of broader strokes has no lines that tones lie between
-constexpr int kLeastLines = 50;           // [px] of middle lines, to tell how dark lines are
-constexpr double kLinesDark = 0.6;        // quantile of the darkness of lines: the ends are faint
-constexpr double kLineDepth = 0.25;       // of that: what is darker than its ground by so much is line
-constexpr double kLongLine = 5.0;         // [line widths] shorter ones are grain
+constexpr double kDarkCell = 0.9;    // of the paper near by: a cell that is darker all over
+constexpr int kNearCells = 4;        // within which tones end somewhere, and slow changes of the paper are small
+constexpr int kWidestBrush = 30;     // [px] a drawing of broader strokes has no lines that tones lie between
+constexpr double kLinesDark = 0.6;   // quantile of the darkness of lines: the ends are faint
+constexpr double kLineDepth = 0.25;  // of that: what is darker than its ground by so much is line
+constexpr double kLongLine = 5.0;    // [line widths] shorter ones are grain
 
 /// A brush: an octagon of nearly `radius`, made of a square and a diamond, which are fast.
 struct Brush {
@@ -50,11 +48,6 @@ struct Brush {
 };
 
 }  // namespace
-
-int toneScaleOf(const GreyImage& page) {
-  constexpr int kLongestSidePx = 1750;  // of the copy that is searched, which has half of that at least
-  return (std::max(page.width, page.height) + kLongestSidePx - 1) / kLongestSidePx;
-}
 
 GreyImage reducedPage(const GreyImage& page, int factor, const RunContext& context) {
   constexpr int kRows = 16;  // of the copy: one part of the work of the threads
@@ -202,7 +195,8 @@ bool lookAtLines(ToneLook& look, const RunContext& context) {
   look.wide = brush.raise(brush.lower(look.ink));
   if (cv::countNonZero(look.wide) == 0 || context.isCancelled()) return false;
   const cv::Mat1b thin = middle & (grownMask(look.wide, 2) == 0);
-  look.lineDarkness = darknessQuantile(look.flat, cv::countNonZero(thin) >= kLeastLines ? thin : look.ink, kLinesDark);
+  look.lineDarkness =
+      darknessQuantile(look.flat, cv::countNonZero(thin) >= kLeastLinePixels ? thin : look.ink, kLinesDark);
   if (context.isCancelled() || !lookAtGround(look, context)) return false;
   look.nearLine = grownMask(longPieces(look.lines, kLongLine * look.lineWidthPx),
                             static_cast<int>(std::ceil(0.5 * look.lineWidthPx + 2.0)));

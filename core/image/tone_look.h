@@ -13,12 +13,15 @@
 
 namespace batten {
 
-inline constexpr int kToneCellPx = 8;            // side of the cells of the first look: wider than a line
-inline constexpr double kMostPaperWindow = 0.5;  // of the page: in so wide a window some paper is seen
+inline constexpr int kToneCellPx = 8;              // side of the cells of the first look: wider than a line
+inline constexpr double kWiderThanLines = 1.25;    // [line widths] half the width of a brush that no line holds
+inline constexpr int kLeastLinePixels = 50;        // of middle lines, to tell how dark lines are
+inline constexpr double kDarkestTone = 190.0;      // [of 255] darkness on which nothing darker could be drawn
+inline constexpr double kMostOfLines = 0.85;       // of the darkness of the lines on it: what is as dark is a solid
+inline constexpr std::uint8_t kClearGround = 217;  // [of 255] seen to be shaded
+inline constexpr double kMostPaperWindow = 0.5;    // of the page: in so wide a window some paper is seen
 
-/// Pixels of a page along one of the copy that is searched for tones: its longer side is no more than 1750 pixels.
-int toneScaleOf(const GreyImage& page);
-/// A copy so much smaller, of means.
+/// A copy smaller by a factor, of means.
 GreyImage reducedPage(const GreyImage& page, int factor, const RunContext&);
 
 /// The brightness of a page, cell by cell.

@@ -18,7 +18,6 @@ constexpr double kWidthPerBlur = 2.3548;  // of a Gaussian at half its height, p
 constexpr double kSlopePerBlur = 2.5066;
 constexpr double kBorderWidth = 0.5;  // [line widths] of the line that a border becomes
 constexpr double kReach = 3.0;        // [sigmas] of the blur
-constexpr double kBrightGain = 0.15;  // of what is brighter than the tone of a pencil: grain, no line
 constexpr int kTilePx = 64;           // of the areas' pixels, along a side
 
 cv::Mat1b mapOf(const std::vector<std::uint8_t>& values, const ToneAreas& areas) {
@@ -134,7 +133,7 @@ GreyImage withoutTones(GreyImage page, const ToneAreas& areas, const RunContext&
         const double depth = paper * ground - page.row(y)[x];
         const double gain = areas.gain.empty()
                                 ? std::min(1.0 / ground, place.of(areas.mostGain) / ToneAreas::kGainUnit)
-                                : (depth > 0.0 ? place.of(areas.gain) / ToneAreas::kGainUnit : kBrightGain);
+                                : (depth > 0.0 ? place.of(areas.gain) / ToneAreas::kGainUnit : ToneAreas::kGrainGain);
         const double bright = paper - gain * depth;
         page.row(y)[x] = static_cast<std::uint16_t>(std::clamp(bright + 0.5, 0.0, 65535.0));
       }

@@ -32,27 +32,12 @@ constexpr double kLoopCutoffShare = 0.25;  // of the length of a small closed li
 constexpr double kLoopSpacingPx = 16.0;    // of its knots
 constexpr double kPinWeight = 1e8;         // of an exact end, in weights of a point; openCurve() sets the last digits
 
-std::vector<Vec2> pointsOf(const Quintic& q) { return {q.begin(), q.end()}; }
-
 /// A piece of 2 to 6 Bezier points.
-Result<NurbsCurve> bezier(const std::vector<Vec2>& p, double length) {
-  std::vector<Vec2> quintic;
-  if (p.size() == 2) {
-    quintic = pointsOf(elevatedLine(p[0], p[1]));
-  } else if (p.size() == 3) {
-    quintic = pointsOf(elevatedQuadratic(p[0], p[1], p[2]));
-  } else if (p.size() == 4) {
-    quintic = pointsOf(elevatedCubic(p[0], p[1], p[2], p[3]));
-  } else if (p.size() == 5) {
-    quintic = {p[0]};
-    for (int k = 1; k <= 4; ++k) quintic.push_back(p[k] + 0.2 * k * (p[k - 1] - p[k]));
-    quintic.push_back(p[4]);
-  } else {
-    quintic = p;
-  }
+Result<NurbsCurve> bezier(const std::vector<Vec2>& points, double length) {
+  const Quintic quintic = elevatedToQuintic(points);
   std::vector<double> knots(6, 0.0);
   knots.insert(knots.end(), 6, length);
-  return NurbsCurve::make(5, std::move(knots), std::move(quintic));
+  return NurbsCurve::make(5, std::move(knots), {quintic.begin(), quintic.end()});
 }
 
 // A polynomial through points, by its Bezier points.

@@ -59,7 +59,7 @@ double EndRows::freePx(int a, int b) const {
 
 bool EndRows::mayCross(const Pair& one, const Pair& other, double narrowestPx) const {
   const auto broader = [&](const Pair& pair) { return std::max(halfPx_[pair.first], halfPx_[pair.second]); };
-  return narrowestPx <= rowPx_ - kLyingShare * std::min(broader(one), broader(other)) + 0.5 * kGridOfWidthPx;
+  return mayLieOnAnother(2.0 * narrowestPx, 2.0 * rowPx_, 2.0 * std::min(broader(one), broader(other)));
 }
 
 }  // namespace batten

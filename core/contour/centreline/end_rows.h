@@ -9,6 +9,17 @@
 
 namespace batten {
 
+/// Of the width of the thinner of two strokes: so much narrower than where all lie side by side is the ink at the least
+/// where one lies on the other, half-way.
+inline constexpr double kLyingShare = 0.5;
+/// [px] What the grid of pixels changes of a width that is twice a radius.
+inline constexpr double kGridOfWidthPx = 1.0;
+/// Whether one of two strokes may lie on the other in ink that is `narrowestPx` wide at the least, while all strokes
+/// side by side are `rowPx` wide.
+inline bool mayLieOnAnother(double narrowestPx, double rowPx, double thinnerPx) {
+  return narrowestPx <= rowPx - kLyingShare * thinnerPx + kGridOfWidthPx;
+}
+
 /// The ends of a junction in two rows that face each other, as where strokes that run side by side come together and
 /// part again.
 class EndRows {

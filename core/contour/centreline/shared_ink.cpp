@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contour/centreline/arc_through.h"
+#include "core/contour/centreline/end_rows.h"
 #include "core/contour/merge/stroke_lines.h"
 
 namespace batten {
@@ -150,7 +151,7 @@ bool SharedEdge::mayCross(int other) const {
   for (const auto& side : ends_) row = std::max(row, side[0].width + side[1].width);
   const double thinner = std::min(std::max(ends_[0][0].width, ends_[1][other].width),
                                   std::max(ends_[0][1].width, ends_[1][1 - other].width));
-  return 2.0 * graph_.narrowRadius(edge_) <= row - kLyingShare * thinner + kGridOfWidthPx;
+  return mayLieOnAnother(2.0 * graph_.narrowRadius(edge_), row, thinner);
 }
 
 // The first end of one side goes on to end `other` of the other. Where both keep to their sides each may be one of a

@@ -64,12 +64,6 @@ struct SkeletonNode {
 /// [px]
 double strokePathLength(const std::vector<StrokePathPoint>& points, bool closed);
 
-/// Of the half-width of the thinner of two strokes: so much narrower than where all lie side by side is the ink at the
-/// least where one lies on the other, half-way.
-inline constexpr double kLyingShare = 0.5;
-/// [px] What the grid of pixels changes of a width that is twice a radius.
-inline constexpr double kGridOfWidthPx = 1.0;
-
 /// Unit direction in which an edge leaves `from`, where its end `side` is: of the chord of about `reach` px from there.
 Vec2 leavingDirection(const SkeletonEdge& edge, int side, const Vec2& from, double reach);
 

@@ -11,6 +11,7 @@
 #include "core/base/disjoint_sets.h"
 #include "core/base/statistics.h"
 #include "core/contour/centreline/arc_through.h"
+#include "core/contour/centreline/end_rows.h"
 #include "core/contour/merge/stroke_lines.h"
 
 namespace batten {

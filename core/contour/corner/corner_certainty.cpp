@@ -13,7 +13,6 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastUnitPx = 3.0;        // blur and mask round a border by about as much
 constexpr double kRoughUnits = 6.0;         // of the roughness
 constexpr double kWidthLimit = 1.5;         // of the usual width: at a junction the ink is wider than the stroke
 constexpr double kSharpRadius = 1.5;        // units
@@ -37,7 +36,6 @@ constexpr double kDentReach = 8.0;                                // units
 constexpr double kDentShare = 0.5;                                // of the turn that turns back
 constexpr double kLeastDivisor = 1e-9;                   // keeps shares finite where there is no side or no turn
 constexpr double kNoDentTurn = 70.0 * kRadPerDeg;        // beside a turn back a gentler one may be a side of a dent
-constexpr double kLeastPennedTurn = 40.0 * kRadPerDeg;   // the same of a pen's stroke, whose middle has no dents
 constexpr double kMostBlendedTurn = 170.0 * kRadPerDeg;  // of a sharper one the ink tells no length
 constexpr double kBentShare = 0.1;                       // of the turn: by so much the sides of such go on to turn,
 constexpr double kBentSlackRad = 2.0 * kRadPerDeg;       // and so much more

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "core/base/vec2.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/corner/corner_geometry.h"
@@ -50,5 +51,9 @@ class CornerJudge {
 
 /// Minimum certainty for automatic corners.
 inline constexpr double kCertainCorner = 0.95;
+/// [px] The unit is no less: blur and mask round a border by about as much.
+inline constexpr double kLeastUnitPx = 3.0;
+/// [rad] The least turn of a corner of a pen's stroke, whose middle has no dents.
+inline constexpr double kLeastPennedTurn = 40.0 * kRadPerDeg;
 
 }  // namespace batten

@@ -15,13 +15,11 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastShortUnitPx = 3.0;              // blur and mask round a line by about as much
-constexpr double kSideUnits = 1.5;                     // of line on either side, beyond what its corner rounds
-constexpr double kApartUnits = 2.0;                    // along the line: nearer places are one turn
-constexpr double kLeastShortTurn = 40.0 * kRadPerDeg;  // a gentler one needs longer sides
-constexpr double kStraightScore = 0.5;                 // of the turn: what the score of two straight sides keeps
-constexpr double kParallelSine = 0.08;                 // of the angle between two sides that meet nowhere near
-constexpr double kNoiseLengthPx = 8.0;                 // as long are the dents of a line,
+constexpr double kSideUnits = 1.5;           // of line on either side, beyond what its corner rounds
+constexpr double kApartUnits = 2.0;          // along the line: nearer places are one turn
+constexpr double kStraightScore = 0.5;       // of the turn: what the score of two straight sides keeps
+constexpr double kParallelSine = 0.08;       // of the angle between two sides that meet nowhere near
+constexpr double kNoiseLengthPx = 8.0;       // as long are the dents of a line,
 constexpr double kLineSlopeVariance = 12.0;  // and so the slope of a straight line of length L varies, S / L^3
 constexpr std::size_t kFewestStrokePoints = 8;
 
@@ -89,7 +87,7 @@ class ShortSideSearch {
     if (!stroke_.points[i].sigmaPx) return std::nullopt;  // the grain of a pencil bends what is short
     const double inner = roundedZonePx(stroke_, i), outer = inner + kSideUnits * unit_;
     const auto turning = turningAt(stroke_, i, inner, outer, 1);
-    if (!turning || std::abs(turning->angleRad) < kLeastShortTurn ||
+    if (!turning || std::abs(turning->angleRad) < kLeastPennedTurn ||
         turning->score < kStraightScore * std::abs(turning->angleRad))
       return std::nullopt;
     const auto before = fitOneSide(stroke_, i, -1, inner, outer, 1), after = fitOneSide(stroke_, i, 1, inner, outer, 1);
@@ -145,7 +143,7 @@ std::vector<CornerSuggestion> cornersOfShortSides(const ContourSet& set, std::sp
       if (stroke.kind != ContourKind::Centreline || widths.empty() || stroke.points.size() < kFewestStrokePoints)
         continue;
       const double width = upperMedian(std::vector<double>(widths.begin(), widths.end()));
-      ShortSideSearch search(stroke, std::max(kLeastShortUnitPx, width));
+      ShortSideSearch search(stroke, std::max(kLeastUnitPx, width));
       for (const CornerSuggestion& corner : known)
         if (corner.contour == c && corner.certainty >= kCertainCorner) search.addKnown(corner);
       found[c] = search.find(context);

@@ -118,11 +118,13 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
   return pen;
 }
 
+constexpr double kLongestWidths = 64.0;  // [pens] of a line of lettering: a dozen letters
+
 // The pieces that may be a line of lettering, or part of one.
 BitImage letteringOf(const BitImage& ink, double penPx, const RunContext& context) {
-  constexpr double kLongestWidths = 64.0, kHighestWidths = 24.0;  // [pens] a dozen letters, with their tails
-  constexpr double kLetterWidths = 16.0;                          // [pens] a large letter alone
-  constexpr double kLongerThanHigh = 1.5;                         // of two letters or more
+  constexpr double kHighestWidths = 24.0;  // [pens] of letters with their tails
+  constexpr double kLetterWidths = 16.0;   // [pens] a large letter alone
+  constexpr double kLongerThanHigh = 1.5;  // of two letters or more
   struct PieceBox {
     int x0 = std::numeric_limits<int>::max(), y0 = x0, x1 = 0, y1 = 0;
   };
@@ -148,7 +150,6 @@ BitImage letteringOf(const BitImage& ink, double penPx, const RunContext& contex
 // the closing of its grain fills; absent: there is none.
 std::optional<BitImage> paperInLettering(const BitImage& pencil, const BitImage& closed, const GreyImage& grey,
                                          const PaperBackground& sheet, double penPx, const RunContext& context) {
-  constexpr double kLongestWidths = 64.0;  // [pens]
   const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
   const BitImage small = either(without(BitImage(pencil), large), letteringOf(closed, penPx, context));
   BitImage paper = clearPaper(small, grey, sheet, penPx, context);

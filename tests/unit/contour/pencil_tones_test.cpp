@@ -21,6 +21,11 @@
 namespace batten {
 namespace {
 
+std::optional<ToneAreas> tonesOn(const GreyImage& page, const RunContext& context) {
+  const std::optional<ToneCopy> copy = toneCopyOf(page, context);
+  return copy ? findPencilTones(*copy, context) : std::nullopt;
+}
+
 constexpr int kBoxWidth = 800, kBoxHeight = 600;
 constexpr double kBoxLinePx = 4.0;
 constexpr std::uint32_t kBoxSeeds[] = {1, 2, 3};
@@ -89,7 +94,7 @@ GreyImage shadedBox(std::uint32_t seed) { return boxPage(0.5, 0.4, 0.28, 0.8, se
 TEST(PencilTones, LinesOnThemAreFoundAndTheirBordersAreNone) {
   for (const std::uint32_t seed : kBoxSeeds) {
     const GreyImage page = shadedBox(seed);
-    const std::optional<ToneAreas> tones = findPencilTones(page, {});
+    const std::optional<ToneAreas> tones = tonesOn(page, {});
     ASSERT_TRUE(tones) << "seed " << seed;
     const test::LineScore before = boxScore(page), after = boxScore(withoutTones(page, *tones, {}));
     EXPECT_GT(before.falsePx, 1500.0) << "seed " << seed << ": borders of the tones";
@@ -121,20 +126,20 @@ TEST(PencilTones, InkOfOneDarknessHasNone) {
   const std::vector<float> solid = test::fillCoverage({kBoxA, kBoxB, kBoxC, kBoxD}, kBoxWidth, kBoxHeight);
   std::vector<float> filled = cover;
   for (std::size_t i = 0; i < filled.size(); ++i) filled[i] = std::max(filled[i], solid[i]);
-  EXPECT_FALSE(findPencilTones(test::scanOfLines(cover, kBoxWidth, kBoxHeight, 1).grey, {})) << "hatched";
-  EXPECT_FALSE(findPencilTones(test::scanOfLines(filled, kBoxWidth, kBoxHeight, 1).grey, {})) << "filled";
+  EXPECT_FALSE(tonesOn(test::scanOfLines(cover, kBoxWidth, kBoxHeight, 1).grey, {})) << "hatched";
+  EXPECT_FALSE(tonesOn(test::scanOfLines(filled, kBoxWidth, kBoxHeight, 1).grey, {})) << "filled";
 }
 
 // Without a shaded face; shaded so faintly that no threshold takes it for ink.
 TEST(PencilTones, PencilLinesAloneHaveNone) {
-  EXPECT_FALSE(findPencilTones(boxPage(0.0, 0.0, 0.28, 0.8, 1), {}));
-  EXPECT_FALSE(findPencilTones(boxPage(0.12, 0.05, 0.28, 0.8, 1), {})) << "faint";
+  EXPECT_FALSE(tonesOn(boxPage(0.0, 0.0, 0.28, 0.8, 1), {}));
+  EXPECT_FALSE(tonesOn(boxPage(0.12, 0.05, 0.28, 0.8, 1), {})) << "faint";
 }
 
 // A face as dark as the lines around it was filled.
 TEST(PencilTones, ASolidBesideThemStays) {
   const GreyImage page = boxPage(0.97, 0.8, 0.28, 0.1, 1);
-  const std::optional<ToneAreas> tones = findPencilTones(page, {});
+  const std::optional<ToneAreas> tones = tonesOn(page, {});
   ASSERT_TRUE(tones);
   const GreyImage without = withoutTones(page, *tones, {});
   for (int x = 480; x < 600; x += 10) EXPECT_EQ(without.row(300)[x], page.row(300)[x]) << "at " << x;
@@ -145,12 +150,12 @@ TEST(PencilTones, AreTheSameWithAnyNumberOfThreadsAndNotLookedForAfterACancel) {
   RunContext one, eight;
   one.threads = 1;
   eight.threads = 8;
-  const auto a = findPencilTones(page, one), b = findPencilTones(page, eight);
+  const auto a = tonesOn(page, one), b = tonesOn(page, eight);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(withoutTones(page, *a, one), withoutTones(page, *b, eight));
   RunContext stopped;
   stopped.cancel.cancel();
-  EXPECT_FALSE(findPencilTones(page, stopped));
+  EXPECT_FALSE(tonesOn(page, stopped));
 }
 
 }  // namespace

@@ -18,6 +18,11 @@
 namespace batten {
 namespace {
 
+std::optional<ToneAreas> tonesOn(const GreyImage& page, const RunContext& context) {
+  const std::optional<ToneCopy> copy = toneCopyOf(page, context);
+  return copy ? findToneAreas(*copy, context) : std::nullopt;
+}
+
 constexpr int kPageWidth = 640, kPageHeight = 480;
 constexpr double kPaperGrey = 235.0, kToneGrey = 105.0;
 
@@ -65,7 +70,7 @@ Drawing drum() {
 
 TEST(ToneAreas, LinesOnAndAroundShadingStandOutAsOnPaper) {
   const Scan scan = pageOf(drum());
-  const auto areas = findToneAreas(scan.grey, {});
+  const auto areas = tonesOn(scan.grey, {});
   ASSERT_TRUE(areas);
   EXPECT_NEAR(areas->share, (360.0 * 160.0 + 3.14 * 180.0 * 30.0) / (kPageWidth * kPageHeight), 0.03);
   const GreyImage page = withoutTones(scan.grey, *areas, {});
@@ -92,7 +97,7 @@ TEST(ToneAreas, AFadeNeedsNoLine) {
     return y < 320.0 ? std::min(std::abs(insideDrum(x, std::min(y, 250.0))), fromLid(x, y)) : 100.0;
   };
   const Scan scan = pageOf(d);
-  const auto areas = findToneAreas(scan.grey, {});
+  const auto areas = tonesOn(scan.grey, {});
   ASSERT_TRUE(areas);
   const GreyImage page = withoutTones(scan.grey, *areas, {});
   for (int y = 250; y <= 390; y += 20) EXPECT_GT(page.level(320, y), 0.9 * kPaperGrey) << "at " << y;
@@ -103,7 +108,7 @@ TEST(ToneAreas, ABareSharpBorderBecomesALineWhereTheToneEnds) {
   Drawing d = drum();
   d.line = [](double x, double y) { return x < 380.0 ? std::min(std::abs(insideDrum(x, y)), fromLid(x, y)) : 100.0; };
   const Scan scan = pageOf(d);
-  const auto areas = findToneAreas(scan.grey, {});
+  const auto areas = tonesOn(scan.grey, {});
   ASSERT_TRUE(areas);
   ASSERT_FALSE(areas->bare.empty());
   const GreyImage page = withoutTones(scan.grey, *areas, {});
@@ -126,7 +131,7 @@ TEST(ToneAreas, AHalfBareAreaHardlyLighterThanItsRimIsAShape) {
     d.line = [=](double x, double y) {
       return x < lastLine ? std::min(std::abs(insideDrum(x, y)), fromLid(x, y)) : 100.0;
     };
-    return findToneAreas(pageOf(d).grey, {}).has_value();
+    return tonesOn(pageOf(d).grey, {}).has_value();
   };
   EXPECT_TRUE(isTone(600.0)) << "with lines all around";
   EXPECT_FALSE(isTone(340.0));
@@ -178,7 +183,7 @@ TEST(ToneAreas, TheGrainOfADarkToneIsNotRaisedToLines) {
     return cover(insideDrum(x, y)) * (1.0 + grain);
   };
   const Scan scan = pageOf(d);
-  auto areas = findToneAreas(scan.grey, {});
+  auto areas = tonesOn(scan.grey, {});
   ASSERT_TRUE(areas);
   // [grey] Between the 5 % quantile and the median, and the 1 % quantile, beside the lines.
   const auto spreadOf = [](const GreyImage& page) {
@@ -203,7 +208,7 @@ TEST(ToneAreas, BlackThatTouchesATonePersists) {
     return std::min({std::abs(insideDrum(x, y)), fromLid(x, y), std::max(0.0, black)});
   };
   const Scan scan = pageOf(d);
-  const auto areas = findToneAreas(scan.grey, {});
+  const auto areas = tonesOn(scan.grey, {});
   ASSERT_TRUE(areas);
   const GreyImage page = withoutTones(scan.grey, *areas, {});
   EXPECT_LT(page.level(320, 330), 70.0);
@@ -215,7 +220,7 @@ TEST(ToneAreas, NoiseOfThePaperIsNoShading) {
   Drawing d = drum();
   d.noise = 6.0;
   const Scan scan = pageOf(d);
-  const auto areas = findToneAreas(scan.grey, {});
+  const auto areas = tonesOn(scan.grey, {});
   ASSERT_TRUE(areas);
   const GreyImage page = withoutTones(scan.grey, *areas, {});
   for (int x = 10; x < kPageWidth; x += 7) ASSERT_EQ(page.row(20)[x], scan.grey.row(20)[x]) << x;
@@ -225,7 +230,7 @@ TEST(ToneAreas, AreTheSameWithAnyNumberOfThreads) {
   const Scan scan = pageOf(drum());
   RunContext one, eight;
   one.threads = 1, eight.threads = 8;
-  const auto a = findToneAreas(scan.grey, one), b = findToneAreas(scan.grey, eight);
+  const auto a = tonesOn(scan.grey, one), b = tonesOn(scan.grey, eight);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->ground, b->ground);
   EXPECT_EQ(withoutTones(scan.grey, *a, one), withoutTones(scan.grey, *b, eight));
@@ -234,7 +239,7 @@ TEST(ToneAreas, AreTheSameWithAnyNumberOfThreads) {
 TEST(ToneAreas, AreNotLookedForAfterACancel) {
   RunContext context;
   context.cancel.cancel();
-  EXPECT_FALSE(findToneAreas(pageOf(drum()).grey, context));
+  EXPECT_FALSE(tonesOn(pageOf(drum()).grey, context));
 }
 
 TEST(ToneAreas, ShapesSolidsAndHatchingStayInk) {
@@ -264,7 +269,7 @@ TEST(ToneAreas, ShapesSolidsAndHatchingStayInk) {
   Drawing lines;
   lines.line = [](double x, double y) { return std::min(std::abs(insideDrum(x, y)), fromLid(x, y)); };
   drawings.emplace_back("lines alone", lines);
-  for (const auto& [name, drawing] : drawings) EXPECT_FALSE(findToneAreas(pageOf(drawing).grey, {})) << name;
+  for (const auto& [name, drawing] : drawings) EXPECT_FALSE(tonesOn(pageOf(drawing).grey, {})) << name;
 }
 
 TEST(ToneAreas, AreFoundOnALargePageToo) {
@@ -274,7 +279,7 @@ TEST(ToneAreas, AreFoundOnALargePageToo) {
   large.grey = GreyImage(times * kPageWidth, times * kPageHeight);
   for (int y = 0; y < large.grey.height; ++y)
     for (int x = 0; x < large.grey.width; ++x) large.grey.row(y)[x] = small.grey.row(y / times)[x / times];
-  const auto areas = findToneAreas(large.grey, {});
+  const auto areas = tonesOn(large.grey, {});
   ASSERT_TRUE(areas);
   EXPECT_EQ(areas->pixelsPerPx, 2);
   const GreyImage page = withoutTones(large.grey, *areas, {});
@@ -284,8 +289,8 @@ TEST(ToneAreas, AreFoundOnALargePageToo) {
 
 TEST(ToneAreas, TinyAndUniformPagesHaveNone) {
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 7}, {16, 16}, {40, 3}, {1, 4000}, {4000, 2}, {1751, 30}})
-    EXPECT_FALSE(findToneAreas(GreyImage(width, height, 20000), {})) << width << " x " << height;
-  EXPECT_FALSE(findToneAreas(GreyImage::uniform(900, 700, 20000), {}));
+    EXPECT_FALSE(tonesOn(GreyImage(width, height, 20000), {})) << width << " x " << height;
+  EXPECT_FALSE(tonesOn(GreyImage::uniform(900, 700, 20000), {}));
 }
 
 TEST(ToneAreas, AreLeftOutOfThePageUnlessKept) {
