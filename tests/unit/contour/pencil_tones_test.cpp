@@ -16,15 +16,13 @@
 #include "tests/support/dense_page.h"
 #include "tests/support/render_page.h"
 #include "tests/support/stress_page.h"
+#include "tests/support/tones_on.h"
 #include "tests/unit/contour/traced_page.h"
 
 namespace batten {
 namespace {
 
-std::optional<ToneAreas> tonesOn(const GreyImage& page, const RunContext& context) {
-  const std::optional<ToneCopy> copy = toneCopyOf(page, context);
-  return copy ? findPencilTones(*copy, context) : std::nullopt;
-}
+constexpr auto tonesOn = test::tonesOn<findPencilTones>;
 
 constexpr int kBoxWidth = 800, kBoxHeight = 600;
 constexpr double kBoxLinePx = 4.0;

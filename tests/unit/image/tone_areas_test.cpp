@@ -14,14 +14,12 @@
 #include "core/image/page_preparation.h"
 #include "core/image/without_tones.h"
 #include "tests/support/stress_page.h"
+#include "tests/support/tones_on.h"
 
 namespace batten {
 namespace {
 
-std::optional<ToneAreas> tonesOn(const GreyImage& page, const RunContext& context) {
-  const std::optional<ToneCopy> copy = toneCopyOf(page, context);
-  return copy ? findToneAreas(*copy, context) : std::nullopt;
-}
+constexpr auto tonesOn = test::tonesOn<findToneAreas>;
 
 constexpr int kPageWidth = 640, kPageHeight = 480;
 constexpr double kPaperGrey = 235.0, kToneGrey = 105.0;
