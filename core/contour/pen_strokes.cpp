@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostPoints = 100000;  // of one stroke
 /// [px] Distance of the points in between; longer strokes take wider steps, so that a page never becomes too much.
-constexpr double kStepPx = 1.0;
+constexpr double kPenStepPx = 1.0;
 constexpr double kMostSteps = 200000.0;  // of one stroke
 
 std::vector<Vec2> distinct(const PenStroke& stroke) {
@@ -140,7 +140,7 @@ Contour penContour(const PenStroke& stroke) {
   contour.closed = stroke.closed;
   contour.lengthPx = polylineLength(drawn, stroke.closed);
   if (stroke.closed) contour.areaPx = polygonArea(drawn);
-  const double step = std::max(kStepPx, contour.lengthPx / kMostSteps);
+  const double step = std::max(kPenStepPx, contour.lengthPx / kMostSteps);
   const int n = static_cast<int>(drawn.size()), segments = stroke.closed ? n : n - 1;
   const auto add = [&](const Vec2& at, bool isDrawn) {
     contour.points.push_back({.at = at, .unrefined = at, .refined = isDrawn});
@@ -178,7 +178,7 @@ Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStro
     const std::int64_t left = kMostPenPoints - points;
     const double lengthPx = polylineLength(kept->points, kept->closed);
     // A stroke that runs to and fro may have few points and be longer than any that a hand draws.
-    if (lengthPx > kStepPx * static_cast<double>(left)) {
+    if (lengthPx > kPenStepPx * static_cast<double>(left)) {
       ++report.tooMany;
       continue;
     }
@@ -189,7 +189,7 @@ Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStro
     }
     if (!isWhole) ++report.cut;
     ++count;
-    points += std::max(std::ssize(laid.points), static_cast<std::ptrdiff_t>(lengthPx / kStepPx));
+    points += std::max(std::ssize(laid.points), static_cast<std::ptrdiff_t>(lengthPx / kPenStepPx));
     contour = std::move(laid);
   }
   const std::string note = noteOf(report);

@@ -8,7 +8,7 @@
 
 #include "core/contour/ink/line_choices.h"
 #include "core/contour/outline/ink_borders.h"
-#include "core/image/binarize.h"
+#include "core/image/threshold/binarize.h"
 
 namespace batten {
 namespace {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/image/binarize.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/ink_grain.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/narrow_paper.h"
+#include "core/image/threshold/binarize.h"
 
 namespace batten {
 namespace {

@@ -24,16 +24,16 @@ constexpr int kReachPx = 6;
 constexpr int kBesidePx = 3;  // across the direction, where the paper beside a thin bar begins
 // Of the depth of the fainter side. Two lines are told apart from .26 on (Rayleigh); the grain of a pencil that blur
 // has smoothed rises by as much.
-constexpr float kLeastRise = 0.4f;
+constexpr float kLeastPaperRise = 0.4f;
 constexpr float kLeastRiseGrey = 4.0f;  // [grey] noise of the page rises less
-constexpr float kBarShare = 0.5f;       // of the rise: what is so much darker than both its other sides is a bar
-constexpr int kLeastArea = 8;           // [px^2] two pixels of the page
+constexpr float kPaperBarShare = 0.5f;  // of the rise: what is so much darker than both its other sides is a bar
+constexpr int kLeastPaperArea = 8;      // [px^2] two pixels of the page
 
 // Of a page as it is: the ink on either side lies within a stroke's width.
 constexpr double kReachWidths = 1.25;
 constexpr int kMostNarrowPx = 16;
 // [stroke widths, as thresholded] Strokes that leave less between them were often drawn over one another.
-constexpr double kLeastGapWidths = 1.25;
+constexpr double kLeastPaperWidths = 1.25;
 // [stroke widths] Half of what two strokes and the paper between them are broad at least, less an octagon's corners.
 constexpr double kThickWidths = 0.75;
 // Within the ink of a pencil.
@@ -57,9 +57,9 @@ struct Tile {
 struct NarrowLimits {
   int reachPx;        // to the ink on either side
   double leastGapPx;  // from ink to ink, somewhere; 0: any
-  float leastRise = kLeastRise;
+  float leastRise = kLeastPaperRise;
   float mostInkShare = std::numeric_limits<float>::infinity();  // of the grey of the paper, in ink on either side
-  int leastArea = kLeastArea;
+  int leastArea = kLeastPaperArea;
 };
 
 class NarrowPaper {
@@ -96,7 +96,8 @@ class NarrowPaper {
     if (ink > limits_.mostInkShare * paper) return 0.0f;
     if (rise < std::max(kLeastRiseGrey, limits_.leastRise * (paper - ink))) return 0.0f;
     const RayStep across = ray.across();
-    const bool isBar = std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kBarShare * rise;
+    const bool isBar =
+        std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kPaperBarShare * rise;
     return isBar ? 0.0f : rise;
   }
   template <class Choose>
@@ -215,13 +216,13 @@ BitImage withoutNarrowPaper(BitImage ink, const GreyImage& image, const PaperBac
 BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBackground& paper, double penPx,
                             const RunContext& context) {
   const int reachPx = reachOf(penPx);
-  if (kLeastGapWidths * penPx > 2.0 * reachPx) return ink;  // wider than is looked for
+  if (kLeastPaperWidths * penPx > 2.0 * reachPx) return ink;  // wider than is looked for
   const int steps = std::max(1, static_cast<int>(kThickWidths * penPx));
   const BitImage thick = shrunken(ink, steps, context);
   if (context.isCancelled() || thick.count() == 0) return ink;
   const BitImage candidates = both(grown(thick, steps, context), ink);
   if (context.isCancelled()) return ink;
-  return opened(std::move(ink), candidates, image, paper, {reachPx, kLeastGapWidths * penPx}, context);
+  return opened(std::move(ink), candidates, image, paper, {reachPx, kLeastPaperWidths * penPx}, context);
 }
 
 BitImage clearPaper(const BitImage& ink, const GreyImage& image, const PaperBackground& paper, double penPx,

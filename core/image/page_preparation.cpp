@@ -10,17 +10,16 @@
 #include <utility>
 
 #include "core/base/number_text.h"
-#include "core/image/binding_holes.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/colour/coloured_ink.h"
-#include "core/image/pencil_tones.h"
 #include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/remove_rulings.h"
 #include "core/image/ruling/ruling_count.h"
-#include "core/image/sheet_cells.h"
+#include "core/image/sheet/sheet_search.h"
 #include "core/image/threshold/region_values.h"
-#include "core/image/tone_areas.h"
-#include "core/image/without_tones.h"
+#include "core/image/tones/pencil_tones.h"
+#include "core/image/tones/tone_areas.h"
+#include "core/image/tones/without_tones.h"
 
 namespace batten {
 namespace {
@@ -113,16 +112,15 @@ void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& con
   page.notes.push_back(rulingNote(page.rulings));
 }
 
-void paintOverHoles(const Scan& scan, const SheetCells& cells, PreparedPage& page, const RunContext& context) {
-  const std::optional<BindingHoles> holes = findBindingHoles(cells);
-  if (!holes) return;
-  BitImage inside(cells.columns, cells.rows);
-  for (int j = 0; j < cells.rows; ++j) {
-    for (int i = 0; i < cells.columns; ++i) inside.set(i, j, !holes->cells.at(i, j));
+void paintOverHoles(const Scan& scan, const BindingHoles& holes, int cellPx, PreparedPage& page,
+                    const RunContext& context) {
+  BitImage inside(holes.cells.width, holes.cells.height);
+  for (int j = 0; j < inside.height; ++j) {
+    for (int i = 0; i < inside.width; ++i) inside.set(i, j, !holes.cells.at(i, j));
   }
-  page.grey = paintedOver(greyOf(scan, page), inside, cells.sizePx, context);
-  page.bindingHoles = holes->count;
-  page.notes.push_back("A row of " + std::to_string(holes->count) +
+  page.grey = paintedOver(greyOf(scan, page), inside, cellPx, context);
+  page.bindingHoles = holes.count;
+  page.notes.push_back("A row of " + std::to_string(holes.count) +
                        " binding holes was removed; paper.sheet=off keeps it.");
 }
 
@@ -135,10 +133,8 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
                          "paper.sheet=off keeps it.");
     return;
   }
-  const SheetCells cells = sheetCellsOf(scan.grey, scan.colour, context);
-  if (context.isCancelled()) return;
-  paintOverHoles(scan, cells, page, context);
-  auto sheet = findPaperSheet(cells, context);
+  auto [cellPx, holes, sheet] = searchSheet(scan.grey, scan.colour, context);
+  if (holes) paintOverHoles(scan, *holes, cellPx, page, context);
   if (context.isCancelled() || !sheet) return;
   page.grey = onlyTheSheet(greyOf(scan, page), *sheet, context);
   page.notes.push_back(std::to_string(std::lround(100.0 * sheet->outsideShare)) +

@@ -9,10 +9,10 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/image/colour/inks.h"
-#include "core/image/paper_sheet.h"
 #include "core/image/rectified_scan.h"
 #include "core/image/ruling/rulings.h"
 #include "core/image/scan.h"
+#include "core/image/sheet/paper_sheet.h"
 
 namespace batten {
 

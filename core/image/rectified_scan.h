@@ -6,9 +6,9 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/image/paper_sheet.h"
 #include "core/image/rectification.h"
 #include "core/image/scan.h"
+#include "core/image/sheet/paper_sheet.h"
 
 namespace batten {
 

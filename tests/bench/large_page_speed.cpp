@@ -17,7 +17,7 @@
 #include "core/base/content_hash.h"
 #include "core/base/platform_memory.h"
 #include "core/base/statistics.h"
-#include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/skeleton/skeleton.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/large_page.h"
 

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/image/binarize.h"
 #include "core/image/bits/laplacian_edges.h"
 #include "core/image/bits/neighbourhood_filter.h"
 #include "core/image/file/scan_reader.h"
+#include "core/image/threshold/binarize.h"
 #include "core/image/threshold/region_thresholds.h"
 
 namespace {

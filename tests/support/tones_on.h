@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/image/tone_areas.h"
+#include "core/image/tones/tone_areas.h"
 
 namespace batten::test {
 

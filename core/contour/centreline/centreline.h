@@ -5,8 +5,8 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/contour/centreline/graininess.h"
-#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/centreline/pencil/graininess.h"
+#include "core/contour/centreline/stroke_path.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
 #include "core/image/bits/bit_image.h"

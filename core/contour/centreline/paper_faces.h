@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/run_context.h"
-#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/centreline/stroke_path.h"
 #include "core/image/bits/bit_image.h"
 #include "core/image/bits/run_pieces.h"
 

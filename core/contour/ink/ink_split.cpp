@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/contour/centreline/centreline.h"
-#include "core/contour/centreline/graininess.h"
-#include "core/contour/centreline/stroke_mask.h"
-#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/centreline/junction/stroke_paths.h"
+#include "core/contour/centreline/pencil/graininess.h"
+#include "core/contour/centreline/pencil/stroke_mask.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink/painted_ink.h"
 #include "core/contour/ink/pencil_solids.h"

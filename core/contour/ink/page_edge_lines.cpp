@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/statistics.h"
-#include "core/contour/centreline/stroke_profile.h"
+#include "core/contour/centreline/profile/stroke_profile.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {

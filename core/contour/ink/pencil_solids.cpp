@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contour/centreline/stroke_mask.h"
+#include "core/contour/centreline/pencil/stroke_mask.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double kSolidWidths = 5.0;   // strokes side by side that have run together are narrower
 constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke or a taper
 constexpr double kStepAtSolid = 1.5;   // of widths, where a stroke leaves a solid; with less it is a taper
-constexpr double kTaperWidths = kBorderWidths / kStepAtSolid;
+constexpr double kSolidTaperWidths = kBorderWidths / kStepAtSolid;
 // Of a solid: a filled shape has corners, a stroke that swells goes on.
 constexpr double kMostTaper = 0.5;
 constexpr double kCertainWidths = 9.0;  // no stroke swells to this
@@ -42,7 +42,7 @@ BitImage withCorners(BitImage solids, const BitImage& body, double openedPx, con
 // What is taper for the most part is no solid but a stroke that swells.
 BitImage withTapers(const BitImage& solids, const BitImage& body, double penPx, const RunContext& context) {
   // Crescents between the openings are corners of a solid that the larger disc rounds.
-  const BitImage beyond = without(opened(body, kTaperWidths * penPx, context), solids);
+  const BitImage beyond = without(opened(body, kSolidTaperWidths * penPx, context), solids);
   const BitImage deep = shrunken(beyond, std::max(1, static_cast<int>(0.5 * kStepAtSolid * penPx)), context);
   const BitImage tapers = keepPieces(beyond, {.seeds = &deep}, context);
   const BitImage beside = grown(solids, 1, context);

@@ -20,17 +20,17 @@ namespace {
 // [widths] Grain runs on by chance: after each width the next place of the paper is as likely bright as dark, and a way
 // round is found for a few of them.
 constexpr double kMostGrainWidths = 25.0;
-constexpr double kMostBreadth = 2.0;   // [widths] the page is smoothed to one, in the middle of all short lines
-constexpr double kGroundWidths = 8.0;  // [widths] from a line: its ground, several grains wide
-constexpr double kClearWidths = 1.5;   // [widths] from its middle: beyond its blurred border
-constexpr double kBesideWidths = 1.0;  // [widths] beyond its border: what lies beside it
-constexpr double kBlurWidths = 0.4;    // [widths] standard deviation: about the profile of a line
+constexpr double kMostBreadth = 2.0;       // [widths] the page is smoothed to one, in the middle of all short lines
+constexpr double kGroundWidths = 8.0;      // [widths] from a line: its ground, several grains wide
+constexpr double kClearWidths = 1.5;       // [widths] from its middle: beyond its blurred border
+constexpr double kBesideLineWidths = 1.0;  // [widths] beyond its border: what lies beside it
+constexpr double kBlurWidths = 0.4;        // [widths] standard deviation: about the profile of a line
 // [standard deviations of a place] A line of grain is the darkest of some thousand ways over its ground, 3.5 of the
 // deviations of its mean; that is half as large as of a place, four widths long or so; and pencil on the tooth of the
 // paper varies up to twice as far to the dark side as to the bright.
 constexpr double kStandsOut = 4.0;
 constexpr double kOneSigma = 0.841, kTwoSigma = 0.977;  // quantiles of a normal variable, 1 and 2 above its median
-constexpr double kLeastSigma = 0.29;                    // [grey] of what is rounded to whole levels
+constexpr double kLeastGrainSigma = 0.29;               // [grey] of what is rounded to whole levels
 constexpr int kFewestCells = 60;                        // of a ground: the upper quantile is then not a single cell
 // Of the contrast of the page's lines: pencil strokes of one hand differ by less, as in centreline.cpp.
 constexpr double kAsDarkAsLines = 0.8;
@@ -38,7 +38,7 @@ constexpr double kFaintOnWhite = 0.2;  // of that contrast, where the ground of 
 constexpr int kMostRounds = 12;        // of taking lines out: a row of faint dashes would be eaten up from its ends
 
 // [px] 0: not known.
-double widthOf(const Contour& line) {
+double widthOfLine(const Contour& line) {
   const std::vector<float> widths = strokeWidthsOf(line.points);
   double sum = 0.0;
   for (const float width : widths) sum += static_cast<double>(width);
@@ -84,7 +84,7 @@ cv::Mat1b inkOfLongLines(const LinesOnGround& page, const ContourSet& set, const
       continue;
     }
     // The width, and a cell of blurred border at either side.
-    const double thick = widthOf(c) / page.cellPx + 2.0;
+    const double thick = widthOfLine(c) / page.cellPx + 2.0;
     cv::polylines(ink, cells, c.closed, 255, std::clamp(static_cast<int>(std::lround(thick)), 1, kThickest));
   }
   if (!borders.empty()) cv::fillPoly(shapes, borders, 255);
@@ -142,7 +142,7 @@ double overNoise(const std::vector<GroundCell>& ground, const GroundCell& line, 
   for (const GroundCell& cell : ground) levels.push_back(above(cell));
   // Where clean paper shows, both lie on it.
   const double one = lowerQuantile(levels, kOneSigma), two = lowerQuantile(levels, kTwoSigma);
-  const double sigma = std::max(kLeastSigma, two - one);
+  const double sigma = std::max(kLeastGrainSigma, two - one);
   return (one - sigma - above(line)) / sigma;
 }
 
@@ -179,8 +179,8 @@ std::optional<double> overGround(const Contour& c, const LinesOnGround& page) {
 }
 
 // [grey] How much darker a line is than what lies beside it.
-double contrastOf(const Contour& c, const LinesOnGround& page) {
-  const double aside = 0.5 * widthOf(c) + kBesideWidths * page.widthPx;
+double contrastOfLine(const Contour& c, const LinesOnGround& page) {
+  const double aside = 0.5 * widthOfLine(c) + kBesideLineWidths * page.widthPx;
   const auto step = static_cast<std::ptrdiff_t>(std::max(1.0, 0.5 * page.widthPx));
   const std::ptrdiff_t last = std::ssize(c.points) - 1;
   double sum = 0.0;
@@ -210,12 +210,12 @@ bool isStraight(const Contour& c, double widthPx) {
 }
 
 // Of the long lines of the page, in the middle. Absent: there are none.
-std::optional<double> usualContrast(const ContourSet& set, const std::vector<bool>& isShort,
-                                    const LinesOnGround& page) {
+std::optional<double> usualContrastOfLines(const ContourSet& set, const std::vector<bool>& isShort,
+                                           const LinesOnGround& page) {
   std::vector<double> contrasts;
   for (std::size_t i = 0; i < set.contours.size(); ++i) {
     const Contour& c = set.contours[i];
-    if (!isShort[i] && c.kind == ContourKind::Centreline) contrasts.push_back(contrastOf(c, page));
+    if (!isShort[i] && c.kind == ContourKind::Centreline) contrasts.push_back(contrastOfLine(c, page));
   }
   return contrasts.empty() ? std::nullopt : std::optional(upperMedian(contrasts));
 }
@@ -230,14 +230,14 @@ ShortLines shortLinesOf(const ContourSet& set) {
   std::vector<double> widths;
   for (const Contour& c : set.contours) {
     lines.isShort.push_back(c.kind == ContourKind::Centreline && c.points.size() > 1 &&
-                            c.lengthPx < kMostGrainWidths * widthOf(c));
-    if (lines.isShort.back()) widths.push_back(widthOf(c));
+                            c.lengthPx < kMostGrainWidths * widthOfLine(c));
+    if (lines.isShort.back()) widths.push_back(widthOfLine(c));
   }
   if (widths.empty()) return lines;
   lines.widthPx = upperMedian(widths);
   // Broad lines would be held against their own insides.
   for (std::size_t i = 0; i < set.contours.size(); ++i)
-    if (widthOf(set.contours[i]) > kMostBreadth * lines.widthPx) lines.isShort[i] = false;
+    if (widthOfLine(set.contours[i]) > kMostBreadth * lines.widthPx) lines.isShort[i] = false;
   return lines;
 }
 
@@ -253,12 +253,12 @@ std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, con
                              const RunContext& context) {
   std::vector<bool> isFaint(set.contours.size(), false);
   const LinesOnGround page = linesOnGround(set, lines.isShort, grey, lines.widthPx);
-  const std::optional<double> usual = usualContrast(set, lines.isShort, page);
+  const std::optional<double> usual = usualContrastOfLines(set, lines.isShort, page);
   const bool isWhite = isPencil && isClipped(page);
   for (std::size_t i = 0; i < set.contours.size() && usual && !context.isCancelled(); ++i) {
     const Contour& c = set.contours[i];
     if (!lines.isShort[i] || c.traceMode || isStraight(c, lines.widthPx)) continue;
-    const double contrast = contrastOf(c, page);
+    const double contrast = contrastOfLine(c, page);
     if (contrast >= kAsDarkAsLines * *usual) continue;
     const std::optional<double> over = overGround(c, page);
     isFaint[i] = over && (*over < kStandsOut || (isWhite && contrast < kFaintOnWhite * *usual));

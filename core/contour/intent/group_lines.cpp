@@ -19,12 +19,12 @@ namespace batten {
 namespace {
 
 // In stroke widths.
-constexpr double kLeastAlone = 0.9;     // of the ink of its pieces: a shorter mean has some of them side by side
-constexpr double kReachShare = 0.95;    // of the strokes' samples lie within the reach of the bundle
-constexpr double kBundleMargin = 1.0;   // beyond the middles of the strokes: the ink of the outermost
-constexpr double kClosing = 3.0;        // ends as near as this, and the spread, close a line
-constexpr double kClosingCos = 0.5;     // 60 degrees
-constexpr double kShortestRing = 15.0;  // the ends of a shorter line are near each other in any case
+constexpr double kLeastAlone = 0.9;        // of the ink of its pieces: a shorter mean has some of them side by side
+constexpr double kGroupReachShare = 0.95;  // of the strokes' samples lie within the reach of the bundle
+constexpr double kBundleMargin = 1.0;      // beyond the middles of the strokes: the ink of the outermost
+constexpr double kClosing = 3.0;           // ends as near as this, and the spread, close a line
+constexpr double kClosingCos = 0.5;        // 60 degrees
+constexpr double kShortestRing = 15.0;     // the ends of a shorter line are near each other in any case
 // What runs within the bundle of a longer line is of it; a lone line has no bundle.
 constexpr double kExplainedNear = 1.5, kExplainedAlong = 4.5, kExplainedSpreads = 1.5, kExplainedCos = 0.85,
                  kExplainedNearCos = 0.5;
@@ -95,7 +95,7 @@ class MeanDrawer {
         across.push_back(std::abs(cross(on.tangent, Vec2(strip.samples[k].at - on.at))));
       }
     }
-    return lowerQuantile(across, kReachShare);
+    return lowerQuantile(across, kGroupReachShare);
   }
 
   // About one point a pixel; its source is the nearest stroke there.

@@ -6,7 +6,7 @@
 
 #include "core/base/angle.h"
 #include "core/base/statistics.h"
-#include "core/contour/centreline/skeleton_nodes.h"
+#include "core/contour/centreline/skeleton/skeleton_nodes.h"
 
 namespace batten {
 namespace {

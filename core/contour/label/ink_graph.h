@@ -7,7 +7,7 @@
 
 #include "core/base/run_context.h"
 #include "core/base/vec2.h"
-#include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/skeleton/skeleton.h"
 #include "core/image/bits/bit_image.h"
 
 namespace batten {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/skeleton/skeleton.h"
 #include "core/contour/label/ink_graph.h"
 #include "core/contour/label/label_rules.h"
 #include "core/contour/label/label_vote.h"

@@ -19,7 +19,7 @@ constexpr double kParallelCos = 0.985;  // 10 degrees: fully one line
 constexpr double kCrossingCos = 0.906;  // 25 degrees: another line
 constexpr double kLeastWeight = 0.02;   // at the very end of a stroke: alone it still is the line
 
-constexpr double kBesidePx = 0.8;      // along a line, whose points are about 1 px apart: so near lies on the normal
+constexpr double kBesideMeanPx = 0.8;  // along a line, whose points are about 1 px apart: so near lies on the normal
 constexpr double kFadingShare = 0.3;   // of the distance, in which the weight of a stroke falls to nothing
 constexpr double kEndDistances = 2.0;  // distances before the end of a stroke from which on its weight falls …
 constexpr double kEndParts = 3.0;      // … or a stroke's length over this, so that the middle of a short one keeps it
@@ -87,7 +87,7 @@ class MeanRound {
       const MeanPoint& there = other.points[place.index];
       const Vec2 d = there.at - at;
       const double along = d.dot(t);
-      if (std::abs(along) > kBesidePx) return;
+      if (std::abs(along) > kBesideMeanPx) return;
       if (place.line == line && isNear(here, index, place.index)) return;
       const Vec2& to = there.tangent;
       const double cosine = std::abs(to.dot(t));

@@ -16,21 +16,21 @@ namespace {
 
 // Robust standard deviation of the ink as part of its contrast. Drawn solids have 0 to .08, brushes .1 to .3, pencil
 // tone .3 to .8.
-constexpr double kUneven = 0.1;
-constexpr double kUnevenBesideOthers = 0.04;       // where most are uneven
-constexpr int kPointStep = 3;                      // points, of which the neighbours see the same ink
-constexpr int kArmPoints = 3;                      // points to either side: the course of the border
-constexpr double kInsidePx[] = {3, 6, 9};          // from the border
-constexpr double kOutsidePx = 5.0;                 // as is the paper
-constexpr int kFewestInk = 20, kFewestPaper = 10;  // places that tell
-constexpr double kQuartilesInSigmas = 1.349;       // from the lower to the upper one of a normal distribution
+constexpr double kUnevenBorder = 0.1;
+constexpr double kUnevenBesideOthers = 0.04;             // where most are uneven
+constexpr int kPointStep = 3;                            // points, of which the neighbours see the same ink
+constexpr int kArmPoints = 3;                            // points to either side: the course of the border
+constexpr double kInsidePx[] = {3, 6, 9};                // from the border
+constexpr double kOutsidePx = 5.0;                       // as is the paper
+constexpr int kFewestInk = 20, kFewestBorderPaper = 10;  // places that tell
+constexpr double kQuartilesInSigmas = 1.349;             // from the lower to the upper one of a normal distribution
 
 bool isInk(const BitImage& ink, Vec2 at) {
   return ink.at(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
 }
 
 // Grey level 0..255, the mean of 3 x 3 pixels; absent: not all of them are ink, or paper, as asked for.
-std::optional<double> meanOf(const GreyImage& grey, const BitImage& ink, Vec2 at, bool inside) {
+std::optional<double> meanOfBorder(const GreyImage& grey, const BitImage& ink, Vec2 at, bool inside) {
   const int x0 = static_cast<int>(std::floor(at.x())) - 1, y0 = static_cast<int>(std::floor(at.y())) - 1;
   if (x0 < 0 || y0 < 0 || x0 + 3 > grey.width || y0 + 3 > grey.height) return std::nullopt;
   double sum = 0.0;
@@ -60,15 +60,16 @@ BorderLevels levelsAt(const Contour& border, const BitImage& ink, const GreyImag
     Vec2 inward = leftNormal(way.normalized());
     if (!isInk(ink, at + kInsidePx[0] * inward)) inward = -inward;
     for (std::size_t d = 0; d < std::size(kInsidePx); ++d)
-      if (const auto mean = meanOf(grey, ink, at + kInsidePx[d] * inward, true)) levels.inside[d].push_back(*mean);
-    if (const auto mean = meanOf(grey, ink, at - kOutsidePx * inward, false)) levels.outside.push_back(*mean);
+      if (const auto mean = meanOfBorder(grey, ink, at + kInsidePx[d] * inward, true))
+        levels.inside[d].push_back(*mean);
+    if (const auto mean = meanOfBorder(grey, ink, at - kOutsidePx * inward, false)) levels.outside.push_back(*mean);
   }
   return levels;
 }
 
 // Robust standard deviation of the ink as part of its contrast; absent: too few places tell. What the blur of the
 // border does changes with the depth alone.
-std::optional<double> unevennessOf(const Contour& border, const BitImage& ink, const GreyImage& grey) {
+std::optional<double> unevennessOfBorder(const Contour& border, const BitImage& ink, const GreyImage& grey) {
   BorderLevels levels = levelsAt(border, ink, grey);
   std::vector<double> spread;
   double darkest = 255.0;
@@ -78,7 +79,7 @@ std::optional<double> unevennessOf(const Contour& border, const BitImage& ink, c
     darkest = std::min(darkest, middle);
     for (const double level : ofDepth) spread.push_back(level - middle);
   }
-  if (std::ssize(spread) < kFewestInk || std::ssize(levels.outside) < kFewestPaper) return std::nullopt;
+  if (std::ssize(spread) < kFewestInk || std::ssize(levels.outside) < kFewestBorderPaper) return std::nullopt;
   const double contrast = std::max(1.0, std::abs(upperMedian(levels.outside) - darkest));
   const std::ptrdiff_t quarter = std::ssize(spread) / 4;
   const double quartiles = elementOfRank(spread, std::ssize(spread) - 1 - quarter) - elementOfRank(spread, quarter);
@@ -92,16 +93,16 @@ void noteUnevenInk(ContourSet& borders, const BitImage& ink, const GreyImage& gr
   std::vector<std::optional<double>> unevenness(count);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i)
-      unevenness[i] = unevennessOf(borders.contours[i], ink, grey);
+      unevenness[i] = unevennessOfBorder(borders.contours[i], ink, grey);
   });
   if (context.isCancelled()) return;
   double uneven = 0.0, all = 0.0;
   for (int i = 0; i < count; ++i) {
     if (!unevenness[i]) continue;
     all += borders.contours[i].lengthPx;
-    if (*unevenness[i] > kUneven) uneven += borders.contours[i].lengthPx;
+    if (*unevenness[i] > kUnevenBorder) uneven += borders.contours[i].lengthPx;
   }
-  const double limit = 2.0 * uneven > all ? kUnevenBesideOthers : kUneven;
+  const double limit = 2.0 * uneven > all ? kUnevenBesideOthers : kUnevenBorder;
   for (int i = 0; i < count; ++i) borders.contours[i].isUneven = unevenness[i] > limit;
 }
 

@@ -8,13 +8,13 @@
 #include <optional>
 #include <utility>
 
-#include "core/contour/centreline/stroke_profile.h"
+#include "core/contour/centreline/profile/stroke_profile.h"
 #include "core/contour/region_of_interest.h"
 #include "core/document/explain/redraw.h"
-#include "core/image/binarize.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/page_margins.h"
+#include "core/image/threshold/binarize.h"
 #include "core/image/threshold/region_surface.h"
 #include "core/polyline/polyline_tools.h"
 

@@ -20,7 +20,7 @@ constexpr std::uint64_t kBytesPerPixel = 13;
 /// [px] Of a side; no page of paper is larger.
 constexpr double kMostSide = 1e6;
 
-Error problemOf(const std::filesystem::path& path, PdfProblem problem, int page, int pages) {
+Error problemOfPdf(const std::filesystem::path& path, PdfProblem problem, int page, int pages) {
   switch (problem) {
     case PdfProblem::NotInstalled:
       return unreadable(path, std::string("is a PDF, but this build of Batten has no Poppler (") + kPdfPackage +
@@ -49,7 +49,7 @@ Result<FoundPage> pageOf(const std::filesystem::path& path, const RegularFile& f
   auto bytes = readBytes(path, file, file.size());
   if (!bytes) return fail(bytes.error());
   const auto page = lookAtPdfPage(*bytes, choice.number);
-  if (!page) return fail(problemOf(path, page.error().problem, choice.number, page.error().pages));
+  if (!page) return fail(problemOfPdf(path, page.error().problem, choice.number, page.error().pages));
   const double width = page->widthPoints * choice.pdfDpi / kPointsPerInch;
   const double height = page->heightPoints * choice.pdfDpi / kPointsPerInch;
   if (!(width < kMostSide && height < kMostSide))
@@ -101,7 +101,7 @@ Result<Scan> readPdfScan(const std::filesystem::path& path, const RegularFile& f
   scan.fileHash = sha256(found->bytes);
   if (context.isCancelled()) return cancelled();
   auto drawn = drawPdfPage(found->bytes, request.page.number, {width, height, request.page.pdfDpi}, context);
-  if (!drawn) return fail(problemOf(path, drawn.error(), request.page.number, found->pages));
+  if (!drawn) return fail(problemOfPdf(path, drawn.error(), request.page.number, found->pages));
   scan.grey = std::move(drawn->grey);
   scan.colour = std::move(drawn->colour);
   dropGreyColours(scan.colour, context);

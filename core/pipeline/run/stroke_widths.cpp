@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/statistics.h"
-#include "core/contour/centreline/stroke_profile.h"
+#include "core/contour/centreline/profile/stroke_profile.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/width_fit.h"
 #include "core/polyline/polyline_tools.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/course_junctions.h"
+#include "core/contour/centreline/placing/course_junctions.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/contour/centreline/centreline.h"
-#include "core/contour/centreline/end_rows.h"
+#include "core/contour/centreline/junction/end_rows.h"
 #include "tests/support/angles.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/ink_page.h"

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pencil strokes with weak ends, and such that end: against lines whose course is known.
 
-#include "core/contour/centreline/faint_ends.h"
+#include "core/contour/centreline/ends/faint_ends.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/junction/stroke_paths.h"
+#include "core/contour/centreline/skeleton/skeleton.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/dense_page.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/fine_lines.h"
+#include "core/contour/centreline/placing/fine_lines.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/contour/ink/ink_split.h"
-#include "core/image/binarize.h"
 #include "core/image/fine_page.h"
+#include "core/image/threshold/binarize.h"
 #include "tests/support/dense_page.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/grey_across.h"
+#include "core/contour/centreline/profile/grey_across.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/contour/centreline/stroke_profile.h"
+#include "core/contour/centreline/profile/stroke_profile.h"
 
 using namespace batten;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ends of strokes that lie in the ink of another line, on pages of known lines: they meet that line.
 
-#include "core/contour/centreline/meeting_ends.h"
+#include "core/contour/centreline/ends/meeting_ends.h"
 
 #include <gtest/gtest.h>
 

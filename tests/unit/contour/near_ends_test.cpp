@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Free ends that stop just before another line: on lines made by hand and on a page.
 
-#include "core/contour/centreline/near_ends.h"
+#include "core/contour/centreline/ends/near_ends.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A box shaded with a pencil: the lines on its tones, between them and around them are lines, and the tones are none.
 
-#include "core/image/pencil_tones.h"
+#include "core/image/tones/pencil_tones.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/image/page_preparation.h"
-#include "core/image/without_tones.h"
+#include "core/image/tones/without_tones.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/render_page.h"
 #include "tests/support/stress_page.h"

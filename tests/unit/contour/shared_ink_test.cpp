@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/contour/centreline/arc_through.h"
-#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/centreline/junction/arc_through.h"
+#include "core/contour/centreline/stroke_path.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/ink_page.h"
 #include "tests/unit/contour/traced_page.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/centreline/stroke_path.h"
 #include "core/contour/edge_params.h"
 #include "core/contour/ink/ink_split.h"
 #include "core/contour/trace_contours.h"

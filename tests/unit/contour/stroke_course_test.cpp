@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/stroke_course.h"
+#include "core/contour/centreline/profile/stroke_course.h"
 
 #include <gtest/gtest.h>
 
-#include "core/contour/centreline/stroke_ends.h"
+#include "core/contour/centreline/ends/stroke_ends.h"
 #include "tests/support/render_page.h"
 
 namespace batten {

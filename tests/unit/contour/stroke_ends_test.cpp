@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/stroke_ends.h"
+#include "core/contour/centreline/ends/stroke_ends.h"
 
 #include <gtest/gtest.h>
 

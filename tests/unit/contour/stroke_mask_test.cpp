@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The grain of a pencil is closed, the counters of small letters are not.
-#include "core/contour/centreline/stroke_mask.h"
+#include "core/contour/centreline/pencil/stroke_mask.h"
 
 #include <gtest/gtest.h>
 

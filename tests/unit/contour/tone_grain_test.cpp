@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/contour/trace_contours.h"
-#include "core/image/binarize.h"
+#include "core/image/threshold/binarize.h"
 #include "core/image/threshold/region_thresholds.h"
 #include "tests/support/dense_page.h"
 

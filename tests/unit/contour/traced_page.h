@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/contour/trace_contours.h"
-#include "core/image/binarize.h"
+#include "core/image/threshold/binarize.h"
 
 namespace batten {
 

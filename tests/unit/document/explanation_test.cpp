@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/document/report.h"
-#include "core/image/binarize.h"
 #include "core/image/bits/bit_steps.h"
+#include "core/image/threshold/binarize.h"
 #include "tests/support/label_page.h"
 #include "tests/support/render_page.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/image/binarize.h"
 #include "core/image/page_preparation.h"
+#include "core/image/threshold/binarize.h"
 #include "tests/support/colour_page.h"
 
 namespace batten {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <random>
 
-#include "core/image/binarize.h"
 #include "core/image/bits/bit_steps.h"
+#include "core/image/threshold/binarize.h"
 
 namespace batten {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/binarize.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/fine_page.h"
+#include "core/image/threshold/binarize.h"
 
 namespace batten {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/image/binarize.h"
+#include "core/image/threshold/binarize.h"
 #include "tests/support/angles.h"
 #include "tests/support/stress_page.h"
 

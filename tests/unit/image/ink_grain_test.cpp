@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/image/binarize.h"
+#include "core/image/threshold/binarize.h"
 #include "core/image/threshold/region_thresholds.h"
 
 namespace batten {

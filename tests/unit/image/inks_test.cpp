@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "core/image/binarize.h"
 #include "core/image/colour/ink_picker.h"
 #include "core/image/page_preparation.h"
+#include "core/image/threshold/binarize.h"
 #include "tests/support/colour_page.h"
 
 namespace batten {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/image/binarize.h"
+#include "core/image/threshold/binarize.h"
 
 namespace batten::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/lanes_of_values.h"
+#include "core/image/sheet/lanes_of_values.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/paper_sheet.h"
+#include "core/image/sheet/paper_sheet.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/image/binarize.h"
+#include "core/image/threshold/binarize.h"
 #include "tests/support/colour_page.h"
 
 /// Pages of ruled paper with a drawing on it, and what is wrong with their ink.

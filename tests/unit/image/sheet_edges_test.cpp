@@ -8,8 +8,8 @@
 #include <functional>
 #include <random>
 
-#include "core/image/paper_sheet.h"
 #include "core/image/scan.h"
+#include "core/image/sheet/paper_sheet.h"
 
 namespace batten {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shading that lines are drawn on and around is paper to them; shapes, solids and hatching are not.
-#include "core/image/tone_areas.h"
+#include "core/image/tones/tone_areas.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/image/page_preparation.h"
-#include "core/image/without_tones.h"
+#include "core/image/tones/without_tones.h"
 #include "tests/support/stress_page.h"
 #include "tests/support/tones_on.h"
 

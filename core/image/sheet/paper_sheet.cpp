@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/sheet/paper_sheet.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/push_pull.h"
+#include "core/image/sheet/facing_pages.h"
+#include "core/image/sheet/shaded_paper.h"
+#include "core/image/sheet/sheet_behind_lines.h"
+#include "core/image/sheet/sheet_cells.h"
+#include "core/image/sheet/sheet_drawn_edge.h"
+#include "core/image/sheet/sheet_edges.h"
+#include "core/image/sheet/sheet_levels.h"
+#include "core/image/sheet/sheet_step.h"
+
+namespace batten {
+namespace {
+
+constexpr double kMostRoughness = 9.0;                   // [grey] between neighbours within a cell: carpet, wood, cloth
+constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
+constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
+constexpr double kLeastAlongSide = 0.2;                  // of a side of the picture that a patch beside the sheet takes
+constexpr double kSheetContrast = 12.0;                  // [grey] of the patch against the sheet beside it
+constexpr double kMostKnown = 0.5;                       // of a side of the picture
+constexpr int kBesideEdgeCells = 61;                     // 30 to either side
+constexpr double kSheetRimShare = 0.006;                 // of the diagonal: the sheet's edge and its shadow
+constexpr double kOutlineCells = 1.5;  // [cells] of the outline of the sheet: steps of its cells are none of it
+// Of the hull's length: what its simplification to four corners may leave out, tried from the finest on.
+constexpr double kFinestQuadrilateral = 0.005, kCoarsestQuadrilateral = 0.08, kQuadrilateralStep = 0.0025;
+constexpr double kLeastQuadrilateral = 0.93;  // of the hull's area: else the sheet has other corners than these four
+
+/// Cells joined as long as brightness and colour change slowly; rough ones stay alone. Labels from 0.
+cv::Mat1i joinCells(const SheetCells& cells) {
+  cv::Mat1i labels(cells.rows, cells.columns, -1);
+  std::vector<cv::Point> open;
+  int next = 0;
+  for (int j = 0; j < cells.rows; ++j) {
+    for (int i = 0; i < cells.columns; ++i) {
+      if (labels(j, i) >= 0) continue;
+      labels(j, i) = next;
+      open.assign(1, {i, j});
+      while (!open.empty()) {
+        const cv::Point at = open.back();
+        open.pop_back();
+        if (cells.rough(at) > static_cast<float>(kMostRoughness)) continue;
+        for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+          const cv::Point to = at + step;
+          if (to.x < 0 || to.y < 0 || to.x >= cells.columns || to.y >= cells.rows || labels(to) >= 0) continue;
+          if (cells.rough(to) > static_cast<float>(kMostRoughness)) continue;
+          if (!isOneSheet(cells.colour(at), cells.colour(to))) continue;
+          labels(to) = next;
+          open.push_back(to);
+        }
+      }
+      ++next;
+    }
+  }
+  return labels;
+}
+
+/// The sheet with all that it encloses: what cannot be reached from outside the picture.
+cv::Mat1b filledSheet(const cv::Mat1b& sheet) {
+  cv::Mat1b around;
+  cv::copyMakeBorder(sheet, around, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::floodFill(around, {0, 0}, 128);
+  return around(cv::Rect(1, 1, sheet.cols, sheet.rows)) != 128;
+}
+
+/// How a patch of cells lies against the border of the picture, and what it is like.
+struct BorderPatch {
+  int area = 0;
+  std::array<int, 4> along{};  ///< Cells at the top, right, bottom and left side.
+  int corners = 0;
+};
+
+bool isBeside(const BorderPatch& patch, const cv::Size& size) {
+  if (patch.area < kLeastPatch * size.area() || patch.corners == 0) return false;
+  const double across = std::max(patch.along[0], patch.along[2]) / static_cast<double>(size.width);
+  const double down = std::max(patch.along[1], patch.along[3]) / static_cast<double>(size.height);
+  return std::max(across, down) >= kLeastAlongSide;
+}
+
+/// A corner of the picture that a small patch fills: of the table, where the table shows elsewhere, too.
+bool isInCorner(const BorderPatch& patch) {
+  constexpr int kFewestAlong = 8;  // cells, of both sides that meet there
+  const auto sides = std::ranges::count_if(patch.along, [](int along) { return along >= kFewestAlong; });
+  return patch.corners > 0 && sides >= 2;
+}
+
+/// Cells beside the sheet: patches outside it that reach a corner of the picture and run along its border. The rest
+/// outside it is ink that runs off the page, and stays.
+cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
+  std::optional<ShadedPaper> shaded;  // asked for by few pictures
+  cv::Mat1i labels;
+  const cv::Mat1b outside = sheet == 0;
+  const int count = cv::connectedComponents(outside, labels, 8, CV_32S);
+  std::vector<BorderPatch> patches(count);
+  const int right = sheet.cols - 1, bottom = sheet.rows - 1;
+  for (int j = 0; j <= bottom; ++j) {
+    for (int i = 0; i <= right; ++i) {
+      BorderPatch& patch = patches[labels(j, i)];
+      ++patch.area;
+      patch.along[0] += j == 0;
+      patch.along[1] += i == right;
+      patch.along[2] += j == bottom;
+      patch.along[3] += i == 0;
+      patch.corners += (j == 0 || j == bottom) && (i == 0 || i == right);
+    }
+  }
+  cv::Mat1b beside(sheet.size(), 0), inCorners(sheet.size(), 0);
+  const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
+  const double level = sheetMean[0];
+  const double grain = std::max(kMostRoughness, kSameGrain * cv::mean(cells.rough, sheet)[0]);
+  for (int k = 1; k < count; ++k) {
+    const bool isLarge = isBeside(patches[k], sheet.size());
+    if (!isLarge && !isInCorner(patches[k])) continue;
+    const cv::Mat1b patch = labels == k;
+    cv::Scalar mean, spread;
+    cv::meanStdDev(cells.colour, mean, spread, patch);
+    const double roughness = cv::mean(cells.rough, patch)[0];
+    // Even paper that is brighter than what it encloses: that is a drawn solid, and no dark sheet on a table.
+    const bool isPaper = mean[0] >= level + kSolidContrast && roughness <= grain;
+    if (isPaper) continue;
+    if (!shaded) shaded.emplace(sheet, cells);
+    if (shaded->isOne(patch) || shaded->showsThrough(patch)) continue;
+    const double apart =
+        std::max({std::fabs(mean[0] - level), std::fabs(mean[1] - sheetMean[1]), std::fabs(mean[2] - sheetMean[2])});
+    if (apart < kSheetContrast && roughness <= kMostRoughness) continue;
+    if (isStepBetween(sheet, patch, cells)) (isLarge ? beside : inCorners).setTo(255, patch);
+  }
+  if (cv::countNonZero(beside) > 0) beside |= inCorners;
+  return beside;
+}
+
+/// Share of what a mask holds at the border of the picture that another holds, too.
+double shareAtBorder(const cv::Mat1b& mask, const cv::Mat1b& other) {
+  const cv::Mat1b border = borderOf(mask.size());
+  return cv::countNonZero(mask & other & border) / std::max(1.0, 1.0 * cv::countNonZero(mask & border));
+}
+
+/// Cells beyond straight edges of the sheet upon which nothing is drawn, unless they are its paper in shade.
+void addBeyondEdges(cv::Mat1b& beside, const SheetCells& cells, const RunContext& context) {
+  const cv::Mat rim = cv::getStructuringElement(cv::MORPH_RECT, {kSheetEdgeCells, kSheetEdgeCells});
+  const cv::Mat besideEdge = cv::getStructuringElement(cv::MORPH_RECT, {kBesideEdgeCells, kBesideEdgeCells});
+  const cv::Mat1b table = beside.clone();
+  for (const cv::Mat1b& beyond : beyondSheetEdges(cells, context)) {
+    // Where the table is known already the sheet ends at it.
+    if (shareAtBorder(beyond, table) > kMostKnown) continue;
+    cv::Mat1b withRim, around, clear;
+    cv::dilate(beyond, withRim, rim);
+    cv::dilate(beyond, around, besideEdge);
+    cv::erode(beyond, clear, rim);
+    // Shading changes the paper over the page: its look is compared beside the edge.
+    if (ShadedPaper(around & (withRim == 0), cells).isOne(beyond)) continue;
+    if (!ShadedPaper(withRim == 0, cells).isDrawnOn(clear)) beside.setTo(255, beyond);
+  }
+}
+
+std::vector<Vec2> outlineOf(const cv::Mat1b& inside, double cellPx) {
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(inside.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::vector<Vec2> polygon;
+  const auto largest = std::max_element(outlines.begin(), outlines.end(), [](const auto& a, const auto& b) {
+    return cv::contourArea(a) < cv::contourArea(b);
+  });
+  if (largest == outlines.end()) return polygon;
+  std::vector<cv::Point> rough;
+  cv::approxPolyDP(*largest, rough, kOutlineCells, true);
+  for (const cv::Point& p : rough) polygon.emplace_back((p.x + 0.5) * cellPx, (p.y + 0.5) * cellPx);
+  return polygon;
+}
+
+/// The four corners of the sheet's hull, from the top left clockwise; none if it is no quadrilateral.
+std::vector<Vec2> cornersOf(const cv::Mat1b& sheet, double cellPx) {
+  std::vector<cv::Point> places, hull, four;
+  cv::findNonZero(sheet, places);
+  if (places.size() < 4) return {};
+  cv::convexHull(places, hull);
+  const double length = cv::arcLength(hull, true);
+  for (double share = kFinestQuadrilateral; share < kCoarsestQuadrilateral && four.size() != 4;
+       share += kQuadrilateralStep)
+    cv::approxPolyDP(hull, four, share * length, true);
+  if (four.size() != 4 || cv::contourArea(four) < kLeastQuadrilateral * cv::contourArea(hull)) return {};
+  const auto first = std::min_element(four.begin(), four.end(),
+                                      [](const cv::Point& a, const cv::Point& b) { return a.x + a.y < b.x + b.y; });
+  std::rotate(four.begin(), first, four.end());
+  const cv::Point a = four[1] - four[0], b = four[3] - four[0];
+  if (a.x * b.y - a.y * b.x < 0) std::reverse(four.begin() + 1, four.end());
+  std::vector<Vec2> corners;
+  for (const cv::Point& p : four) corners.emplace_back((p.x + 0.5) * cellPx, (p.y + 0.5) * cellPx);
+  return corners;
+}
+
+/// A whole number from 0 to 255 * 4 that looks random, the same for the same pixel.
+int grainAt(int x, int y) {
+  auto h = static_cast<std::uint32_t>(x) * 0x9E3779B1u ^ static_cast<std::uint32_t>(y) * 0x85EBCA77u;
+  h ^= h >> 15;
+  h *= 0x2C1B3C6Du;
+  h ^= h >> 12;
+  h *= 0x297A2D39u;
+  h ^= h >> 15;
+  return static_cast<int>((h & 255u) + (h >> 8 & 255u) + (h >> 16 & 255u) + (h >> 24));
+}
+constexpr double kGrainMean = 510.0, kGrainSigma = 147.8;  // of four bytes added
+
+/// Beyond the picture the sheet goes on: only what lies beside it is cut.
+cv::Mat1b sheetWithoutNecks(const cv::Mat1b& beside) {
+  cv::Mat1b sheet = beside == 0;
+  cv::morphologyEx(sheet, sheet, cv::MORPH_OPEN, discOf(sheet.size(), kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  return sheet;
+}
+
+struct BesideSheet {
+  std::optional<cv::Mat1b> cells;  ///< Absent: nothing is beside a sheet, or it is doubtful that there is one.
+  bool isDoubtful = false;         ///< Something lies beside, and what it leaves is no sheet.
+};
+
+/// All cells beside a sheet. `even`: its even area, filled.
+BesideSheet cellsBeside(const cv::Mat1b& even, const SheetCells& cells, const RunContext& context) {
+  const cv::Mat1b table = besideTheSheet(even, cells);
+  cv::Mat1b beside = table.clone();
+  addBeyondEdges(beside, cells, context);
+  if (cv::countNonZero(beside) == 0) return {};
+  const cv::Mat1b sheet = sheetWithoutNecks(beside);
+  const double share = cv::countNonZero(sheet) / static_cast<double>(sheet.total());
+  if (share < kLeastSheet || share > kMostSheet) return {std::nullopt, true};
+  std::vector<cv::Point> places, hull;
+  cv::findNonZero(sheet, places);
+  cv::convexHull(places, hull);
+  if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return {std::nullopt, true};
+  return {cv::Mat1b(withoutTonesAtEdge(table, even, cells) | (beside & (table == 0))), false};
+}
+
+/// An even area with what it becomes slowly, but for narrow parts: the blur along its edge.
+cv::Mat1b withSlowChanges(const cv::Mat1b& even, const SheetCells& cells) {
+  cv::Mat1b added = slowlyContinued(even, cells) & (even == 0);
+  cv::morphologyEx(added, added, cv::MORPH_OPEN, discOf(added.size(), kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  return filledSheet(even | added);
+}
+
+/// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book.
+std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& context) {
+  const cv::Mat1i labels = joinCells(cells);
+  std::vector<int> areas;
+  for (const int label : labels) {
+    if (label >= std::ssize(areas)) areas.resize(label + 1, 0);
+    ++areas[label];
+  }
+  const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+  cv::Mat1b even = filledSheet(labels == largest);
+  const int area = cv::countNonZero(even);
+  if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;
+  if (area < kMostSheet * static_cast<double>(even.total())) even = withSlowChanges(even, cells);
+  BesideSheet found = cellsBeside(even, cells, context);
+  if (found.isDoubtful) {
+    // Lines that run off the sheet part it: what lies between them and the table is no part of the table.
+    even = filledSheet(sheetBehindLines(even, labels, areas, cells));
+    found = cellsBeside(even, cells, context);
+  }
+  if (!found.cells) return std::nullopt;
+  cv::Mat1b beside = *found.cells;
+  for (int label = 0; label < std::ssize(areas); ++label) {
+    if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
+    const cv::Mat1b page = filledSheet(labels == label);
+    // Within the sheet it is a shape that was drawn.
+    if (cv::countNonZero(page & even) > 0 || !isFacingPage(page, even, cells, ShadedPaper(even, cells))) continue;
+    if (auto both = cellsBeside(even | page, cells, context).cells) beside = *both;
+    break;
+  }
+  const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(beside));
+  if (cv::countNonZero(sheet) > kMostSheet * static_cast<double>(sheet.total())) return std::nullopt;
+  return sheet;
+}
+
+}  // namespace
+
+std::optional<PaperSheet> findPaperSheet(const SheetCells& cells, const RunContext& context) {
+  constexpr int kFewestCells = 40;  // of the picture along its shorter side
+  if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
+  const std::optional<cv::Mat1b> sheet = sheetOf(cells, context);
+  if (context.isCancelled() || !sheet) return std::nullopt;
+  PaperSheet found;
+  found.cellPx = cells.sizePx;
+  found.cornersPx = cornersOf(*sheet, cells.sizePx);
+  cv::Mat1b inside;
+  cv::erode(*sheet, inside, discOf(sheet->size(), kSheetRimShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  found.outlinePx = outlineOf(inside, cells.sizePx);
+  found.inside = BitImage(cells.columns, cells.rows);
+  for (int j = 0; j < cells.rows; ++j) {
+    for (int i = 0; i < cells.columns; ++i) {
+      if (inside(j, i) != 0) found.inside.set(i, j, true);
+    }
+  }
+  found.outsideShare = 1.0 - static_cast<double>(found.inside.count()) / static_cast<double>(sheet->total());
+  return found;
+}
+
+std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
+  return findPaperSheet(sheetCellsOf(grey, colour, context), context);
+}
+
+PaperSheet sheetWithinRim(int widthPx, int heightPx) {
+  PaperSheet sheet;
+  sheet.cellPx = std::max(2, (std::max(widthPx, heightPx) + kSheetCells - 1) / kSheetCells);
+  const int columns = std::max(1, widthPx / sheet.cellPx), rows = std::max(1, heightPx / sheet.cellPx);
+  const double rimPx = kSheetRimShare * std::hypot(widthPx, heightPx);
+  const int widest = (std::min(columns, rows) - 1) / 2;  // 0: too narrow a strip to have a rim
+  const int rim = std::min(std::max(1, static_cast<int>(std::ceil(rimPx / sheet.cellPx))), widest);
+  sheet.inside = BitImage(columns, rows);
+  for (int j = rim; j < rows - rim; ++j) {
+    for (int i = rim; i < columns - rim; ++i) sheet.inside.set(i, j, true);
+  }
+  const double x0 = rim * sheet.cellPx, x1 = (columns - rim) * sheet.cellPx, y1 = (rows - rim) * sheet.cellPx;
+  sheet.outlinePx = {{x0, x0}, {x1, x0}, {x1, y1}, {x0, y1}};
+  return sheet;
+}
+
+GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const RunContext& context) {
+  std::optional<GreyImage> even = pagesOnOneLevel(page, sheet.inside, sheet.cellPx, context);
+  return paintedOver(even ? std::move(*even) : page, sheet.inside, sheet.cellPx, context);
+}
+
+GreyImage paintedOver(GreyImage out, const BitImage& inside, int cellPx, const RunContext& context) {
+  const int columns = inside.width, rows = inside.height;
+  std::vector<float> level = levelsOfCells(out, inside, cellPx, context), weight(level.size(), 0.0f);
+  std::vector<float> steps;
+  for (int j = 0; j < rows && !context.isCancelled(); ++j) {
+    const std::uint16_t* row = out.row(j * cellPx);
+    for (int i = 0; i < columns; ++i) {
+      if (!inside.at(i, j)) continue;
+      const std::uint16_t* first = row + i * cellPx;
+      steps.push_back(static_cast<float>(first[1] - first[0]));
+      weight[std::ptrdiff_t{j} * columns + i] = 1.0f;
+    }
+  }
+  if (steps.empty() || context.isCancelled()) return out;
+  const double grain = robustSigma(steps) / std::sqrt(2.0);
+  // Ink within the sheet must not bleed out of it: darker cells than around do not count.
+  constexpr float kNoDarker = 0.97f;  // times the mean around; with ink over a twentieth of it a cell is darker
+  constexpr int kAroundCells = 31;    // 15 to either side
+  const std::vector<float> first = pushPull(level, weight, columns, rows);
+  cv::Mat1f smooth(rows, columns, const_cast<float*>(first.data())), around;
+  cv::blur(smooth, around, {kAroundCells, kAroundCells}, {-1, -1}, cv::BORDER_REPLICATE);
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    if (level[i] < kNoDarker * around(static_cast<int>(i) / columns, static_cast<int>(i) % columns)) weight[i] = 0.0f;
+  }
+  const std::vector<float> paper = pushPull(level, weight, columns, rows);
+  parallelFor(context, out.height, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const RowBetweenCells row(paper, columns, cellPx, y);
+      const int cellRow = std::min(y / cellPx, rows - 1);
+      for (int x = 0; x < out.width; ++x) {
+        if (inside.at(std::min(x / cellPx, columns - 1), cellRow)) continue;
+        const double noise = grain * (grainAt(x, y) - kGrainMean) / kGrainSigma;
+        out.row(y)[x] = static_cast<std::uint16_t>(std::clamp(row.at(x) + noise, 0.0, 65535.0));
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace batten

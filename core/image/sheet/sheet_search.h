@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "core/base/run_context.h"
+#include "core/image/colour_image.h"
+#include "core/image/grey_image.h"
+#include "core/image/sheet/binding_holes.h"
+#include "core/image/sheet/paper_sheet.h"
+
+namespace batten {
+
+/// What of a picture is not the paper that was drawn on.
+struct SheetSearch {
+  int cellPx = 1;                     ///< [px] What one pixel of `holes->cells` covers a side.
+  std::optional<BindingHoles> holes;  ///< Absent: none were found.
+  std::optional<PaperSheet> sheet;    ///< Absent: the paper fills the picture, or where it ends is doubtful.
+};
+
+/// Both are found on one set of cells. Empty when cancelled.
+SheetSearch searchSheet(const GreyImage&, const ColourImage&, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/threshold/binarize.h"
+
+#include <cmath>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/faint_lines.h"
+#include "core/image/bits/mark_rows.h"
+#include "core/image/bits/run_pieces.h"
+#include "core/image/threshold/level_masks.h"
+
+namespace batten {
+namespace {
+
+/// A speck of the default 20 px has a box of 8 px across; other areas in proportion.
+constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;
+constexpr int kRowShare = 4;  // a mark that lies in a row may be so many times smaller than a speck
+
+/// The ink with the dashes and dots of broken lines among the specks that were dropped. @param all what was ink before.
+BitImage withRows(BitImage ink, const BitImage& all, const BitImage& certain, int area, const RunContext& context) {
+  const PieceRule least{.minArea = (area + kRowShare - 1) / kRowShare, .seeds = &certain};
+  const BitImage marks = keepPieces(without(all, ink), least, context);
+  if (context.isCancelled() || marks.count() == 0) return ink;
+  const BitImage rows = marksInRows(marks, either(ink, marks), context);
+  return either(std::move(ink), rows);
+}
+
+BitImage withoutNoiseHoles(BitImage ink, int area, const RunContext& context) {
+  BitImage filled = ink;
+  fillHoles(filled, area, context);
+  const auto inked = static_cast<double>(ink.count());
+  return static_cast<double>(filled.count()) - inked <= kMeshShare * inked ? std::move(filled) : std::move(ink);
+}
+
+}  // namespace
+
+Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresholds, const ThresholdParams& params,
+                          const RunContext& context, int pixelsPerPx) {
+  if (const auto error = validate(params)) return fail(*error);
+  try {
+    if (image.width <= 0 || image.height <= 0) return BitImage();
+    // Folds are taken out before the picture is smoothed: a sharp step and a smoothed one would differ.
+    const std::vector<PaperFold>& folds = thresholds.paper.folds;
+    const GreyImage flat = folds.empty() ? GreyImage() : withoutFolds(image, folds, context);
+    if (context.isCancelled()) return cancelled();
+    LevelMasks masks = compareWithLevels(folds.empty() ? image : flat, thresholds, params, context);
+    if (context.isCancelled()) return cancelled();
+    BitImage ink = masks.ink;
+    if (params.speckArea > 0) {
+      const double diagonal = kDiagonalPerRootArea * std::sqrt(static_cast<double>(params.speckArea));
+      ink = keepPieces(ink, {.minArea = params.speckArea, .minDiagonal = diagonal, .seeds = &*masks.certain}, context);
+    }
+    if (context.isCancelled()) return cancelled();
+    if (params.reach < 1.0) ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
+    if (context.isCancelled()) return cancelled();
+    if (params.speckArea > 0) ink = withRows(std::move(ink), masks.ink, *masks.certain, params.speckArea, context);
+    if (context.isCancelled()) return cancelled();
+    if (!thresholds.holesArePaper) ink = withoutNoiseHoles(std::move(ink), params.holeArea, context);
+    if (context.isCancelled()) return cancelled();
+    return ink;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the mask; scan at a lower resolution or crop.");
+  }
+}
+
+}  // namespace batten

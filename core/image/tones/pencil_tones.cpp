@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/tones/pencil_tones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/image/grown_mask.h"
+#include "core/image/tones/pencil_lines.h"
+#include "core/image/tones/tone_look.h"
+
+namespace batten {
+namespace {
+
+// PencilPage::darknessAlike. A pen has one darkness, a pencil that shades has all: .53 to 1 of ink on drawings, .1 to
+// .42 of pencil and charcoal.
+constexpr double kMostAlike = 0.47;
+constexpr double kFaintestTone = 8.0, kFaintestShare = 0.15;  // [of 255], of the darkness of lines: less is paper
+constexpr double kLeastDark = 0.375;  // of the darkness of lines, in the mean: ink that is torn is thresholded there
+constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step within a brush; shades fade farther
+constexpr double kLeastBesideTone = 0.15;  // of the length of its border: lines on a tone and beside it
+constexpr double kBesideTone = 2.0;        // [widths] from a tone: lines along its border
+constexpr double kBesideLines = 1.0;       // [widths] from a line: beyond its blurred border
+constexpr double kLeastPatch = 4.0;  // [widths] side of a square as large as what shows of a tone beside its lines
+// Of its darkness: the mean deviation. Of lines and paper between them, which are two darknesses, it is twice the share
+// of the paper; where they leave less than that, nothing can be told from a tone.
+constexpr double kMostUneven = 0.75;
+constexpr double kLeastLineGain = 0.8, kMostLineGain = 4.0;  // of lines: more would deepen noise on faint ones
+constexpr double kSolidRim = 1.5;                            // [widths] around a solid: its blurred edge stays
+constexpr std::uint8_t kPaper = 252;                         // [of 255] what is as bright is left as it is
+
+/// Whether there are places enough that are darker than the paper near by in the mean, whatever grain is in them: where
+/// lines cross there are a few. It is asked of every page, and what comes after takes a quarter of a page's time.
+bool hasDarkPlaces(const GreyImage& page, const RunContext& context) {
+  constexpr int kMeanPx = 4, kWide = 3, kNear = 27;  // [px] side of a mean; [cells] dark all over; of paper near by
+  constexpr double kDark = 0.9;
+  constexpr int kLeastPlaces = 64;  // a square of 40 px
+  const GreyImage cells = reducedPage(page, kMeanPx, context);
+  const cv::Mat1w means(cells.height, cells.width, const_cast<std::uint16_t*>(cells.pixels.data()));
+  const auto brightest = [&](int side) {
+    cv::Mat1w out;
+    cv::dilate(means, out, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+    return out;
+  };
+  return cv::countNonZero(brightest(kWide) < kDark * brightest(kNear)) >= kLeastPlaces;
+}
+
+cv::Mat disc(int radius) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1}); }
+
+cv::Mat1b borderOf(const cv::Mat1b& mask) { return mask & (shrunkMask(mask, 1) == 0); }
+
+/// For each label the sum of the values where the mask is not 0.
+std::vector<double> sumsOf(const cv::Mat1i& labels, int count, const cv::Mat1b& mask, const cv::Mat1f& values) {
+  std::vector<double> sums(count, 0.0);
+  for (int y = 0; y < labels.rows; ++y)
+    for (int x = 0; x < labels.cols; ++x)
+      if (mask(y, x) != 0) sums[labels(y, x)] += static_cast<double>(values(y, x));
+  return sums;
+}
+
+/// What is black or as dark as the lines beside it, and ends sharply.
+cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lineLevel) {
+  cv::Mat1f ground, level;
+  page.ground.convertTo(ground, CV_32F);
+  lineLevel.convertTo(level, CV_32F);
+  cv::Mat1b dark = shaded & ((255.0 - ground > kMostOfLines * (255.0 - level)) | (ground < 255.0 - kDarkestTone));
+  cv::morphologyEx(dark, dark, cv::MORPH_OPEN, disc(static_cast<int>(std::lround(page.widthPx))));
+  const cv::Mat1f calm = blurredTone(page.level, page.widthPx);
+  cv::Mat1f darkest, brightest;
+  cv::erode(calm, darkest, disc(page.brush));
+  cv::dilate(calm, brightest, disc(page.brush));
+  cv::Mat1i labels;
+  const int count = cv::connectedComponents(dark, labels, 8, CV_32S);
+  const cv::Mat1b border = borderOf(dark);
+  const std::vector<double> steps = sumsOf(labels, count, border, brightest - darkest);
+  const std::vector<double> depths = sumsOf(labels, count, border, 255.0 - darkest);
+  std::vector<std::uint8_t> isSolid(count, 0);
+  for (int k = 1; k < count; ++k) isSolid[k] = steps[k] >= kSharpEnd * depths[k] ? 255 : 0;
+  return labelled(labels, isSolid);
+}
+
+/// For each tone the length of the lines on it and beside it. [px]
+std::vector<double> linesBeside(const PencilPage& page, const cv::Mat1i& tones, int count, const cv::Mat1b& lines) {
+  constexpr double kWidthsOfMask = 1.3;  // the width of a line as it is found
+  cv::Mat1f outside;
+  cv::Mat1i nearest;
+  cv::distanceTransform(tones == 0, outside, nearest, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+  std::vector<int> toneOf(static_cast<std::ptrdiff_t>(tones.total()) + 1, 0);
+  for (int y = 0; y < tones.rows; ++y)
+    for (int x = 0; x < tones.cols; ++x)
+      if (tones(y, x) != 0) toneOf[nearest(y, x)] = tones(y, x);
+  std::vector<double> lengths(count, 0.0);
+  for (int y = 0; y < tones.rows; ++y)
+    for (int x = 0; x < tones.cols; ++x)
+      if (lines(y, x) != 0 && static_cast<double>(outside(y, x)) < kBesideTone * page.widthPx)
+        lengths[toneOf[nearest(y, x)]] += 1.0 / (kWidthsOfMask * page.widthPx);
+  return lengths;
+}
+
+/// Shaded areas that are wider than lines and have some, and more than these and paper between them.
+cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lines) {
+  cv::Mat1i labels;
+  const int count = cv::connectedComponents(shaded, labels, 8, CV_32S);
+  const cv::Mat1f one = cv::Mat1f::ones(shaded.size());
+  const cv::Mat1b within = shaded & (grownMask(lines, static_cast<int>(std::ceil(kBesideLines * page.widthPx))) == 0);
+  const std::vector<double> borders = sumsOf(labels, count, borderOf(shaded), one);
+  const std::vector<double> lined = linesBeside(page, labels, count, lines);
+  const std::vector<double> bare = sumsOf(labels, count, within, one);
+  const std::vector<double> darkness = sumsOf(labels, count, within, 255.0 - page.level);
+  const std::vector<double> grain =
+      sumsOf(labels, count, within, cv::abs(page.level - blurredTone(page.level, page.widthPx)));
+  std::vector<std::uint8_t> isTone(count, 0);
+  for (int k = 1; k < count; ++k) {
+    const bool isWide = bare[k] >= std::pow(kLeastPatch * page.widthPx, 2);
+    const bool isDark = darkness[k] >= kLeastDark * page.darkness * bare[k];
+    if (isWide && isDark && lined[k] >= kLeastBesideTone * borders[k] && grain[k] < kMostUneven * darkness[k])
+      isTone[k] = 255;
+  }
+  return labelled(labels, isTone);
+}
+
+/// What is left of the depth at each place: little of grain, and lines are as deep as on paper.
+cv::Mat1f gainOf(const PencilPage& page, const cv::Mat1b& ground, const cv::Mat1b& lineLevel, const cv::Mat1b& lines,
+                 const cv::Mat1b& solids) {
+  cv::Mat1f gain(ground.size(), static_cast<float>(ToneAreas::kGrainGain)), depth;
+  cv::subtract(ground, lineLevel, depth, cv::noArray(), CV_32F);
+  cv::Mat1f ofLines = page.darkness / cv::max(depth, 1.0);
+  ofLines = cv::min(cv::max(ofLines, kLeastLineGain), kMostLineGain);
+  gain.setTo(1.0f, grownMask(solids, static_cast<int>(std::ceil(kSolidRim * page.widthPx))));
+  ofLines.copyTo(gain, lines);
+  return blurredTone(gain, 0.3 * page.widthPx);
+}
+
+std::vector<std::uint8_t> bytesOf(const cv::Mat1b& picture) { return {picture.begin(), picture.end()}; }
+
+ToneAreas areasOf(const PencilPage& page, const cv::Mat1b& tones, const cv::Mat1b& solids, const cv::Mat1b& lines,
+                  const cv::Mat1b& lineLevel) {
+  const cv::Mat1b broad = grownMask(lines, static_cast<int>(std::ceil(0.5 * page.widthPx)));
+  const cv::Mat1b beside = (broad == 0) & (grownMask(solids, 1) == 0);
+  // A line along the border of a tone has tone on one side and paper on the other.
+  cv::Mat1b ground = fromBeside(roundedTone(meanOfMasked(page.level, beside, page.widthPx)), beside == 0);
+  const cv::Mat1b gain = roundedTone(ToneAreas::kGainUnit * gainOf(page, ground, lineLevel, broad, solids));
+  ground.setTo(255, (grownMask(tones, page.brush) & (solids == 0) & (page.smooth < kPaper)) == 0);
+  ToneAreas areas;
+  areas.columns = ground.cols, areas.rows = ground.rows;
+  areas.ground = bytesOf(ground);
+  areas.gain = bytesOf(gain);
+  for (int y = 0; y < ground.rows; ++y)
+    for (int x = 0; x < ground.cols; ++x)
+      areas.paper.push_back(cv::saturate_cast<std::uint8_t>(page.paper.at(x + 0.5, y + 0.5)));
+  areas.share = static_cast<double>(cv::countNonZero(ground < kClearGround)) / static_cast<double>(ground.total());
+  return areas;
+}
+
+}  // namespace
+
+std::optional<ToneAreas> findPencilTones(const ToneCopy& copy, const RunContext& context) {
+  const GreyImage& searched = copy.searched();
+  if (context.isCancelled() || !hasDarkPlaces(searched, context)) return std::nullopt;
+  const std::optional<PencilPage> look = lookAtPencil(searched, context);
+  if (!look || context.isCancelled() || look->darknessAlike > kMostAlike) return std::nullopt;
+  const cv::Mat1b shaded = look->ground < 255.0 - std::max(kFaintestTone, kFaintestShare * look->darkness);
+  if (cv::countNonZero(shaded) == 0) return std::nullopt;
+  const cv::Mat1b lines = linesOnTones(*look, shaded, context);
+  if (context.isCancelled() || cv::countNonZero(lines) == 0) return std::nullopt;
+  const cv::Mat1b lineLevel = levelOfLines(*look, lines);
+  const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel);
+  const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines);
+  if (context.isCancelled() || cv::countNonZero(tones) == 0) return std::nullopt;
+  ToneAreas areas = areasOf(*look, tones, solids, lines, lineLevel);
+  areas.pixelsPerPx = copy.pixelsPerPx;
+  areas.lineWidthPx = look->widthPx * copy.pixelsPerPx;
+  areas.lineDarkness = look->darkness;
+  return areas;
+}
+
+}  // namespace batten
