@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+
+#include "core/base/angle.h"
 
 namespace batten {
 
@@ -11,6 +14,9 @@ using Vec2 = Eigen::Vector2d;
 
 /// z component of a x b: positive when b lies to the left of a in a frame with y up.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// [deg] 0..180 between two directions.
+inline double turnDeg(const Vec2& a, const Vec2& b) { return std::atan2(std::abs(cross(a, b)), a.dot(b)) * kDegPerRad; }
 
 /// `v` turned by +90 degrees in a frame with y up: the left normal of a direction.
 inline Vec2 leftNormal(const Vec2& v) { return {-v.y(), v.x()}; }

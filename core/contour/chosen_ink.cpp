@@ -9,7 +9,7 @@
 namespace batten {
 namespace {
 
-double squaredDistanceTo(const InkRun& run, const Vec2& px) {
+double squaredDistanceToRun(const InkRun& run, const Vec2& px) {
   const double x = std::clamp(px.x(), static_cast<double>(run.x0), static_cast<double>(run.x1));
   const double y = std::clamp(px.y(), static_cast<double>(run.y), run.y + 1.0);
   return (px - Vec2(x, y)).squaredNorm();
@@ -23,7 +23,7 @@ std::optional<int> nearestPiece(const RunPieces& pieces, const Vec2& px, double 
   double least = reachPx * reachPx;
   std::optional<int> piece;
   for (; run != pieces.runs.end() && run->y <= px.y() + reachPx; ++run) {
-    const double distance = squaredDistanceTo(*run, px);
+    const double distance = squaredDistanceToRun(*run, px);
     if (distance > least || (distance == least && piece)) continue;
     least = distance;
     piece = pieces.piece[run - pieces.runs.begin()];

@@ -2,6 +2,7 @@
 #include "core/contour/contour_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "core/polyline/polyline_tools.h"

@@ -14,7 +14,7 @@
 #include "core/contour/centreline/ends/meeting_ends.h"
 #include "core/contour/centreline/ends/near_ends.h"
 #include "core/contour/centreline/junction/junction_choices.h"
-#include "core/contour/centreline/placing/fine_lines.h"
+#include "core/contour/fine_lines.h"
 #include "core/contour/ink/blots.h"
 #include "core/contour/ink/faint_marks.h"
 #include "core/contour/ink/ink_split.h"
@@ -32,7 +32,6 @@
 #include "core/contour/untraced_ink.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

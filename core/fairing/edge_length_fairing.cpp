@@ -26,7 +26,7 @@ constexpr int kPathDegree = 5;  // of a path whose edge lengths can be moved
 constexpr int kSamples = 801;
 /// Bisections of the share of the way to the profile, and the part of the tolerance that ends them.
 constexpr int kBisections = 12;
-constexpr double kUsedShare = 0.97;  // of the tolerance
+constexpr double kUsedByLengthsShare = 0.97;  // of the tolerance
 // measured at few for a guess, then at many
 constexpr int kFewPlaces = 100, kManyPlaces = 2000, kPlacesPerPiece = 64;
 
@@ -164,7 +164,7 @@ class EdgeLengthFairing {
       inside = share;
       best = FairedCurve{std::move(*curve), {}};
       best->report.maxDeviationMm = *away;
-      if (i == 0 || *away > kUsedShare * params_.toleranceMm) break;
+      if (i == 0 || *away > kUsedByLengthsShare * params_.toleranceMm) break;
     }
     if (!best) return std::nullopt;
     best->report.neededMm = needed;

@@ -26,14 +26,14 @@ constexpr int kBesidePx = 3;  // across the direction, where the paper beside a 
 // has smoothed rises by as much.
 constexpr float kLeastPaperRise = 0.4f;
 constexpr float kLeastRiseGrey = 4.0f;  // [grey] noise of the page rises less
-constexpr float kPaperBarShare = 0.5f;  // of the rise: what is so much darker than both its other sides is a bar
+constexpr float kThinBarShare = 0.5f;   // of the rise: what is so much darker than both its other sides is a bar
 constexpr int kLeastPaperArea = 8;      // [px^2] two pixels of the page
 
 // Of a page as it is: the ink on either side lies within a stroke's width.
 constexpr double kReachWidths = 1.25;
 constexpr int kMostNarrowPx = 16;
 // [stroke widths, as thresholded] Strokes that leave less between them were often drawn over one another.
-constexpr double kLeastPaperWidths = 1.25;
+constexpr double kLeastBetweenWidths = 1.25;
 // [stroke widths] Half of what two strokes and the paper between them are broad at least, less an octagon's corners.
 constexpr double kThickWidths = 0.75;
 // Within the ink of a pencil.
@@ -96,8 +96,7 @@ class NarrowPaper {
     if (ink > limits_.mostInkShare * paper) return 0.0f;
     if (rise < std::max(kLeastRiseGrey, limits_.leastRise * (paper - ink))) return 0.0f;
     const RayStep across = ray.across();
-    const bool isBar =
-        std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kPaperBarShare * rise;
+    const bool isBar = std::min(brightest(x, y, across), brightest(x, y, across.back())) - here >= kThinBarShare * rise;
     return isBar ? 0.0f : rise;
   }
   template <class Choose>
@@ -216,13 +215,13 @@ BitImage withoutNarrowPaper(BitImage ink, const GreyImage& image, const PaperBac
 BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBackground& paper, double penPx,
                             const RunContext& context) {
   const int reachPx = reachOf(penPx);
-  if (kLeastPaperWidths * penPx > 2.0 * reachPx) return ink;  // wider than is looked for
+  if (kLeastBetweenWidths * penPx > 2.0 * reachPx) return ink;  // wider than is looked for
   const int steps = std::max(1, static_cast<int>(kThickWidths * penPx));
   const BitImage thick = shrunken(ink, steps, context);
   if (context.isCancelled() || thick.count() == 0) return ink;
   const BitImage candidates = both(grown(thick, steps, context), ink);
   if (context.isCancelled()) return ink;
-  return opened(std::move(ink), candidates, image, paper, {reachPx, kLeastPaperWidths * penPx}, context);
+  return opened(std::move(ink), candidates, image, paper, {reachPx, kLeastBetweenWidths * penPx}, context);
 }
 
 BitImage clearPaper(const BitImage& ink, const GreyImage& image, const PaperBackground& paper, double penPx,

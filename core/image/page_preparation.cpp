@@ -15,7 +15,8 @@
 #include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/remove_rulings.h"
 #include "core/image/ruling/ruling_count.h"
-#include "core/image/sheet/sheet_search.h"
+#include "core/image/sheet/paint_over.h"
+#include "core/image/sheet/sheet_and_holes.h"
 #include "core/image/threshold/region_values.h"
 #include "core/image/tones/pencil_tones.h"
 #include "core/image/tones/tone_areas.h"
@@ -112,13 +113,12 @@ void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& con
   page.notes.push_back(rulingNote(page.rulings));
 }
 
-void paintOverHoles(const Scan& scan, const BindingHoles& holes, int cellPx, PreparedPage& page,
-                    const RunContext& context) {
+void paintOverHoles(const Scan& scan, const BindingHoles& holes, PreparedPage& page, const RunContext& context) {
   BitImage inside(holes.cells.width, holes.cells.height);
   for (int j = 0; j < inside.height; ++j) {
     for (int i = 0; i < inside.width; ++i) inside.set(i, j, !holes.cells.at(i, j));
   }
-  page.grey = paintedOver(greyOf(scan, page), inside, cellPx, context);
+  page.grey = paintedOver(greyOf(scan, page), inside, holes.cellPx, context);
   page.bindingHoles = holes.count;
   page.notes.push_back("A row of " + std::to_string(holes.count) +
                        " binding holes was removed; paper.sheet=off keeps it.");
@@ -133,8 +133,8 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
                          "paper.sheet=off keeps it.");
     return;
   }
-  auto [cellPx, holes, sheet] = searchSheet(scan.grey, scan.colour, context);
-  if (holes) paintOverHoles(scan, *holes, cellPx, page, context);
+  auto [holes, sheet] = findSheetAndHoles(scan.grey, scan.colour, context);
+  if (holes) paintOverHoles(scan, *holes, page, context);
   if (context.isCancelled() || !sheet) return;
   page.grey = onlyTheSheet(greyOf(scan, page), *sheet, context);
   page.notes.push_back(std::to_string(std::lround(100.0 * sheet->outsideShare)) +

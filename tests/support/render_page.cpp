@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/render_page.h"
 
+#include <turbojpeg.h>
+
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <random>
+#include <stdexcept>
+#include <vector>
 
 namespace batten::test {
 namespace {
@@ -63,16 +68,20 @@ void blur(std::vector<float>& image, int width, int height, double sigma) {
 }
 
 void throughJpeg(GreyImage& grey, int quality) {
-  cv::Mat page(grey.height, grey.width, CV_8U);
-  for (int y = 0; y < grey.height; ++y)
-    for (int x = 0; x < grey.width; ++x)
-      page.at<unsigned char>(y, x) = static_cast<unsigned char>(grey.row(y)[x] / 257);
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", page, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-  const cv::Mat back = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
-  for (int y = 0; y < grey.height; ++y)
-    for (int x = 0; x < grey.width; ++x)
-      grey.row(y)[x] = static_cast<std::uint16_t>(back.at<unsigned char>(y, x) * 257);
+  std::vector<unsigned char> page(grey.pixels.size());
+  for (std::size_t i = 0; i < page.size(); ++i) page[i] = static_cast<unsigned char>(grey.pixels[i] / 257);
+  const tjhandle writer = tjInitCompress(), reader = tjInitDecompress();
+  unsigned char* file = nullptr;
+  unsigned long size = 0;
+  const int failed =
+      tjCompress2(writer, page.data(), grey.width, 0, grey.height, TJPF_GRAY, &file, &size, TJSAMP_GRAY, quality,
+                  TJFLAG_ACCURATEDCT) |
+      tjDecompress2(reader, file, size, page.data(), grey.width, 0, grey.height, TJPF_GRAY, TJFLAG_ACCURATEDCT);
+  tjFree(file);
+  tjDestroy(writer);
+  tjDestroy(reader);
+  if (failed != 0) throw std::runtime_error("the page does not go through JPEG");
+  for (std::size_t i = 0; i < page.size(); ++i) grey.pixels[i] = static_cast<std::uint16_t>(page[i] * 257);
 }
 
 }  // namespace

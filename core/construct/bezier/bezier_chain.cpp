@@ -17,9 +17,9 @@ constexpr double kKernelWidths = 8.0;  // standard deviations of a Gaussian; bey
 /// Weights of one px: offset of a joint, turn of a joint (over a quarter of a segment), sagitta of a segment that the
 /// curvature misses, change of that miss along a segment. Tuned on ellipses and roof lines with noise of 0 to 0.3 px.
 constexpr double kOffsetWeight = 0.2;
-constexpr double kPinnedWeight = 1e6;  // of the offset of an end: it stays where it is
-constexpr double kAngleWeight = 0.05;  // of the turn of a joint
-constexpr double kLevelWeight = 0.05;  // of the sagitta that is missed
+constexpr double kPinnedOffsetWeight = 1e6;  // of the offset of an end: it stays where it is
+constexpr double kAngleWeight = 0.05;        // of the turn of a joint
+constexpr double kLevelWeight = 0.05;        // of the sagitta that is missed
 constexpr double kChangeWeight = 3.0;  // of its change: the path may lie beside its target over a bend, but is fair
 /// Places within a piece, as shares of its length, at which the curvature is compared; the start stands for the joint.
 constexpr std::array<double, 5> kPlaces = {0.0, 0.2, 0.4, 0.6, 0.8};
@@ -92,7 +92,7 @@ class Chain {
       block.columns = {static_cast<int>(3 * i), static_cast<int>(3 * i) + 1};
       block.size = 2;
       block.evaluate = [pinned](std::span<const double> x, std::span<double> r) {
-        r[0] = (pinned ? kPinnedWeight : kOffsetWeight) * x[0];
+        r[0] = (pinned ? kPinnedOffsetWeight : kOffsetWeight) * x[0];
         r[1] = kAngleWeight * x[1];
       };
       result.push_back(std::move(block));

@@ -15,8 +15,8 @@ struct FairNoise {
   bool willBeCut = false;
 };
 
-/// The rest, once noise and cut-off are known and `rough` is set: sets `result`, `squares` and `pointCount`. Leaves
-/// `result` absent when cancelled.
+/// The rest, the structure of its curvature and knot removal (fewest_knots.h), once noise and cut-off are known and
+/// `rough` is set: sets `result`, `squares` and `pointCount`. Leaves `result` absent when cancelled.
 void finishFairPiece(FairPiece&, const ConstructPiece&, const FairNoise&, const FairFitOptions&, const RunContext&);
 
 }  // namespace batten

@@ -32,7 +32,8 @@ struct FewestKnotsResult {
 
 /// The quintic with the fewest spans that stays within the limits and whose curvature has as many extrema as that of
 /// the full curve: least squares on knots that share out the sixth derivative evenly (de Boor, A Practical Guide to
-/// Splines, ch. XII), their number found by trial. Absent when nothing is gained.
+/// Splines, ch. XII), their number found by trial. The last step of the fair fit (fair_finish.h). Absent when nothing
+/// is gained.
 std::optional<FewestKnotsResult> withFewestKnots(const UniformQuintic& full, const FewestKnotsLimits&,
                                                  CancelCheck check = {});
 

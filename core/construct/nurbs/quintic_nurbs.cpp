@@ -22,7 +22,7 @@ constexpr int kQuintic = 5;  // degree
 /// Of the distances, of which 000 takes a third.
 constexpr double kPaperDivisor = 3.0;
 /// Weight of a pinned end against the other equations: what is left of the misfit is its square smaller, 1e-14.
-constexpr double kPinnedWeight = 1e7;
+constexpr double kPinnedPlaceWeight = 1e7;
 /// Stations whose distances differ by more than this get knots at their distances instead of uniform ones.
 constexpr double kUneven = 1.05;
 
@@ -50,7 +50,7 @@ std::optional<std::vector<Vec2>> solveLeastSquares(const SplineSpace& space, con
   };
   for (std::size_t i = 0; i < m; ++i) {
     const bool pinned = (i == 0 && in.pinStart) || (i + 1 == m && in.pinEnd);
-    add(space.places[i], 0, in.points[i], pinned ? kPinnedWeight : 1.0);
+    add(space.places[i], 0, in.points[i], pinned ? kPinnedPlaceWeight : 1.0);
     if (usesGradient(in, space.closed, i)) add(space.places[i], 1, in.derivatives[i], 1.0);
   }
   if (in.use == GradientUse::NaturalEnds && !space.closed) {

@@ -11,15 +11,15 @@
 
 #include "core/contour/centreline/ends/faint_ends.h"
 #include "core/contour/centreline/ends/gaps.h"
-#include "core/contour/centreline/ends/on_ink.h"
+#include "core/contour/centreline/junction/find_stroke_paths.h"
 #include "core/contour/centreline/junction/junction_choices.h"
-#include "core/contour/centreline/junction/stroke_paths.h"
+#include "core/contour/centreline/on_ink.h"
+#include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/paper_faces.h"
 #include "core/contour/centreline/pencil/graininess.h"
 #include "core/contour/centreline/pencil/pencil_bodies.h"
 #include "core/contour/centreline/placing/refinement.h"
 #include "core/contour/centreline/profile/grey_across.h"
-#include "core/contour/centreline/profile/page_scale.h"
 #include "core/contour/centreline/skeleton/skeleton.h"
 #include "core/contour/intent/intended_lines.h"
 #include "core/contour/merge/stroke_merge.h"
@@ -142,7 +142,7 @@ RefinedStrokes placeOnPage(const std::vector<StrokePath>& paths, const Grainines
 }
 
 // [grey] by which a stroke is darker than the paper on both its sides.
-double depthOfInk(const StrokePath& s, const GreyImage& grey) {
+double depthBesidePaper(const StrokePath& s, const GreyImage& grey) {
   constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;  // from the middle: paper beyond the blur of the border
   const auto level = [&](const Vec2& at) { return levelOfPixel(grey, at); };
   double sum = 0.0;
@@ -211,7 +211,7 @@ int dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const Centr
     if (!isBetweenJunctions(s) && isPencil && widths < kGrainWidths * minWidths) {
       const bool isStroke = s.length() >= minWidths * usualPx && s.widthPx() <= kSamePencil * usualPx;
       const double usualDepth = grain->depthAt(s.points[s.points.size() / 2].at);
-      if (depthOfInk(s, grey) < (isStroke ? kHalfLevel : kAsDark) * usualDepth) continue;
+      if (depthBesidePaper(s, grey) < (isStroke ? kHalfLevel : kAsDark) * usualDepth) continue;
     }
     kept.push_back(std::move(s));
   }

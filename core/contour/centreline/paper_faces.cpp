@@ -11,10 +11,10 @@ namespace batten {
 namespace {
 
 constexpr double kWithinOthersWidths = 0.5;  // [stroke widths] at an end in another stroke: the half of that one
-constexpr double kReachRadii = 1.5,
-                 kPaperReachPx = 2.0;  // from the middle to the paper: the ink may be broader on one side
-constexpr double kStepPx = 0.5;        // of the search for paper: no pixel on the way is left out by half
-constexpr int kChordPoints = 2;        // to either side: a single step of a skeleton has eight directions
+// From the middle to the paper: the ink may be broader on one side.
+constexpr double kFaceReachRadii = 1.5, kFaceReachPx = 2.0;
+constexpr double kStepPx = 0.5;  // of the search for paper: no pixel on the way is left out by half
+constexpr int kChordPoints = 2;  // to either side: a single step of a skeleton has eight directions
 
 // [px] from the start to every point.
 std::vector<double> arcsOf(const StrokePath& stroke) {
@@ -38,7 +38,7 @@ bool PaperFaces::isFound() {
 
 // Of the nearest paper in a direction.
 std::optional<int> PaperFaces::faceBeside(const StrokePathPoint& from, const Vec2& towards) const {
-  const double reach = kReachRadii * static_cast<double>(from.radius) + kPaperReachPx;
+  const double reach = kFaceReachRadii * static_cast<double>(from.radius) + kFaceReachPx;
   for (double away = 0.0; away <= reach; away += kStepPx) {
     const Vec2 at = from.at + away * towards;
     const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));

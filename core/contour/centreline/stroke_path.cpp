@@ -13,7 +13,7 @@ namespace {
 constexpr double kForwardCos = 0.2;  // 78 degrees: a direction that points away by more looks back
 
 /// [px] Twice the median; at least 1, and 1 of none.
-double twiceMedian(std::vector<float>&& radii) {
+double twiceMedian(std::vector<float> radii) {
   return radii.empty() ? 1.0 : std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
 }
 

@@ -31,10 +31,10 @@ struct StrokePath {
   std::array<bool, 2> tip = {true,
                              true};  ///< The start, the end is a free end of the ink; else it ends in another stroke.
   double length() const;
-  double widthPx() const;  ///< Median.
+  double widthPx() const;  ///< Median; at least 1, and 1 of none.
 };
 
-/// [px]
+/// [px] A closed one includes the way back to its start.
 double strokePathLength(const std::vector<StrokePathPoint>& points, bool closed);
 
 /// [px] Median over all points of the stroke paths chosen by their index; at least 1, and 1 of none.

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/base/angle.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/contour/centreline/pencil/stroke_mask.h"
+#include "core/contour/centreline/pencil/grain_closing.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink/ribbons.h"
 #include "core/image/bits/bit_disc.h"

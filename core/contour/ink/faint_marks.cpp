@@ -22,9 +22,9 @@ constexpr double kAroundPens = 40.0;    // [pen widths] strokes that near lie in
 constexpr double kStepPens = 4.0;       // from one place on a line to the next
 constexpr double kLeastBesidePx = 3.0;  // from ink to the paper beside it: its blurred edge
 constexpr double kDarkShare = 0.25;     // of the pixels of a mark: its middle, without its blurred edge
-constexpr int kFewestMarkSamples = 20;  // of strokes, around a mark
-constexpr double kLeastOfPage = 0.5;    // of the contrast of the page's lines: grain makes fainter lines, too
-constexpr int kFewestPaper = 6;         // [px] around a mark
+constexpr int kFewestStrokeSamples = 20;  // of strokes, around a mark
+constexpr double kLeastOfPage = 0.5;      // of the contrast of the page's lines: grain makes fainter lines, too
+constexpr int kFewestPaper = 6;           // [px] around a mark
 
 struct Box {
   int x0, y0, x1, y1;  // pixels [x0, x1) x [y0, y1)
@@ -106,7 +106,7 @@ class LineContrasts {
         if (cell != cells_.end()) near.insert(near.end(), cell->second.begin(), cell->second.end());
       }
     }
-    if (!ofPage_ || std::ssize(near) < kFewestMarkSamples) return ofPage_;
+    if (!ofPage_ || std::ssize(near) < kFewestStrokeSamples) return ofPage_;
     return std::max(upperMedian(near), kLeastOfPage * *ofPage_);
   }
 

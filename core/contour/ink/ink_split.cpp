@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "core/contour/centreline/centreline.h"
-#include "core/contour/centreline/junction/stroke_paths.h"
+#include "core/contour/centreline/junction/find_stroke_paths.h"
+#include "core/contour/centreline/pencil/grain_closing.h"
 #include "core/contour/centreline/pencil/graininess.h"
-#include "core/contour/centreline/pencil/stroke_mask.h"
+#include "core/contour/centreline/pencil/stroke_split.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink/painted_ink.h"
 #include "core/contour/ink/pencil_solids.h"

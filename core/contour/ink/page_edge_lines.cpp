@@ -10,7 +10,6 @@
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/profile/stroke_profile.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contour/centreline/pencil/stroke_mask.h"
+#include "core/contour/centreline/pencil/grain_closing.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 

@@ -51,8 +51,8 @@ struct Filling {
   bool isSolid() const { return linePx > 0.0 && widthPx > coreWidth(linePx); }
 };
 
-std::map<int, Filling> measuredRibbon(const BitImage& fillings, const RunPieces& pieces, const BitImage& strokes,
-                                      const BitImage& shapes, const RunContext& context) {
+std::map<int, Filling> measuredFillings(const BitImage& fillings, const RunPieces& pieces, const BitImage& strokes,
+                                        const BitImage& shapes, const RunContext& context) {
   const BitImage besideShapes = grown(shapes, 1, context);
   MaskDistance inInk(strokes), inFilling(fillings);
   const auto disc = [](MaskDistance& distance, int x, int y) {
@@ -115,7 +115,7 @@ BitImage fillingsOfRibbons(const BitImage& fillings, const BitImage& strokes, co
                            const ContourSet& lines, const RunContext& context) {
   const RunPieces pieces = findPieces(fillings, Connectivity::Eight, context);
   if (context.isCancelled() || pieces.runs.empty()) return fillings;
-  std::map<int, Filling> byPiece = measuredRibbon(fillings, pieces, strokes, shapes, context);
+  std::map<int, Filling> byPiece = measuredFillings(fillings, pieces, strokes, shapes, context);
   noteLinesBeside(byPiece, pieces, lines);
   BitImage kept = fillings;
   for (const auto& [number, filling] : byPiece) {

@@ -30,7 +30,7 @@ constexpr double kBlurWidths = 0.4;        // [widths] standard deviation: about
 // paper varies up to twice as far to the dark side as to the bright.
 constexpr double kStandsOut = 4.0;
 constexpr double kOneSigma = 0.841, kTwoSigma = 0.977;  // quantiles of a normal variable, 1 and 2 above its median
-constexpr double kLeastGrainSigma = 0.29;               // [grey] of what is rounded to whole levels
+constexpr double kRoundingSigma = 0.29;                 // [grey] of what is rounded to whole levels
 constexpr int kFewestCells = 60;                        // of a ground: the upper quantile is then not a single cell
 // Of the contrast of the page's lines: pencil strokes of one hand differ by less, as in centreline.cpp.
 constexpr double kAsDarkAsLines = 0.8;
@@ -38,7 +38,7 @@ constexpr double kFaintOnWhite = 0.2;  // of that contrast, where the ground of 
 constexpr int kMostRounds = 12;        // of taking lines out: a row of faint dashes would be eaten up from its ends
 
 // [px] 0: not known.
-double widthOfLine(const Contour& line) {
+double meanWidthOf(const Contour& line) {
   const std::vector<float> widths = strokeWidthsOf(line.points);
   double sum = 0.0;
   for (const float width : widths) sum += static_cast<double>(width);
@@ -84,7 +84,7 @@ cv::Mat1b inkOfLongLines(const LinesOnGround& page, const ContourSet& set, const
       continue;
     }
     // The width, and a cell of blurred border at either side.
-    const double thick = widthOfLine(c) / page.cellPx + 2.0;
+    const double thick = meanWidthOf(c) / page.cellPx + 2.0;
     cv::polylines(ink, cells, c.closed, 255, std::clamp(static_cast<int>(std::lround(thick)), 1, kThickest));
   }
   if (!borders.empty()) cv::fillPoly(shapes, borders, 255);
@@ -142,7 +142,7 @@ double overNoise(const std::vector<GroundCell>& ground, const GroundCell& line, 
   for (const GroundCell& cell : ground) levels.push_back(above(cell));
   // Where clean paper shows, both lie on it.
   const double one = lowerQuantile(levels, kOneSigma), two = lowerQuantile(levels, kTwoSigma);
-  const double sigma = std::max(kLeastGrainSigma, two - one);
+  const double sigma = std::max(kRoundingSigma, two - one);
   return (one - sigma - above(line)) / sigma;
 }
 
@@ -180,7 +180,7 @@ std::optional<double> overGround(const Contour& c, const LinesOnGround& page) {
 
 // [grey] How much darker a line is than what lies beside it.
 double contrastOfLine(const Contour& c, const LinesOnGround& page) {
-  const double aside = 0.5 * widthOfLine(c) + kBesideLineWidths * page.widthPx;
+  const double aside = 0.5 * meanWidthOf(c) + kBesideLineWidths * page.widthPx;
   const auto step = static_cast<std::ptrdiff_t>(std::max(1.0, 0.5 * page.widthPx));
   const std::ptrdiff_t last = std::ssize(c.points) - 1;
   double sum = 0.0;
@@ -230,14 +230,14 @@ ShortLines shortLinesOf(const ContourSet& set) {
   std::vector<double> widths;
   for (const Contour& c : set.contours) {
     lines.isShort.push_back(c.kind == ContourKind::Centreline && c.points.size() > 1 &&
-                            c.lengthPx < kMostGrainWidths * widthOfLine(c));
-    if (lines.isShort.back()) widths.push_back(widthOfLine(c));
+                            c.lengthPx < kMostGrainWidths * meanWidthOf(c));
+    if (lines.isShort.back()) widths.push_back(meanWidthOf(c));
   }
   if (widths.empty()) return lines;
   lines.widthPx = upperMedian(widths);
   // Broad lines would be held against their own insides.
   for (std::size_t i = 0; i < set.contours.size(); ++i)
-    if (widthOfLine(set.contours[i]) > kMostBreadth * lines.widthPx) lines.isShort[i] = false;
+    if (meanWidthOf(set.contours[i]) > kMostBreadth * lines.widthPx) lines.isShort[i] = false;
   return lines;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/angle.h"
+#include "core/base/vec2.h"
 #include "core/contour/intent/merge_shares.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/point_grid.h"

@@ -94,7 +94,7 @@ double unevennessOf(const LabelledPiece& piece, const InkGraph& graph) {
   return all > 0.0 ? off / all : 0.0;
 }
 
-WidthByDirection widthsOfPieces(const LabelledPiece& piece, const InkGraph& graph) {
+WidthByDirection widthsByDirection(const LabelledPiece& piece, const InkGraph& graph) {
   constexpr int kTangentPx = 4;  // along the chain, to either side
   WidthByDirection widths;
   for (const int path : piece.paths) {
@@ -134,7 +134,7 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
   v.meanBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, v.area / std::max(1.0, pathsPx)))));
   // Of joined letters, what one letter has.
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
-  if (v.uneven >= kLeastUnevenness) v.widths = widthsOfPieces(piece, graph);
+  if (v.uneven >= kLeastUnevenness) v.widths = widthsByDirection(piece, graph);
   return v;
 }
 

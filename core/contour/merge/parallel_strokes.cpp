@@ -28,7 +28,7 @@ constexpr double kGapWidths = 3.0;     // along a line: so short a gap beside it
 constexpr double kLevelDistances = 2;  // distances between two lines: ends as near along them are level
 constexpr double kLeastCellPx = 3.0;   // of the grid of points
 // Distances and widths along a line before it can lie beside itself.
-constexpr double kOwnApart = 3.0, kOwnSideWidths = 4.0;
+constexpr double kItselfApart = 3.0, kItselfWidths = 4.0;
 constexpr double kLeastApart = 0.1;   // widths: nearer is the same line
 constexpr double kAsideWidths = 3.0;  // to either side of the place ahead
 constexpr double kAheadPx = 1.0;      // along the direction: points of a line are about one pixel apart
@@ -126,7 +126,7 @@ class SideFinder {
   bool isSamePlace(const DirectedLine& line, int a, int b, double apart) const {
     int along = std::abs(a - b);
     if (line.closed) along = std::min(along, line.count() - along);
-    return along < kOwnApart * apart + kOwnSideWidths * width_;
+    return along < kItselfApart * apart + kItselfWidths * width_;
   }
 
   bool touchesNothing(int l, int side) const {

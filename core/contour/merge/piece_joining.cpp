@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/base/statistics.h"
+#include "core/base/vec2.h"
 #include "core/contour/merge/stroke_graph.h"
 #include "core/contour/merge/stroke_lines.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/angle.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -17,7 +16,7 @@ constexpr double kSeamSmoothing = 3.0;           // points
 constexpr int kSeamReach = 12;                   // points on either side
 constexpr double kCurvedEnd = 0.5;               // of that: over less, a parabola follows the noise
 constexpr double kBentEnd = 0.5;                 // distances: means are bent so far from their ends,
-constexpr double kBentLineShare = 0.25;          // or for this part of a short one
+constexpr double kBentEndShare = 0.25;           // or for this part of a short one
 constexpr int kLongEnough = 8, kBeforeBend = 5;  // points: of a line with so many the direction is read before its end
 constexpr double kSeamAdvancePx = 1.0, kEndAdvancePx = 0.5;  // less ahead of a line it would fold: it is cut back
 constexpr double kMeetingSine = 0.3;  // 17 degrees: at a smaller angle the place of meeting is uncertain
@@ -54,8 +53,6 @@ void endLineAt(MeanLine& line, int side, const Vec2& place) {
 
 }  // namespace
 
-double turnDeg(const Vec2& a, const Vec2& b) { return std::atan2(std::abs(cross(a, b)), a.dot(b)) * kDegPerRad; }
-
 void reverseLine(MeanLine& line) {
   std::reverse(line.points.begin(), line.points.end());
   for (MeanPoint& p : line.points) p.tangent = -p.tangent;
@@ -89,7 +86,7 @@ void closeLine(MeanLine& line, double mostPx) {
 
 EndTangent endTangent(const MeanLine& line, int side, double distancePx) {
   const int n = line.count();
-  const int skip = static_cast<int>(std::min(kBentEnd * distancePx, kBentLineShare * n));
+  const int skip = static_cast<int>(std::min(kBentEnd * distancePx, kBentEndShare * n));
   const double reach = std::max(kLeastLookPx, std::min(kLook * distancePx, 0.5 * n));
   const auto point = [&](int k) -> const MeanPoint& { return line.points[side == 0 ? k : n - 1 - k]; };
   std::vector<double> s;

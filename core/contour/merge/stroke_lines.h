@@ -29,7 +29,4 @@ struct EndTangent {
 /// The start (side 0) or the end (1) of a line, fitted over about 1.5 distances.
 EndTangent endTangent(const MeanLine& line, int side, double distancePx);
 
-/// [deg] 0..180 between two directions.
-double turnDeg(const Vec2& a, const Vec2& b);
-
 }  // namespace batten

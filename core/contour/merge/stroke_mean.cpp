@@ -19,7 +19,7 @@ constexpr double kParallelCos = 0.985;  // 10 degrees: fully one line
 constexpr double kCrossingCos = 0.906;  // 25 degrees: another line
 constexpr double kLeastWeight = 0.02;   // at the very end of a stroke: alone it still is the line
 
-constexpr double kBesideMeanPx = 0.8;  // along a line, whose points are about 1 px apart: so near lies on the normal
+constexpr double kSameNormalPx = 0.8;  // along a line, whose points are about 1 px apart: so near lies on the normal
 constexpr double kFadingShare = 0.3;   // of the distance, in which the weight of a stroke falls to nothing
 constexpr double kEndDistances = 2.0;  // distances before the end of a stroke from which on its weight falls …
 constexpr double kEndParts = 3.0;      // … or a stroke's length over this, so that the middle of a short one keeps it
@@ -54,7 +54,7 @@ struct NearContact {
 using NearContacts = std::vector<std::vector<NearContact>>;  // by line
 
 // A stroke that crosses the normal of a point.
-struct Crossing {
+struct CrossedStroke {
   int line = 0, index = 0;
   double offset = 0.0, weight = 0.0;
 };
@@ -77,7 +77,7 @@ class MeanRound {
       : lines_(lines), distance_(distance), cells_(cellsOf(lines, distance)), contacts_(contacts) {}
 
   // The strokes beside a point, in a fixed order, so that sums come out the same whatever the order of the cells.
-  void find(int line, int index, std::vector<Crossing>& crossings) const {
+  void find(int line, int index, std::vector<CrossedStroke>& crossings) const {
     const MeanLine& here = lines_[line];
     const Vec2 &at = here.points[index].at, &t = here.points[index].tangent;
     const Vec2 n = leftNormal(t);
@@ -87,7 +87,7 @@ class MeanRound {
       const MeanPoint& there = other.points[place.index];
       const Vec2 d = there.at - at;
       const double along = d.dot(t);
-      if (std::abs(along) > kBesideMeanPx) return;
+      if (std::abs(along) > kSameNormalPx) return;
       if (place.line == line && isNear(here, index, place.index)) return;
       const Vec2& to = there.tangent;
       const double cosine = std::abs(to.dot(t));
@@ -97,23 +97,24 @@ class MeanRound {
       const double weight = static_cast<double>(there.weight) * endWeight(other, place.index) *
                             smoothStep((cosine - kCrossingCos) / (kParallelCos - kCrossingCos)) *
                             smoothStep((1.0 - std::abs(offset) / distance_) / kFadingShare);
-      const Crossing found{place.line, place.index, offset, weight};
-      for (Crossing& c : crossings) {
+      const CrossedStroke found{place.line, place.index, offset, weight};
+      for (CrossedStroke& c : crossings) {
         if (c.line != place.line) continue;
         if (std::abs(offset) < std::abs(c.offset)) c = found;
         return;
       }
       crossings.push_back(found);
     });
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.line < b.line; });
+    std::sort(crossings.begin(), crossings.end(),
+              [](const CrossedStroke& a, const CrossedStroke& b) { return a.line < b.line; });
   }
 
   // How far the point moves along its left normal, and the weight of all strokes there.
-  MeanShift shift(int line, int index, std::vector<Crossing>& crossings) const {
+  MeanShift shift(int line, int index, std::vector<CrossedStroke>& crossings) const {
     find(line, index, crossings);
     const double own = static_cast<double>(lines_[line].points[index].weight);
     double sum = 0.0, weights = own * std::max(kLeastWeight, endWeight(lines_[line], index)), all = own;
-    for (const Crossing& c : crossings) {
+    for (const CrossedStroke& c : crossings) {
       sum += c.weight * c.offset;
       weights += c.weight;
       all += c.weight;
@@ -159,13 +160,13 @@ NearContacts findNearContacts(const std::vector<MeanLine>& strokes, double dista
   const int gap = static_cast<int>(kNearContactGap * distance), nearEnd = static_cast<int>(distance);
   std::vector<std::vector<Beside>> stretches(strokes.size());
   parallelFor(context, static_cast<int>(strokes.size()), 1, [&](int begin, int end) {
-    std::vector<Crossing> crossings;
+    std::vector<CrossedStroke> crossings;
     for (int l = begin; l < end && !context.isCancelled(); ++l) {
       auto& mine = stretches[l];
       for (int i = 0; i < strokes[l].count(); ++i) {
         if (i % kPointsPerCheck == 0 && context.isCancelled()) return;
         round.find(l, i, crossings);
-        for (const Crossing& c : crossings) {
+        for (const CrossedStroke& c : crossings) {
           const auto open = std::find_if(mine.rbegin(), mine.rend(), [&](const Beside& b) {
             return b.other == c.line && i - b.to <= gap && std::abs(c.index - b.otherTo) <= 2 * gap;
           });
@@ -225,7 +226,7 @@ void moveToMean(std::vector<MeanLine>& means, double distancePx, const RunContex
     const MeanRound measure(means, std::max(1.0, distancePx), contacts);
     std::vector<MeanShift> shift(all.size());
     parallelFor(context, static_cast<int>(all.size()), kMeansPerBlock, [&](int begin, int end) {
-      std::vector<Crossing> crossings;
+      std::vector<CrossedStroke> crossings;
       for (int i = begin; i < end; ++i) shift[i] = measure.shift(all[i].line, all[i].index, crossings);
     });
     if (context.isCancelled()) break;

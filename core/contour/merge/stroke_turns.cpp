@@ -11,13 +11,13 @@
 namespace batten {
 namespace {
 
-constexpr double kSharpTurnRad = 0.87;     // 50 degrees
-constexpr double kStrokeTurnWidths = 1.5;  // stroke widths over which a turn is seen
-constexpr int kFewestReaches = 4;          // of a turn: a shorter line has none beside its ends
-constexpr int kLeastTurnReach = 4;         // points
-constexpr double kContinuesWidths = 4.0;   // stroke widths to the next line
-constexpr double kContinuesCos = 0.8;      // 37 degrees
-constexpr double kLeastEndReach = 8.0;     // points over which the direction of an end is taken
+constexpr double kSharpTurnRad = 0.87;    // 50 degrees
+constexpr double kTurnSeenWidths = 1.5;   // stroke widths over which a turn is seen
+constexpr int kFewestReaches = 4;         // of a turn: a shorter line has none beside its ends
+constexpr int kLeastTurnReach = 4;        // points
+constexpr double kContinuesWidths = 4.0;  // stroke widths to the next line
+constexpr double kContinuesCos = 0.8;     // 37 degrees
+constexpr double kLeastEndReach = 8.0;    // points over which the direction of an end is taken
 
 // The end of a stroke and the direction in which it would go on.
 struct StrokeEnd {
@@ -91,7 +91,7 @@ HandStrokes strokesOf(const std::vector<Contour>& lines, double distancePx) {
     const Contour& line = lines[l];
     const int n = static_cast<int>(line.points.size());
     width = std::max(width, widthOf(line));
-    const int reach = std::clamp(static_cast<int>(kStrokeTurnWidths * widthOf(line)), kLeastTurnReach,
+    const int reach = std::clamp(static_cast<int>(kTurnSeenWidths * widthOf(line)), kLeastTurnReach,
                                  std::max(kLeastTurnReach, static_cast<int>(0.5 * distancePx)));
     std::vector<int> cuts = n > kFewestReaches * reach ? sharpTurnsOf(line, reach) : std::vector<int>{};
     // Where no other stroke is near, it was the hand that turned.

@@ -17,20 +17,20 @@ namespace {
 // Robust standard deviation of the ink as part of its contrast. Drawn solids have 0 to .08, brushes .1 to .3, pencil
 // tone .3 to .8.
 constexpr double kUnevenBorder = 0.1;
-constexpr double kUnevenBesideOthers = 0.04;             // where most are uneven
-constexpr int kPointStep = 3;                            // points, of which the neighbours see the same ink
-constexpr int kArmPoints = 3;                            // points to either side: the course of the border
-constexpr double kInsidePx[] = {3, 6, 9};                // from the border
-constexpr double kOutsidePx = 5.0;                       // as is the paper
-constexpr int kFewestInk = 20, kFewestBorderPaper = 10;  // places that tell
-constexpr double kQuartilesInSigmas = 1.349;             // from the lower to the upper one of a normal distribution
+constexpr double kUnevenBesideOthers = 0.04;                   // where most are uneven
+constexpr int kPointStep = 3;                                  // points, of which the neighbours see the same ink
+constexpr int kArmPoints = 3;                                  // points to either side: the course of the border
+constexpr double kInsidePx[] = {3, 6, 9};                      // from the border
+constexpr double kOutsidePx = 5.0;                             // as is the paper
+constexpr int kFewestInkPlaces = 20, kFewestPaperPlaces = 10;  // places that tell
+constexpr double kQuartilesInSigmas = 1.349;  // from the lower to the upper one of a normal distribution
 
 bool isInk(const BitImage& ink, Vec2 at) {
   return ink.at(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
 }
 
 // Grey level 0..255, the mean of 3 x 3 pixels; absent: not all of them are ink, or paper, as asked for.
-std::optional<double> meanOfBorder(const GreyImage& grey, const BitImage& ink, Vec2 at, bool inside) {
+std::optional<double> meanOfNine(const GreyImage& grey, const BitImage& ink, Vec2 at, bool inside) {
   const int x0 = static_cast<int>(std::floor(at.x())) - 1, y0 = static_cast<int>(std::floor(at.y())) - 1;
   if (x0 < 0 || y0 < 0 || x0 + 3 > grey.width || y0 + 3 > grey.height) return std::nullopt;
   double sum = 0.0;
@@ -60,9 +60,8 @@ BorderLevels levelsAt(const Contour& border, const BitImage& ink, const GreyImag
     Vec2 inward = leftNormal(way.normalized());
     if (!isInk(ink, at + kInsidePx[0] * inward)) inward = -inward;
     for (std::size_t d = 0; d < std::size(kInsidePx); ++d)
-      if (const auto mean = meanOfBorder(grey, ink, at + kInsidePx[d] * inward, true))
-        levels.inside[d].push_back(*mean);
-    if (const auto mean = meanOfBorder(grey, ink, at - kOutsidePx * inward, false)) levels.outside.push_back(*mean);
+      if (const auto mean = meanOfNine(grey, ink, at + kInsidePx[d] * inward, true)) levels.inside[d].push_back(*mean);
+    if (const auto mean = meanOfNine(grey, ink, at - kOutsidePx * inward, false)) levels.outside.push_back(*mean);
   }
   return levels;
 }
@@ -79,7 +78,7 @@ std::optional<double> unevennessOfBorder(const Contour& border, const BitImage& 
     darkest = std::min(darkest, middle);
     for (const double level : ofDepth) spread.push_back(level - middle);
   }
-  if (std::ssize(spread) < kFewestInk || std::ssize(levels.outside) < kFewestBorderPaper) return std::nullopt;
+  if (std::ssize(spread) < kFewestInkPlaces || std::ssize(levels.outside) < kFewestPaperPlaces) return std::nullopt;
   const double contrast = std::max(1.0, std::abs(upperMedian(levels.outside) - darkest));
   const std::ptrdiff_t quarter = std::ssize(spread) / 4;
   const double quartiles = elementOfRank(spread, std::ssize(spread) - 1 - quarter) - elementOfRank(spread, quarter);

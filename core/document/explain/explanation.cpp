@@ -16,7 +16,6 @@
 #include "core/image/bits/page_margins.h"
 #include "core/image/threshold/binarize.h"
 #include "core/image/threshold/region_surface.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

@@ -8,8 +8,8 @@
 namespace batten {
 namespace {
 
-constexpr int kFigureDecimals = 4;                         // of coordinates in mm
-constexpr double kBarLengthMm = 100.0, kBarRoomMm = 10.0;  // of the scale bar
+constexpr int kFigureDecimals = 4;                                   // of coordinates in mm
+constexpr double kScaleBarLengthMm = 100.0, kScaleBarRoomMm = 10.0;  // of the scale bar
 
 // of the page
 constexpr const char* kStyle =
@@ -93,9 +93,9 @@ std::string sectionText(const ReportContent::CurveSection& curve) {
 }
 
 Figure withBar(Figure drawing) {
-  addScaleBar(drawing, {0.0, drawing.heightMm + 0.6 * kBarRoomMm}, kBarLengthMm);
-  drawing.heightMm += kBarRoomMm;
-  drawing.widthMm = std::max(drawing.widthMm, kBarLengthMm + 20.0);
+  addScaleBar(drawing, {0.0, drawing.heightMm + 0.6 * kScaleBarRoomMm}, kScaleBarLengthMm);
+  drawing.heightMm += kScaleBarRoomMm;
+  drawing.widthMm = std::max(drawing.widthMm, kScaleBarLengthMm + 20.0);
   return drawing;
 }
 

@@ -27,7 +27,7 @@ constexpr int kPolynomialPlaces = 200;  // where a file that was read back is co
 
 constexpr double kNearEnough = 1e-12;  ///< Of the size of a rational curve: its polynomials may lie so far from it.
 // polynomials for a span of a rational curve, doubled up to the most for the whole
-constexpr int kStepsPerSpan = 8, kMostSteps = 4096;
+constexpr int kStepsPerSpan = 8, kMostCurveSteps = 4096;
 
 /// A rational curve as quintics over its arc length: they share place, direction and curvature with it at ever closer
 /// places, until none in between is farther away than a millionth of a millionth of its size.
@@ -47,7 +47,7 @@ Result<NurbsCurve> inPolynomials(const NurbsCurve& rational) {
     for (std::size_t i = 1; i < samples.size(); i += 2) {
       worst = std::max(worst, std::abs(cross(samples[i].tangent, chain->point(samples[i].s) - samples[i].point)));
     }
-    if (worst <= most || steps >= kMostSteps) return chain;
+    if (worst <= most || steps >= kMostCurveSteps) return chain;
   }
 }
 

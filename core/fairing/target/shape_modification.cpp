@@ -23,7 +23,7 @@ namespace {
 constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
 constexpr double kTargetUsedShare = 0.95;  // of the tolerance: enough of it
 /// Ratios of weights: of equal curves, and by which a small one grows; share between two that no step comes nearer.
-constexpr double kSameWeight = 1.02, kWeightStep = 4.0, kNearestShare = 0.1;
+constexpr double kSameWeight = 1.02, kSearchWeightStep = 4.0, kNearestShare = 0.1;
 constexpr double kHardlyNearer = 0.9;  // of the distance before
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
@@ -238,7 +238,7 @@ class ShapeModification {
       left = wide->deviationMm();
       if (near && (near->deviationMm() >= kTargetUsedShare * toleranceMm || near->weight < kSameWeight * wide->weight))
         break;
-      const double weight = near ? weightBetween(*wide, *near, toleranceMm) : kWeightStep * wide->weight;
+      const double weight = near ? weightBetween(*wide, *near, toleranceMm) : kSearchWeightStep * wide->weight;
       const TargetStep* step = course.followed->between(near ? *near : *wide, weight);
       if (!step) break;
       if (step->isWithin(kToleranceRoom * toleranceMm)) {
@@ -255,7 +255,7 @@ class ShapeModification {
   /// it: at best its distance falls with the square of the weight.
   static bool isStuck(double deviationMm, double beforeMm, double toleranceMm, int steps) {
     return deviationMm > kHardlyNearer * beforeMm ||
-           deviationMm > toleranceMm * std::pow(kWeightStep * kWeightStep, steps);
+           deviationMm > toleranceMm * std::pow(kSearchWeightStep * kSearchWeightStep, steps);
   }
 
   void useTolerance(const Course& course) {

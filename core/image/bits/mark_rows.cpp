@@ -45,7 +45,7 @@ struct Neighbour {
   std::optional<int> mark;  // absent: the end of longer ink
 };
 
-struct Member {
+struct RowMember {
   int direction = 0;
   std::array<std::optional<Neighbour>, 2> side;
   bool hasBoth() const { return side[0] && side[1]; }
@@ -87,11 +87,11 @@ class RowSearch {
 
   // The member that a mark is of a row; absent: it has no neighbour in any direction. Two neighbours are better than
   // one, and near ones better than far ones.
-  std::optional<Member> memberOf(int mark) const {
-    std::optional<Member> best;
+  std::optional<RowMember> memberOf(int mark) const {
+    std::optional<RowMember> best;
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kDirections; ++k) {
-      const std::optional<Member> found = along(mark, k);
+      const std::optional<RowMember> found = along(mark, k);
       if (!found) continue;
       double gaps = 0.0;
       for (const auto& side : found->side) gaps += side ? side->gapPx : 0.0;
@@ -104,7 +104,7 @@ class RowSearch {
   }
 
  private:
-  std::optional<Member> along(int index, int direction) const {
+  std::optional<RowMember> along(int index, int direction) const {
     const Mark& mark = marks_.all[index];
     const Vec2 u = unitOf(direction), v = leftNormal(u);
     double from = 0.0, to = 0.0, left = 0.0, right = 0.0;
@@ -116,7 +116,7 @@ class RowSearch {
     const double lengthPx = to - from + 1.0, widthPx = left - right + 1.0;
     if (widthPx > kAlongAcross * lengthPx + 0.5) return std::nullopt;
     const double reachPx = kMostMarkGap * std::max(lengthPx, kLeastLengthWidths * widthPx);
-    Member member{direction, {}};
+    RowMember member{direction, {}};
     member.side[0] = neighbour(index, -u, -from, reachPx, widthPx);
     member.side[1] = neighbour(index, u, to, reachPx, widthPx);
     if (!member.side[0] && !member.side[1]) return std::nullopt;
@@ -201,7 +201,7 @@ class MarkGrid {
 };
 
 // The dots of a halftone, a chequer, a woven ground: as many lie around as only a lattice of them has, or beside one.
-std::vector<bool> findLattices(const Marks& marks, const std::vector<std::optional<Member>>& members, int width) {
+std::vector<bool> findLattices(const Marks& marks, const std::vector<std::optional<RowMember>>& members, int width) {
   constexpr double kPitches = 2.1;   // within so many a square lattice has 12, and one of triangles 18
   constexpr int kFewestAround = 12;  // three rows side by side, and they end nowhere near
   const MarkGrid grid(marks, width);
@@ -234,7 +234,7 @@ std::vector<bool> findLattices(const Marks& marks, const std::vector<std::option
 // and what follows them if they have a neighbour in the same direction themselves. @return by mark, whether it is of a
 // row.
 std::vector<bool> grownRows(std::vector<bool> isOfRow, const Marks& marks,
-                            const std::vector<std::optional<Member>>& members, const std::vector<bool>& isLattice,
+                            const std::vector<std::optional<RowMember>>& members, const std::vector<bool>& isLattice,
                             int width) {
   constexpr double kSizesAlike = 4.0;  // areas, of which a raster makes much where they are small
   constexpr double kAheadCos = 0.866;  // 30 degrees beside the row
@@ -277,7 +277,7 @@ BitImage marksInRows(const BitImage& marks, const BitImage& ink, const RunContex
   if (pieces.runs.empty() || context.isCancelled()) return kept;
   const Marks found = marksOf(pieces);
   const int count = static_cast<int>(found.all.size());
-  std::vector<std::optional<Member>> members(count);
+  std::vector<std::optional<RowMember>> members(count);
   const RowSearch search(pieces, found, ink);
   parallelFor(context, count, kMarksPerLook, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) members[i] = search.memberOf(i);
@@ -297,7 +297,7 @@ BitImage marksInRows(const BitImage& marks, const BitImage& ink, const RunContex
         ++ends[i];
         continue;
       }
-      const std::optional<Member>& other = members[*side->mark];
+      const std::optional<RowMember>& other = members[*side->mark];
       if (!other || !areAlike(other->direction, members[i]->direction)) continue;
       isMember[*side->mark] = true;
       rows.join(i, *side->mark);

@@ -154,7 +154,7 @@ std::vector<FoundLattice> latticesOf(const RulingStretches& found, PlaneOf plane
 }
 
 /// Share of the seen lines that hold ink at a side of the page.
-double linesShareAtBorder(const Plane& grey, const FoundLattice& found, bool isLeft) {
+double shareOfLinesAtBorder(const Plane& grey, const FoundLattice& found, bool isLeft) {
   const RulingLattice& l = found.lattice;
   const int first = isLeft ? 0 : std::max(0, grey.width - kBorder), past = std::min(grey.width, first + kBorder);
   const int half = std::max(2, static_cast<int>(0.5 * l.spacing));
@@ -199,7 +199,7 @@ double shareJoined(const Plane& grey, const FoundLattice& found) {
 /// Lines that end on the page and are joined by a stroke across: the teeth of a comb. Ruled lines run to the border of
 /// the page, whatever crosses them, or stand by themselves.
 bool isComb(const Plane& grey, const FoundLattice& found) {
-  const double border = std::min(linesShareAtBorder(grey, found, true), linesShareAtBorder(grey, found, false));
+  const double border = std::min(shareOfLinesAtBorder(grey, found, true), shareOfLinesAtBorder(grey, found, false));
   return border < kLeastAtBorder && shareJoined(grey, found) >= kJoined;
 }
 
@@ -325,7 +325,7 @@ std::optional<FoundLattice> judgedMargin(const Plane& along, const RulingLattice
   if (look.width > std::max(2.0, kMostWidth * line.spacing) || look.depth < kLeastRulingDepth) return std::nullopt;
   if (look.depth > std::max(kDarkRuling, depthOfRuling)) return std::nullopt;  // drawn with a pen
   if (inkAlongLines(along, line, context) < kLeastInk) return std::nullopt;
-  if (std::min(linesShareAtBorder(along, found, true), linesShareAtBorder(along, found, false)) < kLeastAtBorder)
+  if (std::min(shareOfLinesAtBorder(along, found, true), shareOfLinesAtBorder(along, found, false)) < kLeastAtBorder)
     return std::nullopt;
   return found;
 }

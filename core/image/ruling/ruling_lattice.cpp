@@ -53,7 +53,7 @@ struct Expected {
   double place = 0.0;
 };
 
-struct Member {
+struct LatticeMember {
   int strip = 0, line = 0;
   double x = 0.0, y = 0.0;
 };
@@ -159,7 +159,7 @@ class LatticeFit {
   /// Follows the lines of the seed strip by strip, in the direction they have there, so that a bend is followed.
   void grow(int seed) {
     std::vector<Expected> lines;
-    for (const Member& m : members_) {
+    for (const LatticeMember& m : members_) {
       for (int k = lines.empty() ? m.line : lines.back().line + 1; k <= m.line; ++k) {
         const double share = lines.empty() ? 1.0 : 1.0 / (m.line - k + 1);
         lines.push_back({k, lines.empty() ? m.y : lines.back().place + share * (m.y - lines.back().place)});
@@ -202,7 +202,7 @@ class LatticeFit {
       const double k = std::round(lineAt(x, y));
       const double off = y - lattice_.at(k, x) + lattice_.slope * x;
       if (std::fabs(off) > std::max(kLeastReach, share * spacing_)) continue;
-      const Member member{strip, static_cast<int>(k), x, y};
+      const LatticeMember member{strip, static_cast<int>(k), x, y};
       if (members_.size() > before && members_.back().line == member.line) {
         const double other = members_.back().y - lattice_.at(k, x) + lattice_.slope * x;
         if (std::fabs(off) < std::fabs(other)) members_.back() = member;
@@ -230,7 +230,7 @@ class LatticeFit {
     Terms right = Terms::Zero();
     const auto count = static_cast<double>(members_.size());
     for (int i = 0; i < kTerms; ++i) normal(i, i) = (i >= terms ? kHeldTerm : i < 3 ? kFreeTerm : kBendingTerm) * count;
-    for (const Member& m : members_) {
+    for (const LatticeMember& m : members_) {
       const Terms t =
           termsOf((m.line - lattice_.middle) / lattice_.reach, (m.x - lattice_.fromX) / lattice_.halfWidth - 1.0);
       normal += t * t.transpose();
@@ -241,12 +241,13 @@ class LatticeFit {
   }
 
   std::optional<RulingLattice> judged() {
-    const auto [low, high] = std::minmax_element(members_.begin(), members_.end(),
-                                                 [](const Member& a, const Member& b) { return a.line < b.line; });
+    const auto [low, high] =
+        std::minmax_element(members_.begin(), members_.end(),
+                            [](const LatticeMember& a, const LatticeMember& b) { return a.line < b.line; });
     const int first = low->line, count = high->line - first + 1;
     std::vector<int> strips(count, 0);
     std::vector<double> off;
-    for (const Member& m : members_) {
+    for (const LatticeMember& m : members_) {
       ++strips[m.line - first];
       off.push_back(std::fabs(m.y - lattice_.at(m.line, m.x) + lattice_.slope * m.x));
     }
@@ -288,7 +289,7 @@ class LatticeFit {
   double spacing_;
   const RunContext& context_;
   RulingLattice lattice_;
-  std::vector<Member> members_;
+  std::vector<LatticeMember> members_;
 };
 
 }  // namespace

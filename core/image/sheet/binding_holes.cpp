@@ -19,7 +19,7 @@ constexpr float kDarkestPaper = 0.75f;               // of the paper of the page
 constexpr int kFewestHoles = 8;                      // of a binding, along one side
 constexpr double kLeastSpacing = 6.0;                // [cells] marks that are closer have no spacing that could be told
 constexpr double kLeastFilled = 0.6;                 // of its box: letters and outlines are not
-constexpr double kLeastHolesAlong = 0.5;             // of the side, from the first hole to the last
+constexpr double kLeastRowShare = 0.5;               // of the side, from the first hole to the last
 constexpr double kLeastSize = 0.6, kMostSize = 1.6;  // of the median hole, along the side
 constexpr double kLeastOfSpacing = 0.15, kMostOfSpacing = 0.8;  // a hole takes of the distance from one to the next
 constexpr double kSpacingError = 0.15;                          // of the spacing
@@ -95,7 +95,7 @@ void keepStraight(std::vector<Hole>& holes) {
 }
 
 bool isEvenRow(const std::vector<Hole>& holes, int side) {
-  if (std::ssize(holes) < kFewestHoles || holes.back().along - holes.front().along < kLeastHolesAlong * side)
+  if (std::ssize(holes) < kFewestHoles || holes.back().along - holes.front().along < kLeastRowShare * side)
     return false;
   std::vector<double> distances, lengths;
   for (std::size_t i = 0; i + 1 < holes.size(); ++i) distances.push_back(holes[i + 1].along - holes[i].along);
@@ -191,8 +191,7 @@ void mark(const cv::Rect& box, BitImage& cells) {
 }  // namespace
 
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
-  constexpr int kFewestCells = 40;  // along the shorter side
-  if (std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
+  if (std::min(cells.columns, cells.rows) < kFewestSheetCells) return std::nullopt;
   std::vector<float> levels;
   for (const cv::Vec3f& cell : cells.colour) levels.push_back(cell[0]);
   const float limit = kDarkestPaper * upperMedian(levels);
@@ -208,7 +207,9 @@ std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
     found = std::move(row);
   }
   if (found.holes.empty()) return std::nullopt;
-  BindingHoles binding{BitImage(cells.columns, cells.rows), static_cast<int>(found.holes.size())};
+  BindingHoles binding{.cellPx = cells.sizePx,
+                       .cells = BitImage(cells.columns, cells.rows),
+                       .count = static_cast<int>(found.holes.size())};
   mark(found.edge, binding.cells);
   for (const Hole& hole : found.holes) mark(hole.withRim(), binding.cells);
   return binding;

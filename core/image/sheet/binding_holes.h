@@ -11,6 +11,7 @@ struct SheetCells;
 
 /// The holes, or the wires, of a spiral or comb binding.
 struct BindingHoles {
+  int cellPx = 1;  ///< [px] What one pixel of `cells` covers a side.
   BitImage cells;  ///< Holes and their rims, and the edge of the sheet beside them; of the size of the cells.
   int count = 0;   ///< Holes, or wires.
 };

@@ -21,7 +21,7 @@ namespace {
 constexpr double kMostGutterShare = 0.04;        // of the diagonal: the gutter of an open book with its shadow
 constexpr double kLeastAlongGutter = 0.3;        // of the longer side of the facing page lies along the gutter
 constexpr double kShadingShare = 0.12;           // of the diagonal: farther from the gutter paper is flat
-constexpr int kPageAlongCells = 10;              // from one value along the gutter to the next
+constexpr int kGutterStepCells = 10;             // from one value along the gutter to the next
 constexpr int kAlongReach = 2;                   // values to either side that are counted with one
 constexpr double kPaperRankBesideGutter = 0.75;  // of the cells at one distance: at least a quarter is free of ink
 constexpr double kDarkestBesideGutter = 0.6, kDarkestFlat = 0.9;  // of the flat paper: what is darker was drawn
@@ -81,7 +81,7 @@ class GutterShading {
     const double diagonal = std::hypot(page.cols, page.rows);
     distances_ = std::max(2, static_cast<int>(kShadingShare * diagonal));
     reach_ = static_cast<float>(diagonal);
-    stations_ = 2 * static_cast<int>(diagonal / kPageAlongCells) + 1;
+    stations_ = 2 * static_cast<int>(diagonal / kGutterStepCells) + 1;
     std::vector<std::vector<float>> bins(std::size_t(distances_) * std::size_t(stations_));
     for (int j = 0; j < page.rows; ++j) {
       for (int i = 0; i < page.cols; ++i) {
@@ -114,7 +114,7 @@ class GutterShading {
   std::size_t index(int distance, int station) const {
     return std::size_t(distance) * std::size_t(stations_) + std::size_t(station);
   }
-  float stationOf(int i, int j) const { return (frame_.alongAt(i, j) + reach_) / kPageAlongCells; }
+  float stationOf(int i, int j) const { return (frame_.alongAt(i, j) + reach_) / kGutterStepCells; }
   int nearestStation(int i, int j) const {
     return std::clamp(static_cast<int>(std::lround(stationOf(i, j))), 0, stations_ - 1);
   }

@@ -29,19 +29,11 @@ struct PaperSheet {
 /// convex. Absent where the paper fills the picture, and where that is doubtful: a drawing with a dark ground is no
 /// table, nor is paper behind a fold or in a shadow, which is darker but has the sheet's colour and grain. Of an open
 /// book both pages are the sheet if there is a drawing on each. White paper on a white table is found by its straight
-/// edges (sheet_edges.h), unless the drawing goes on beyond them.
+/// edges (straight_sheet_edges.h), unless the drawing goes on beyond them.
 std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
 std::optional<PaperSheet> findPaperSheet(const SheetCells&, const RunContext&);
 
 /// The page of a scan whose sheet fills it, without a narrow rim: the sheet's edge and the shadow along it.
 PaperSheet sheetWithinRim(int widthPx, int heightPx);
-
-/// The page with all that lies beside the sheet painted over: the paper goes on, with its grain. Two pages of an open
-/// book are brought to one level of brightness.
-GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet&, const RunContext&);
-
-/// The page with the cells outside `inside` painted over: the paper around goes on in them, with its grain.
-/// @param inside squares of cellPx pixels.
-GreyImage paintedOver(GreyImage page, const BitImage& inside, int cellPx, const RunContext& context);
 
 }  // namespace batten

@@ -18,7 +18,8 @@ struct SheetCells {
   cv::Mat1f rough;       ///< Mean difference of neighbours.
   cv::Mat1f dark;        ///< [grey] The darkest pixel: a line through the cell shows.
 };
-inline constexpr int kSheetCells = 400;  ///< Along the longer side of the picture.
+inline constexpr int kSheetCells = 400;       ///< Along the longer side of the picture.
+inline constexpr int kFewestSheetCells = 40;  ///< Along the shorter side: on fewer nothing is sought.
 /// At least 2 px a cell, about 400 of them along the longer side. An empty colour image: the picture is grey.
 SheetCells sheetCellsOf(const GreyImage&, const ColourImage&, const RunContext&);
 

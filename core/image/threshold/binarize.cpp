@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/image/bits/bit_steps.h"
-#include "core/image/bits/faint_lines.h"
 #include "core/image/bits/mark_rows.h"
 #include "core/image/bits/run_pieces.h"
+#include "core/image/threshold/faint_lines.h"
 #include "core/image/threshold/level_masks.h"
 
 namespace batten {

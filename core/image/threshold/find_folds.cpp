@@ -258,7 +258,7 @@ bool isBar(const FoldCourse& a, const FoldCourse& b, double nearPx) {
 
 }  // namespace
 
-std::vector<PaperFold> findFolds(const GreyImage& image, const Plane& smoothed, const PageEdges& edges, int shrink,
+std::vector<PaperFold> findFolds(const GreyImage& image, const Plane& smoothed, const InkEdges& edges, int shrink,
                                  const RunContext& context) {
   std::vector<PaperFold> found;
   for (const FoldCourse& line : findFoldLines(smoothed, edges, context)) {

@@ -6,7 +6,7 @@
 #include "core/base/run_context.h"
 #include "core/image/grey_image.h"
 #include "core/image/plane.h"
-#include "core/image/threshold/page_edges.h"
+#include "core/image/threshold/ink_edges.h"
 #include "core/image/threshold/paper_fold.h"
 
 namespace batten {
@@ -15,7 +15,7 @@ namespace batten {
 /// grey steps to another level of paper and stays there. A drawn line is none, since the paper returns to its level
 /// behind it; nor is a broad bar, or the side of something much darker than shaded paper.
 /// @param smoothed, edges of the picture shrunk by `shrink`.
-std::vector<PaperFold> findFolds(const GreyImage& image, const Plane& smoothed, const PageEdges& edges, int shrink,
+std::vector<PaperFold> findFolds(const GreyImage& image, const Plane& smoothed, const InkEdges& edges, int shrink,
                                  const RunContext& context);
 
 }  // namespace batten

@@ -32,7 +32,7 @@ Vec2 gradientAt(const Plane& u, int x, int y) {
           static_cast<double>(u.row(y + 1)[x] - u.row(y - 1)[x])};
 }
 
-std::vector<Voter> votersOf(const Plane& u, const PageEdges& edges) {
+std::vector<Voter> votersOf(const Plane& u, const InkEdges& edges) {
   const std::size_t stride = edges.crests.size() / kMostVoters + 1;
   const Vec2 middle(0.5 * u.width, 0.5 * u.height);
   std::vector<Voter> voters;
@@ -151,7 +151,7 @@ bool bendToCrests(const Plane& u, const std::vector<Voter>& voters, FoldCourse& 
 
 }  // namespace
 
-std::vector<FoldCourse> findFoldLines(const Plane& u, const PageEdges& edges, const RunContext& context) {
+std::vector<FoldCourse> findFoldLines(const Plane& u, const InkEdges& edges, const RunContext& context) {
   std::vector<FoldCourse> lines;
   if (u.width < 64 || u.height < 64) return lines;
   const std::vector<Voter> voters = votersOf(u, edges);

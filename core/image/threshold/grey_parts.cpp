@@ -18,7 +18,7 @@ namespace {
 constexpr double kLongestMesh = 2.0;
 constexpr int kNoisePx = 4;  // [px] area: smaller pieces may be noise
 
-std::int64_t piecesOfParts(const BitImage& image, Connectivity connectivity, const RunContext& context) {
+std::int64_t piecesBeyondNoise(const BitImage& image, Connectivity connectivity, const RunContext& context) {
   const RunPieces found = findPieces(image, connectivity, context);
   std::vector<int> area(found.runs.size(), 0);
   for (std::size_t i = 0; i < found.runs.size(); ++i) area[found.piece[i]] += found.runs[i].x1 - found.runs[i].x0;
@@ -41,9 +41,9 @@ GreyParts greyPartsOf(const GreyImage& image, const RegionThresholds& thresholds
       for (int x = 0; x < image.width; ++x) (smoothed.row(y)[x] < level[x] ? dark : bright).set(x, y, true);
     }
   });
-  const std::int64_t meshes = piecesOfParts(bright, Connectivity::Four, context);
+  const std::int64_t meshes = piecesBeyondNoise(bright, Connectivity::Four, context);
   if (context.isCancelled()) return parts;
-  parts.pieces = meshes + piecesOfParts(dark, Connectivity::Eight, context);
+  parts.pieces = meshes + piecesBeyondNoise(dark, Connectivity::Eight, context);
   const auto area = static_cast<double>(bright.count());
   const double border = area - static_cast<double>(shrunken(bright, 1, context).count());
   parts.hasMeshes = meshes > 0 && border * border <= kLongestMesh * 16.0 * area * static_cast<double>(meshes);

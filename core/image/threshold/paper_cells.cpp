@@ -129,7 +129,7 @@ struct HalfLevels {
   std::vector<float> ofRegion;
   bool areMixed = false;  ///< Ink and highlights: see SignedDepths.
 };
-HalfLevels halfLevels(const Plane& grey, const PageEdges& edges, const PaperBackground& paper, int shrink) {
+HalfLevels halfLevels(const Plane& grey, const InkEdges& edges, const PaperBackground& paper, int shrink) {
   HalfLevels found;
   SignedDepths bySign;
   std::vector<double> depths;
@@ -173,7 +173,7 @@ void dropHighlights(Cells& cells, const PaperBackground& paper, const std::vecto
 }
 
 /// Brings the paper to the cells that turn out to be paper. The first round takes highlights from the free cells.
-void correctPaper(const Plane& grey, const PageEdges& edges, int shrink, int round, Cells& cells,
+void correctPaper(const Plane& grey, const InkEdges& edges, int shrink, int round, Cells& cells,
                   PaperEstimate& estimate) {
   PaperBackground& paper = estimate.paper;
   const auto [half, areMixed] = halfLevels(grey, edges, paper, shrink);
@@ -207,7 +207,7 @@ void correctPaper(const Plane& grey, const PageEdges& edges, int shrink, int rou
 
 }  // namespace
 
-PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx,
+PaperEstimate estimatePaper(const Plane& grey, const InkEdges& edges, int shrink, int cellPx,
                             const RunContext& context) {
   const BitImage touched = dilate(edges.area, 0, FilterBorder::Paper, context);
   Cells cells = measureCells(grey, touched, cellPx / shrink, context);

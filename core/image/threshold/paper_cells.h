@@ -8,7 +8,7 @@
 
 #include "core/base/run_context.h"
 #include "core/image/plane.h"
-#include "core/image/threshold/page_edges.h"
+#include "core/image/threshold/ink_edges.h"
 #include "core/image/threshold/region_thresholds.h"
 
 namespace batten {
@@ -32,7 +32,7 @@ struct PaperEstimate {
 
 /// The paper's own grey below the drawing: slopes are measured where there is no edge, filled where there is, and
 /// summed up; a step at an edge of the ink does not enter. Twice corrected by the cells that turned out to be paper.
-PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx,
+PaperEstimate estimatePaper(const Plane& grey, const InkEdges& edges, int shrink, int cellPx,
                             const RunContext& context);
 
 }  // namespace batten

@@ -15,8 +15,8 @@
 #include "core/image/threshold/find_folds.h"
 #include "core/image/threshold/grey_parts.h"
 #include "core/image/threshold/half_levels.h"
+#include "core/image/threshold/ink_edges.h"
 #include "core/image/threshold/otsu_thresholds.h"
-#include "core/image/threshold/page_edges.h"
 #include "core/image/threshold/paper_cells.h"
 #include "core/image/threshold/plane_ink.h"
 #include "core/image/threshold/region_surface.h"
@@ -85,7 +85,7 @@ struct Depths {
   bool counts(std::size_t crest) const { return !onlyDarker || atCrests[crest] <= 0.0f; }
 };
 
-Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstimate& estimate, int shrink,
+Depths measureDepths(const Plane& grey, const InkEdges& edges, const PaperEstimate& estimate, int shrink,
                      const std::vector<float>& kernel, const RunContext& context) {
   Depths depths;
   const PaperBackground& paper = estimate.paper;
@@ -134,7 +134,7 @@ struct Contrasts {
 };
 
 /// Half level of every region from its own crests; regions without are filled from those that have some.
-Contrasts contrastsOf(const Plane& grey, const PageEdges& edges, const Depths& depths, double strength) {
+Contrasts contrastsOf(const Plane& grey, const InkEdges& edges, const Depths& depths, double strength) {
   Contrasts out;
   RegionHalfLevels regions;
   for (std::size_t i = 0; i < edges.crests.size(); ++i) {
@@ -173,7 +173,7 @@ struct AgainstPaper {
   bool isMean = false;      ///< What was taken for paper is a mean over lines and paper, see variesMoreThanLines.
 };
 
-AgainstPaper flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
+AgainstPaper flattenedThresholds(const Plane& grey, const InkEdges& edges, int shrink, double strength,
                                  const RunContext& context) {
   AgainstPaper found;
   RegionThresholds& out = found.thresholds;
@@ -274,7 +274,7 @@ AgainstPaper thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold
                                    const RunContext& context) {
   const Plane grey = shrinkGrey(withoutFolds(image, folds, context), shrink, context);
   if (context.isCancelled()) return {};
-  const PageEdges edges = findPageEdges(statisticsPlane(grey, shrink, context), context);
+  const InkEdges edges = findInkEdges(statisticsPlane(grey, shrink, context), context);
   if (context.isCancelled()) return {};
   AgainstPaper found = flattenedThresholds(grey, edges, shrink, strength, context);
   RegionThresholds& out = found.thresholds;
@@ -288,7 +288,7 @@ AgainstPaper thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold
 /// With what was taken for folds taken out, unless that was ink: a wall that is drawn right across the page steps like
 /// a shadow. Paper on both sides of a fold is one paper once the fold is out, and lines stay darker than it; where they
 /// turn out brighter, the dark side was drawn, and stays as it is.
-AgainstPaper thresholdsByFolds(const GreyImage& image, const Plane& grey, const PageEdges& edges,
+AgainstPaper thresholdsByFolds(const GreyImage& image, const Plane& grey, const InkEdges& edges,
                                std::vector<PaperFold> folds, const PlaneScale& scale, const RunContext& context) {
   const bool anyFold = !folds.empty();
   AgainstPaper out;
@@ -368,7 +368,7 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
     const Plane smoothed = statisticsPlane(grey, shrink, context);
     if (context.isCancelled()) return cancelled();
     if (paper.flatten) {
-      const PageEdges edges = findPageEdges(smoothed, context);
+      const InkEdges edges = findInkEdges(smoothed, context);
       if (context.isCancelled()) return cancelled();
       std::vector<PaperFold> folds;
       if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);

@@ -66,8 +66,8 @@ SeenLines seenLines(const PencilPage& page, double alongWidths, const cv::Mat1b&
   const cv::Mat1b isGrain = (means.spread > 0.0f) & (means.depth < kNoLine * page.darkness);
   cv::Mat1f grain;
   cv::sqrt(meanOfMasked(means.spread.mul(means.spread), isGrain, kGrainWindow * page.widthPx), grain);
-  constexpr double kLeastGrain = 0.1;  // [of 255]
-  return {means.depth, means.depth / cv::max(grain, kLeastGrain)};
+  constexpr double kLeastToneGrain = 0.1;  // [of 255]
+  return {means.depth, means.depth / cv::max(grain, kLeastToneGrain)};
 }
 
 int ceiled(double px) { return static_cast<int>(std::ceil(px)); }

@@ -25,7 +25,8 @@ constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step 
 constexpr double kLeastBesideTone = 0.15;  // of the length of its border: lines on a tone and beside it
 constexpr double kBesideTone = 2.0;        // [widths] from a tone: lines along its border
 constexpr double kBesideLines = 1.0;       // [widths] from a line: beyond its blurred border
-constexpr double kLeastPatch = 4.0;  // [widths] side of a square as large as what shows of a tone beside its lines
+constexpr double kLeastShownWidths =
+    4.0;  // [widths] side of a square as large as what shows of a tone beside its lines
 // Of its darkness: the mean deviation. Of lines and paper between them, which are two darknesses, it is twice the share
 // of the paper; where they leave less than that, nothing can be told from a tone.
 constexpr double kMostUneven = 0.75;
@@ -51,7 +52,7 @@ bool hasDarkPlaces(const GreyImage& page, const RunContext& context) {
 
 cv::Mat disc(int radius) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1}); }
 
-cv::Mat1b borderOf(const cv::Mat1b& mask) { return mask & (shrunkMask(mask, 1) == 0); }
+cv::Mat1b rimOfMask(const cv::Mat1b& mask) { return mask & (shrunkMask(mask, 1) == 0); }
 
 /// For each label the sum of the values where the mask is not 0.
 std::vector<double> sumsOf(const cv::Mat1i& labels, int count, const cv::Mat1b& mask, const cv::Mat1f& values) {
@@ -75,7 +76,7 @@ cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Ma
   cv::dilate(calm, brightest, disc(page.brush));
   cv::Mat1i labels;
   const int count = cv::connectedComponents(dark, labels, 8, CV_32S);
-  const cv::Mat1b border = borderOf(dark);
+  const cv::Mat1b border = rimOfMask(dark);
   const std::vector<double> steps = sumsOf(labels, count, border, brightest - darkest);
   const std::vector<double> depths = sumsOf(labels, count, border, 255.0 - darkest);
   std::vector<std::uint8_t> isSolid(count, 0);
@@ -107,7 +108,7 @@ cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat
   const int count = cv::connectedComponents(shaded, labels, 8, CV_32S);
   const cv::Mat1f one = cv::Mat1f::ones(shaded.size());
   const cv::Mat1b within = shaded & (grownMask(lines, static_cast<int>(std::ceil(kBesideLines * page.widthPx))) == 0);
-  const std::vector<double> borders = sumsOf(labels, count, borderOf(shaded), one);
+  const std::vector<double> borders = sumsOf(labels, count, rimOfMask(shaded), one);
   const std::vector<double> lined = linesBeside(page, labels, count, lines);
   const std::vector<double> bare = sumsOf(labels, count, within, one);
   const std::vector<double> darkness = sumsOf(labels, count, within, 255.0 - page.level);
@@ -115,7 +116,7 @@ cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat
       sumsOf(labels, count, within, cv::abs(page.level - blurredTone(page.level, page.widthPx)));
   std::vector<std::uint8_t> isTone(count, 0);
   for (int k = 1; k < count; ++k) {
-    const bool isWide = bare[k] >= std::pow(kLeastPatch * page.widthPx, 2);
+    const bool isWide = bare[k] >= std::pow(kLeastShownWidths * page.widthPx, 2);
     const bool isDark = darkness[k] >= kLeastDark * page.darkness * bare[k];
     if (isWide && isDark && lined[k] >= kLeastBesideTone * borders[k] && grain[k] < kMostUneven * darkness[k])
       isTone[k] = 255;

@@ -13,11 +13,11 @@
 namespace batten {
 namespace {
 
-constexpr double kAroundTone = 1.2;      // of the longest tone: the window in which its paper is seen
-constexpr double kDarkToneLines = 0.75;  // quantile of the darkness of the lines on an area
-constexpr double kSharp = 0.6;           // of the tone's darkness, within a brush: more gradual is a fade
-constexpr double kMostBare = 0.7;        // of the border sharp and without a line: more is a shape
-constexpr double kUsualBare = 0.4;       // more needs lines that are half again as dark as the tone
+constexpr double kAroundTone = 1.2;             // of the longest tone: the window in which its paper is seen
+constexpr double kLineDarknessQuantile = 0.75;  // quantile of the darkness of the lines on an area
+constexpr double kSharp = 0.6;                  // of the tone's darkness, within a brush: more gradual is a fade
+constexpr double kMostBare = 0.7;               // of the border sharp and without a line: more is a shape
+constexpr double kUsualBare = 0.4;              // more needs lines that are half again as dark as the tone
 constexpr double kMostOfBareLines = 2.0 / 3.0;
 constexpr double kLeastBarePiece = 4.0;    // [brushes] of a bare border that becomes a line
 constexpr double kGrainQuantile = 0.9;     // of the depth below the ground beside the lines
@@ -26,7 +26,7 @@ constexpr double kMostToneGrain = 0.35;    // of the area inside darker than its
 constexpr double kLeastLined = 0.3;        // of the border along lines: less is no area that somebody drew lines around
 constexpr double kLeastRadius = 2.0;       // [brushes] of the largest circle inside
 constexpr int kBlurPx = 1;                 // that a line is blurred over its border, on the copy
-constexpr int kToneEdgePx = 2;             // beyond a solid: its blurred edge
+constexpr int kSolidEdgePx = 2;            // beyond a solid: its blurred edge
 constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
 
 enum class AreaKind {
@@ -56,7 +56,7 @@ Area areaOf(const cv::Mat1b& area, const ToneLook& look) {
   const cv::Mat1b linesOn = look.lines & look.nearLine & grownMask(area, look.brush);
   // The rim of a broad marker's stroke is darker than its inside, and is no line around a tone.
   const double mostOfLines = barePx > kUsualBare * borderPx ? kMostOfBareLines : kMostOfLines;
-  if (darkness > mostOfLines * darknessQuantile(look.flat, linesOn, kDarkToneLines)) return {};
+  if (darkness > mostOfLines * darknessQuantile(look.flat, linesOn, kLineDarknessQuantile)) return {};
   if (cv::countNonZero(inner & look.lines) > kMostToneGrain * cv::countNonZero(inner)) return {};
   double radius = 0.0;
   cv::Mat1f distance;
@@ -123,7 +123,7 @@ Parted partedAreas(const ToneLook& look, const RunContext& context) {
 /// Tones with their fades: what is connected with them and darker than paper, but for solids.
 cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
   const cv::Mat1b faded =
-      ((look.ground < kFaintestGround) & (grownMask(parted.solids, kToneEdgePx) == 0)) | parted.tones;
+      ((look.ground < kFaintestGround) & (grownMask(parted.solids, kSolidEdgePx) == 0)) | parted.tones;
   cv::Mat1i labels;
   const int count = cv::connectedComponents(faded, labels, 8, CV_32S);
   std::vector<std::uint8_t> isTone(count, 0);
@@ -133,7 +133,7 @@ cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
   const cv::Mat1b out = labelled(labels, isTone);
   // What is not shaded around them is paper already, or belongs to something else.
   return (out | (grownMask(out, look.brush) & (look.ground >= kFaintestGround))) &
-         (grownMask(parted.solids, kToneEdgePx) == 0);
+         (grownMask(parted.solids, kSolidEdgePx) == 0);
 }
 
 /// The ground, below lines that beside them: a line along the border of a tone has tone on one side and paper on the

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/contour/centreline/pencil/stroke_mask.h"
+#include "core/contour/centreline/pencil/stroke_split.h"
 #include "core/contour/centreline/skeleton/skeleton.h"
 #include "tests/support/ink_page.h"
 #include "tests/support/render_page.h"

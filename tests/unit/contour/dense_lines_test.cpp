@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/contour/centreline/centreline.h"
-#include "core/contour/centreline/junction/stroke_paths.h"
+#include "core/contour/centreline/junction/find_stroke_paths.h"
+#include "core/contour/centreline/pencil/grain_closing.h"
 #include "core/contour/centreline/pencil/graininess.h"
 #include "core/contour/centreline/pencil/oriented_line_filter.h"
-#include "core/contour/centreline/pencil/stroke_mask.h"
 #include "core/contour/centreline/skeleton/skeleton.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/ink_page.h"

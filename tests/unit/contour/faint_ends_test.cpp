@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "core/contour/centreline/junction/stroke_paths.h"
+#include "core/contour/centreline/junction/find_stroke_paths.h"
 #include "core/contour/centreline/skeleton/skeleton.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/dense_page.h"

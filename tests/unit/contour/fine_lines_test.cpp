@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/placing/fine_lines.h"
+#include "core/contour/fine_lines.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contour/centreline/ends/on_ink.h"
+#include "core/contour/centreline/on_ink.h"
 #include "core/contour/trace_contours.h"
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/label_page.h"

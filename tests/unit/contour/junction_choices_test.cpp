@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/contour/centreline/junction/junction_pairings.h"
+#include "core/contour/centreline/junction/doubtful_pairings.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/dense_page.h"
 

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "core/contour/centreline/profile/border_sums.h"
+#include "core/contour/centreline/placing/border_sums.h"
 #include "core/contour/subpixel/pixel_edge.h"
 
 namespace batten {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/sheet/paper_sheet.h"
+#include "core/image/sheet/paint_over.h"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,8 @@ class QKeyEvent;
 
 namespace batten {
 
+inline constexpr double kDragStartPx = 4.0;  ///< [widget px] A smaller move is a click.
+
 /// A mouse position as tools take it.
 struct ToolEvent {
   QPointF widget;

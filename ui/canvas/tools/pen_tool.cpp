@@ -14,7 +14,6 @@ namespace batten {
 namespace {
 
 /// [widget px] A press that stays within this is a click, not a stroke.
-constexpr double kDragStartPx = 4.0;
 /// [widget px] Points nearer than this to the last one say nothing new.
 constexpr double kStepPx = 1.0;
 /// A line that comes back to its start is closed when it is at least this many reaches long.

@@ -8,8 +8,6 @@
 namespace batten {
 namespace {
 
-constexpr double kDragStartPx = 4.0;  // [widget px] a smaller move is a click
-
 /// The way an arrow key moves a mark: 1 px, with Shift 0.1 px; image frame.
 std::optional<Vec2> arrowOf(const QKeyEvent* event) {
   const double step = event->modifiers().testFlag(Qt::ShiftModifier) ? 0.1 : 1.0;

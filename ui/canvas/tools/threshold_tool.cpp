@@ -17,11 +17,11 @@
 namespace batten {
 namespace {
 
-constexpr double kLevelsPerPx = 0.5;     ///< Of a vertical drag.
-constexpr double kLevelsPerNotch = 2.0;  // Of the wheel.
-constexpr qint64 kWheelPauseMs = 800;    ///< Wheel notches closer than this are one undo step.
-constexpr double kDragStartPx = 3.0;     // [widget px] A smaller move is a click.
-constexpr double kNumbersFromPx = 54.0;  ///< Width of a region from which its number is shown.
+constexpr double kLevelsPerPx = 0.5;       ///< Of a vertical drag.
+constexpr double kLevelsPerNotch = 2.0;    // Of the wheel.
+constexpr qint64 kWheelPauseMs = 800;      ///< Wheel notches closer than this are one undo step.
+constexpr double kLevelDragStartPx = 3.0;  // [widget px] A smaller move is a click.
+constexpr double kNumbersFromPx = 54.0;    ///< Width of a region from which its number is shown.
 
 QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
@@ -55,7 +55,7 @@ class ThresholdTool final : public CanvasTool {
                     : tr("Drag up or down, or turn the wheel, to change this threshold; double-click for automatic."));
     if (!isPressed || base_.empty()) return;
     const double drag = pressed_.y() - event.widget.y();
-    if (!isDragging_ && std::abs(drag) < kDragStartPx) return;
+    if (!isDragging_ && std::abs(drag) < kLevelDragStartPx) return;
     isDragging_ = true;
     apply(base_, drag * kLevelsPerPx, gesture_);
   }

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/base/vec2.h"
-#include "core/contour/centreline/profile/stroke_course.h"
 #include "core/image/grey_image.h"
 
 namespace batten {

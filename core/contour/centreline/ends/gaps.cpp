@@ -10,7 +10,6 @@
 
 #include "core/base/angle.h"
 #include "core/contour/centreline/profile/grey_across.h"
-#include "core/contour/centreline/stroke_path.h"
 
 namespace batten {
 namespace {

@@ -4,7 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/contour/centreline/stroke_path.h"
+#include "core/contour/contour_set.h"
+#include "core/contour/edge_params.h"
+#include "core/image/bits/bit_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten {

@@ -134,7 +134,7 @@ std::optional<double> wayOf(const std::vector<NearEnd>& ends, int i) {
   return isCorner ? std::optional(e.toPartner) : e.toLine;
 }
 
-void leadOnOver(Contour& c, const NearEnd& end, double way) {
+void leadStraightOn(Contour& c, const NearEnd& end, double way) {
   if (end.side == 0) std::reverse(c.points.begin(), c.points.end());
   const ContourPoint last = c.points.back();
   const int steps = std::max(1, static_cast<int>(std::ceil(way))), before = static_cast<int>(c.points.size());
@@ -184,7 +184,7 @@ void leadOverPaper(std::vector<Contour>& lines, const BitImage& ink, double long
   std::vector<std::optional<double>> ways;
   for (int i = 0; i < std::ssize(ends); ++i) ways.push_back(wayOf(ends, i));
   for (int i = 0; i < std::ssize(ends); ++i)
-    if (ways[i]) leadOnOver(lines[ends[i].line], ends[i], *ways[i]);
+    if (ways[i]) leadStraightOn(lines[ends[i].line], ends[i], *ways[i]);
 }
 
 }  // namespace batten

@@ -11,7 +11,6 @@
 #include "core/contour/centreline/ends/taper.h"
 #include "core/contour/centreline/profile/stroke_course.h"
 #include "core/contour/centreline/profile/stroke_profile.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

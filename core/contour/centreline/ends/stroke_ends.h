@@ -7,6 +7,8 @@
 
 #include "core/contour/centreline/ends/end_shape.h"
 #include "core/contour/centreline/profile/stroke_course.h"
+#include "core/contour/contour_set.h"
+#include "core/image/grey_image.h"
 
 namespace batten {
 

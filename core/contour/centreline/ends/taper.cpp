@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/contour/centreline/profile/stroke_profile.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

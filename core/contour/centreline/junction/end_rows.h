@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/contour/centreline/junction/junction_pairing.h"
+#include "core/contour/centreline/junction/end_pairing.h"
 
 namespace batten {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/vec2.h"
 #include "core/contour/centreline/junction/arc_through.h"
 #include "core/contour/centreline/junction/end_rows.h"
-#include "core/contour/merge/stroke_lines.h"
 
 namespace batten {
 namespace {

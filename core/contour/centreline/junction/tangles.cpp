@@ -10,9 +10,9 @@
 #include "core/base/angle.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/statistics.h"
+#include "core/base/vec2.h"
 #include "core/contour/centreline/junction/arc_through.h"
 #include "core/contour/centreline/junction/end_rows.h"
-#include "core/contour/merge/stroke_lines.h"
 
 namespace batten {
 namespace {
@@ -36,7 +36,7 @@ constexpr int kLeastEndPoints = 6;
 constexpr double kMostTurnDeg = 40.0;      // from one end to the other
 constexpr double kExplainedWidths = 0.75;  // from the nearest arc: ink farther aside is of none
 // [stroke widths] and [px] Paper that the skeleton runs round, as a speck where two strokes part.
-constexpr double kPartingWidths = 0.25, kPartingPx = 0.5;
+constexpr double kSpeckWidths = 0.25, kSpeckPx = 0.5;
 // [stroke widths per radian] Of two pairings that leave as little the one that turns less is likelier.
 constexpr double kTurnWidths = 0.6;
 constexpr double kSideBySideHalf = 0.27;  // tan 15 degrees: of half the angle of strokes that look side by side
@@ -216,7 +216,7 @@ std::vector<Vec2> TangleFinder::coursePlaces(const TangleArc& arc, const TangleE
 bool TangleFinder::isWithinInk(const TangleArc& arc, const TangleEnd& p, const TangleEnd& q) const {
   return std::ranges::all_of(coursePlaces(arc, p, q), [&](const Vec2& at) {
     return std::ranges::any_of(ink_, [&](const StrokePathPoint& s) {
-      return (s.at - at).norm() <= static_cast<double>(s.radius) + kPartingWidths * usualWidth_ + kPartingPx;
+      return (s.at - at).norm() <= static_cast<double>(s.radius) + kSpeckWidths * usualWidth_ + kSpeckPx;
     });
   });
 }

@@ -12,12 +12,11 @@
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/contour/centreline/profile/page_scale.h"
+#include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/profile/stroke_course.h"
 #include "core/contour/centreline/profile/stroke_profile.h"
 #include "core/image/fine_page.h"
 #include "core/image/push_pull.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

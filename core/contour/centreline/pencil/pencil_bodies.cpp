@@ -5,8 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/contour/centreline/pencil/grain_closing.h"
 #include "core/contour/centreline/pencil/oriented_line_filter.h"
-#include "core/contour/centreline/pencil/stroke_mask.h"
 #include "core/image/bits/bit_disc.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"

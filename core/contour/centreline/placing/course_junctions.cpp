@@ -52,34 +52,34 @@ std::vector<float> withoutPeaks(const std::vector<float>& radius, bool closed, i
 }
 
 // A stretch of points within a junction, and what the stroke does on either side of it.
-struct Crossing {
+struct JunctionStretch {
   int begin = 0, end = 0;  // may pass the end of a closed course
   std::optional<CourseApproach> before, after;
 };
 
 bool isJunction(const StrokeCourse& c, int i) { return c.points[wrapIndex(i, c.count())].part == StrokePart::Junction; }
 
-Crossing between(const StrokeCourse& c, int begin, int end, bool onlyOutside = true) {
-  Crossing crossing{begin, end, {}, {}};
+JunctionStretch between(const StrokeCourse& c, int begin, int end, bool onlyOutside = true) {
+  JunctionStretch crossing{begin, end, {}, {}};
   if (c.closed || begin > 0) crossing.before = approachAt(c, begin - 1, -1, reachOf(c), onlyOutside);
   if (c.closed || end + 1 < c.count()) crossing.after = approachAt(c, end + 1, 1, reachOf(c), onlyOutside);
   return crossing;
 }
 
-Crossing crossingAt(const StrokeCourse& c, int begin, int last) {
+JunctionStretch crossingAt(const StrokeCourse& c, int begin, int last) {
   int end = begin;
   while (end + 1 <= last && isJunction(c, end + 1)) ++end;
   return between(c, begin, end);
 }
 
 // Whether a stroke goes on beyond a crossing as before it, but for a turn of less than this.
-bool continuesWithin(const Crossing& crossing, double turnRad) {
+bool continuesWithin(const JunctionStretch& crossing, double turnRad) {
   return crossing.before && crossing.after &&
          crossing.before->direction.dot(crossing.after->direction) >= std::cos(turnRad);
 }
 
 // Tangent of the angle at which a crossing leaves the mean direction of its sides; nothing where these turn.
-std::optional<double> slantOf(const Crossing& crossing) {
+std::optional<double> slantOf(const JunctionStretch& crossing) {
   if (!continuesWithin(crossing, kSameWayRad)) return std::nullopt;
   const Vec2 along = (crossing.before->direction + crossing.after->direction).normalized();
   const Vec2 chord = crossing.after->at - crossing.before->at;
@@ -99,7 +99,7 @@ bool isOnInk(const StrokeCourse& c, int i, const Vec2& at, double offWidths) {
 
 // Places of the points of a crossing on a cubic that continues both sides, or straight on where there is one; nothing
 // where they leave the ink.
-std::optional<std::vector<Vec2>> courseThrough(const StrokeCourse& c, const Crossing& x, double offWidths) {
+std::optional<std::vector<Vec2>> courseThrough(const StrokeCourse& c, const JunctionStretch& x, double offWidths) {
   const int count = x.end - x.begin + 1;
   const bool isOpenStart = !c.closed && x.begin == 0, isOpenEnd = !c.closed && x.end == c.count() - 1;
   const bool isBetween = x.before && x.after;
@@ -124,7 +124,7 @@ std::optional<std::vector<Vec2>> courseThrough(const StrokeCourse& c, const Cros
   return places;
 }
 
-void layOver(StrokeCourse& c, const Crossing& crossing, const std::vector<Vec2>& places) {
+void layOver(StrokeCourse& c, const JunctionStretch& crossing, const std::vector<Vec2>& places) {
   for (int k = 0; k < std::ssize(places); ++k) c.points[wrapIndex(crossing.begin + k, c.count())].base = places[k];
 }
 
@@ -144,7 +144,7 @@ void removeJog(StrokeCourse& c, int at, int reach) {
   for (int half = reach; half <= most; ++half) {
     const int begin = at - half, end = at + half;
     if (c.closed ? 2 * (half + reach) > n : begin < reach || end >= n - reach) return;
-    const Crossing crossing = between(c, begin, end, false);
+    const JunctionStretch crossing = between(c, begin, end, false);
     const std::optional<double> slant = slantOf(crossing);
     if (!slant || *slant > kGentleSlant) continue;
     if (*slant * (crossing.after->at - crossing.before->at).norm() < leastAsidePx) continue;
@@ -194,7 +194,7 @@ void layThroughJunctions(StrokeCourse& c) {
   if (start == n) return;
   for (int i = start; i < start + n; ++i) {
     if (!isJunction(c, i)) continue;
-    const Crossing crossing = crossingAt(c, i, start + n - 1);
+    const JunctionStretch crossing = crossingAt(c, i, start + n - 1);
     if (const auto places = courseThrough(c, crossing, kOffInkWidths)) layOver(c, crossing, *places);
     i = crossing.end;
   }

@@ -10,7 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
-#include "core/contour/centreline/profile/border_sums.h"
+#include "core/contour/centreline/placing/border_sums.h"
 #include "core/contour/subpixel/blur_search.h"
 #include "core/contour/subpixel/curvature_shift.h"
 #include "core/contour/subpixel/pixel_edge.h"

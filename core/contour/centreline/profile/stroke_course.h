@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "core/contour/centreline/stroke_path.h"
-#include "core/contour/contour_set.h"
 #include "core/contour/subpixel/point_noise.h"
-#include "core/image/grey_image.h"
 
 namespace batten {
 

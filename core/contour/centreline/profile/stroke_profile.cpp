@@ -24,7 +24,7 @@ struct PaperLine {
 };
 
 // Mean of `count` samples from `first` on.
-double meanOfProfile(std::span<const float> p, int first, int count) {
+double meanOfSamples(std::span<const float> p, int first, int count) {
   double sum = 0.0;
   for (int k = first; k < first + count; ++k) sum += p[k];
   return sum / count;
@@ -76,7 +76,7 @@ std::optional<StrokeCentre> halfLevelCentre(std::span<const float> profile, doub
   smoothAcrossStroke(profile.data(), n, scratch.data());
   const int core = static_cast<int>(std::lround(kCoreShare * widthPx / kStrokeStepPx));
   const int first = std::max(0, half - core);
-  const double ink = meanOfProfile(scratch, first, 2 * (half - first) + 1);
+  const double ink = meanOfSamples(scratch, first, 2 * (half - first) + 1);
   const int edge = std::min(half - 1, static_cast<int>(std::lround(0.5 * widthPx / kStrokeStepPx)));
   const PaperLine paper = paperBeside(scratch, edge, ink);
   const double contrast = paper.at(half) - ink;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/ends/on_ink.h"
+#include "core/contour/centreline/on_ink.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/junction/junction_pairing.h"
+#include "core/contour/centreline/junction/end_pairing.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/base/statistics.h"
+#include "core/base/vec2.h"
 #include "core/contour/centreline/junction/arc_through.h"
 #include "core/contour/centreline/junction/end_rows.h"
-#include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/placing/fine_lines.h"
+#include "core/contour/fine_lines.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "core/contour/centreline/profile/page_scale.h"
+#include "core/contour/centreline/page_scale.h"
 #include "core/image/fine_page.h"
 
 namespace batten {

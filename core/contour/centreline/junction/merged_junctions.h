@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/contour/edge_params.h"
+#include "core/contour/edge_choices.h"
 
 namespace batten {
 

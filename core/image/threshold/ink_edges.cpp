@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/threshold/page_edges.h"
+#include "core/image/threshold/ink_edges.h"
 
 #include <algorithm>
 #include <array>
@@ -212,8 +212,8 @@ std::vector<EdgePoint> findCrests(const Plane& u, const RegionNoise& noise, cons
 
 }  // namespace
 
-PageEdges findPageEdges(const Plane& u, const RunContext& context) {
-  PageEdges edges;
+InkEdges findInkEdges(const Plane& u, const RunContext& context) {
+  InkEdges edges;
   edges.area = BitImage(u.width, u.height);
   if (u.width < 3 || u.height < 3) return edges;
   const RegionNoise noise = measureNoise(u, context);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/bits/faint_lines.h"
+#include "core/image/threshold/faint_lines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/threshold/page_edges.h"
+#include "core/image/threshold/ink_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ struct PlainEdges {
   }
 };
 
-TEST(PageEdges, AreThoseOfTheDefinition) {
+TEST(InkEdges, AreThoseOfTheDefinition) {
   for (const auto& [width, height] : {std::pair{400, 330}, {331, 457}, {290, 700}}) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
       const Plane u = blottedPaper(width, height, seed);
@@ -103,7 +103,7 @@ TEST(PageEdges, AreThoseOfTheDefinition) {
       RunContext alone;
       alone.threads = 1;
       for (const RunContext& context : {RunContext{}, alone}) {
-        const PageEdges edges = findPageEdges(u, context);
+        const InkEdges edges = findInkEdges(u, context);
         std::size_t next = 0;
         for (int y = 0; y < height; ++y) {
           for (int x = 0; x < width; ++x) {

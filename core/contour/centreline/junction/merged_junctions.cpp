@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/junction/skeleton_junctions.h"
+#include "core/contour/centreline/junction/merged_junctions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/sheet/sheet_edges.h"
+#include "core/image/sheet/straight_sheet_edges.h"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ constexpr double kMostLean = 0.1;                         // tangent of the angl
 constexpr int kAlongStep = 3;                             // cells between two places that are looked at
 constexpr int kNoneOf = 2;                                // cells to either side: the edge, its shadow, a line along it
 constexpr int kPaperCells = 7;                            // beyond them: what lies on this side of the edge
-constexpr int kFewestCells = 2;                           // of them, at the border of the picture
+constexpr int kFewestPaperCells = 2;                      // of them, at the border of the picture
 constexpr int kNextDepth = kNoneOf + kPaperCells + 3;     // cells: where the paper goes on without a step
 constexpr float kMostStepSeen = 12.0f;                    // [grey] ink and things on the table do not count for more
 constexpr float kGreatestStep = 30.0f;                    // [grey] a darker table is told by its cells
@@ -55,9 +55,9 @@ struct FromSide {
 // then by depth.
 struct SideSteps {
   std::vector<int> places;
-  int least = kNoneOf + kFewestCells, most = 0;  // depths
-  std::vector<cv::Vec3f> steps;                  // of the papers on both sides
-  std::vector<cv::Vec3f> brinks;                 // at the very edge
+  int least = kNoneOf + kFewestPaperCells, most = 0;  // depths
+  std::vector<cv::Vec3f> steps;                       // of the papers on both sides
+  std::vector<cv::Vec3f> brinks;                      // at the very edge
   std::ptrdiff_t index(int place, int depth) const {
     return std::ptrdiff_t{place} * (most - least + 1) + depth - least;
   }

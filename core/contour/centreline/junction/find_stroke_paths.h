@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/run_context.h"
-#include "core/contour/centreline/junction/skeleton_junctions.h"
+#include "core/contour/centreline/junction/merged_junctions.h"
 #include "core/contour/centreline/stroke_path.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"

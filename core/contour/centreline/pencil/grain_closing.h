@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/image/bits/bit_image.h"
 
@@ -20,14 +19,5 @@ BitImage closeGrain(const BitImage& ink, double widthPx, bool isFinePage, const 
 
 /// The pieces of `closed` of which at least `share` (0..1) is `ink`.
 BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, const RunContext& context);
-
-/// Both have the size of the ink that was split.
-struct StrokeSplit {
-  BitImage strokes;
-  BitImage shapes;
-};
-/// Splits the ink piece by piece: one is a shape when more than half of its area survives an opening by a disc that is
-/// far wider than a stroke on a page of this size.
-Result<StrokeSplit> splitStrokes(const BitImage& ink, const RunContext&);
 
 }  // namespace batten

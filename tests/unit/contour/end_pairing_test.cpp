@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/contour/centreline/centreline.h"
-#include "core/contour/centreline/junction/junction_pairing.h"
+#include "core/contour/centreline/junction/end_pairing.h"
 #include "core/polyline/polyline_tools.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/ink_page.h"

@@ -11,14 +11,13 @@
 
 namespace batten {
 
-/// What of a picture is not the paper that was drawn on.
-struct SheetSearch {
-  int cellPx = 1;                     ///< [px] What one pixel of `holes->cells` covers a side.
+/// The sheet that was drawn on, and what was punched into it.
+struct SheetAndHoles {
   std::optional<BindingHoles> holes;  ///< Absent: none were found.
   std::optional<PaperSheet> sheet;    ///< Absent: the paper fills the picture, or where it ends is doubtful.
 };
 
 /// Both are found on one set of cells. Empty when cancelled.
-SheetSearch searchSheet(const GreyImage&, const ColourImage&, const RunContext&);
+SheetAndHoles findSheetAndHoles(const GreyImage&, const ColourImage&, const RunContext&);
 
 }  // namespace batten

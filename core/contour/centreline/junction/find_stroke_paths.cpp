@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/junction/stroke_paths.h"
+#include "core/contour/centreline/junction/find_stroke_paths.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
 
+#include "core/base/vec2.h"
+#include "core/contour/centreline/junction/doubtful_pairings.h"
+#include "core/contour/centreline/junction/end_pairing.h"
 #include "core/contour/centreline/junction/end_rows.h"
 #include "core/contour/centreline/junction/junction_choices.h"
-#include "core/contour/centreline/junction/junction_pairing.h"
-#include "core/contour/centreline/junction/junction_pairings.h"
-#include "core/contour/centreline/junction/skeleton_junctions.h"
+#include "core/contour/centreline/junction/merged_junctions.h"
 #include "core/contour/centreline/skeleton/skeleton_graph.h"
 #include "core/contour/centreline/skeleton/skeleton_spurs.h"
-#include "core/contour/merge/stroke_lines.h"
-#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

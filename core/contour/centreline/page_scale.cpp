@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/profile/page_scale.h"
+#include "core/contour/centreline/page_scale.h"
 
 #include "core/image/fine_page.h"
 

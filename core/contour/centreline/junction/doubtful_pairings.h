@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contour/centreline/junction/junction_pairing.h"
+#include "core/contour/centreline/junction/end_pairing.h"
 #include "core/contour/contour_set.h"
 
 namespace batten {

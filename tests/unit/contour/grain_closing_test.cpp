@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The grain of a pencil is closed, the counters of small letters are not.
-#include "core/contour/centreline/pencil/stroke_mask.h"
+#include "core/contour/centreline/pencil/grain_closing.h"
 
 #include <gtest/gtest.h>
 
@@ -27,14 +27,14 @@ BitImage lettering() {
   return ink;
 }
 
-TEST(StrokeMask, CountersOfSmallLettersStayOpenOnAFinePage) {
+TEST(GrainClosing, CountersOfSmallLettersStayOpenOnAFinePage) {
   const BitImage ink = lettering();
   EXPECT_EQ(closeGrain(ink, kRingStrokePx, true, {}), ink);
   // Counters as small as the closing's disc are holes of the grain, where that is asked for.
   EXPECT_GT(closeGrain(ink, kRingStrokePx, false, {}).count(), ink.count() + 20 * 10);
 }
 
-TEST(StrokeMask, TornInkIsClosedOnAFinePageToo) {
+TEST(GrainClosing, TornInkIsClosedOnAFinePageToo) {
   BitImage torn(kMaskWidth, kMaskHeight);
   for (int y = 20; y < 26; ++y)
     for (int x = 5; x < kMaskWidth - 5; ++x) torn.set(x, y, (x + 3 * y) % 7 != 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/profile/border_sums.h"
+#include "core/contour/centreline/placing/border_sums.h"
 
 #include "core/base/avx2.h"
 

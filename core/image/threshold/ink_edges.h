@@ -14,12 +14,12 @@ struct EdgePoint {
   float strength;  ///< [grey / grid step] Length of the gradient beyond the region's own slope.
 };
 
-struct PageEdges {
+struct InkEdges {
   BitImage area;                  ///< Everything steep, in pieces that hold something certain.
   std::vector<EdgePoint> crests;  ///< Where the gradient is largest across the edge, in reading order.
 };
 
 /// Finds the edges that stand out of the page's own noise and slope, both measured in each of the 64 regions.
-PageEdges findPageEdges(const Plane& smoothed, const RunContext& context);
+InkEdges findInkEdges(const Plane& smoothed, const RunContext& context);
 
 }  // namespace batten

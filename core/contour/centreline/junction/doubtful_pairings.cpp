@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/junction/junction_pairings.h"
+#include "core/contour/centreline/junction/doubtful_pairings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,73 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline/pencil/stroke_mask.h"
+#include "core/contour/centreline/pencil/stroke_split.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <new>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/base/parallel.h"
-#include "core/image/bits/ink_grain.h"
-#include "core/image/bits/ink_holes.h"
 #include "core/image/bits/run_pieces.h"
 
 namespace batten {
 namespace {
-
-// Where there is ink: rows, and columns by words.
-struct InkBox {
-  int top, bottom, left, right;
-};
-
-InkBox boxOfInk(const BitImage& ink) {
-  InkBox box{.top = ink.height, .bottom = -1, .left = ink.wordsPerRow, .right = -1};
-  for (int y = 0; y < ink.height; ++y) {
-    for (int i = 0; i < ink.wordsPerRow; ++i) {
-      if (ink.row(y)[i] == 0) continue;
-      box.top = std::min(box.top, y);
-      box.bottom = y;
-      box.left = std::min(box.left, i);
-      box.right = std::max(box.right, i);
-    }
-  }
-  return box;
-}
-
-// Closes rows [y0, y1). Ink farther away than twice the radius has no say.
-void closeRows(const BitImage& ink, const InkBox& box, int y0, int y1, double radius, BitImage& closed) {
-  const int margin = static_cast<int>(std::ceil(radius)) + 2;
-  const int x0 = box.left * 64 - margin, top = y0 - 2 * margin;
-  cv::Mat mat(y1 - y0 + 4 * margin, (box.right - box.left + 1) * 64 + 2 * margin, CV_8U, cv::Scalar(0));
-  for (int y = std::max(0, top); y < std::min(ink.height, top + mat.rows); ++y) {
-    std::uint8_t* row = mat.ptr<std::uint8_t>(y - top);
-    for (int i = box.left; i <= box.right; ++i) {
-      for (std::uint64_t bits = ink.row(y)[i]; bits != 0; bits &= bits - 1)
-        row[i * 64 + std::countr_zero(bits) - x0] = 255;
-    }
-  }
-  cv::Mat distance;
-  cv::distanceTransform(mat == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  const cv::Mat dilated = distance <= radius;
-  cv::distanceTransform(dilated, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  const cv::Mat body = (distance > radius) | mat;
-  for (int y = y0; y < y1; ++y) {
-    const std::uint8_t* row = body.ptr<std::uint8_t>(y - top);
-    for (int x = std::max(0, x0); x < std::min(ink.width, x0 + body.cols); ++x)
-      if (row[x - x0] != 0) closed.set(x, y, true);
-  }
-}
-
-// Fills the holes of the ink that no disc of diameter `limitPx` fits into.
-void fillNarrowHoles(BitImage& ink, double limitPx, const RunContext& context) {
-  std::vector<InkHole> holes = findInkHoles(ink, context);
-  measureWidths(ink, holes, context);
-  if (context.isCancelled()) return;
-  for (const InkHole& hole : holes) {
-    if (hole.widthPx >= limitPx) continue;
-    for (const InkRun& run : hole.runs) setBits(ink, run);
-  }
-}
 
 // Area and fat area of every component (keyed by its first run).
 struct Bulk {
@@ -175,44 +119,6 @@ StrokeSplit split(const BitImage& ink, const RunContext& context) {
 }
 
 }  // namespace
-
-BitImage closeInk(const BitImage& ink, double diameterPx, const RunContext& context) {
-  constexpr int kRowsAtOnce = 256;  // so that no plane of distances, 4 bytes a pixel, is as large as the page
-  BitImage closed(ink.width, ink.height);
-  const InkBox box = boxOfInk(ink);
-  for (int y = box.top; y <= box.bottom; y += kRowsAtOnce) {
-    if (context.isCancelled()) return closed;
-    closeRows(ink, box, y, std::min(box.bottom + 1, y + kRowsAtOnce), 0.5 * diameterPx, closed);
-  }
-  fillNarrowHoles(closed, diameterPx + 2.0, context);
-  return closed;
-}
-
-double grainClosing(double widthPx) {
-  constexpr double kClosingWidths = 0.75;  // between the specks of a pencil there is less, and a pixel
-  return kClosingWidths * widthPx + 1.0;
-}
-
-BitImage closeGrain(const BitImage& ink, double widthPx, bool isFinePage, const RunContext& context) {
-  constexpr double kLeastTorn = 0.003;  // a speck or a hole in 333 widths of stroke
-  if (isFinePage && measureGrain(ink, context).perWidth < kLeastTorn) return ink;
-  return closeInk(ink, grainClosing(widthPx), context);
-}
-
-BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, const RunContext& context) {
-  const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
-  std::vector<std::int64_t> area(pieces.runs.size()), inked(pieces.runs.size());
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
-    inked[pieces.piece[i]] += countBits(ink, pieces.runs[i]);
-  }
-  BitImage kept(closed.width, closed.height);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const int piece = pieces.piece[i];
-    if (static_cast<double>(inked[piece]) >= share * static_cast<double>(area[piece])) setBits(kept, pieces.runs[i]);
-  }
-  return kept;
-}
 
 Result<StrokeSplit> splitStrokes(const BitImage& ink, const RunContext& context) {
   if (ink.width <= 0 || ink.height <= 0) return StrokeSplit{ink, ink};
