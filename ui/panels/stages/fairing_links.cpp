@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/fairing_links.h"
 
+#include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <initializer_list>
 #include <initializer_list>
 
 #include "ui/panels/controls/panel_parts.h"
