@@ -5,7 +5,6 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <initializer_list>
-#include <initializer_list>
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/like_link.h"
