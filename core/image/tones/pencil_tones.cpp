@@ -22,6 +22,8 @@ constexpr double kMostAlike = 0.47;
 constexpr double kFaintestTone = 8.0, kFaintestShare = 0.15;  // [of 255], of the darkness of lines: less is paper
 constexpr double kLeastDark = 0.375;  // of the darkness of lines, in the mean: ink that is torn is thresholded there
 constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step within a brush; shades fade farther
+// Of the border of a filled area: it ends sharply; of its darkness: standard deviation without what is narrow.
+constexpr double kFilledShare = 0.75, kMostUnevenFill = 0.4;
 constexpr double kLeastBesideTone = 0.15;  // of the length of its border: lines on a tone and beside it
 constexpr double kBesideTone = 2.0;        // [widths] from a tone: lines along its border
 constexpr double kBesideLines = 1.0;       // [widths] from a line: beyond its blurred border
@@ -82,6 +84,35 @@ cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Ma
   std::vector<std::uint8_t> isSolid(count, 0);
   for (int k = 1; k < count; ++k) isSolid[k] = steps[k] >= kSharpEnd * depths[k] ? 255 : 0;
   return labelled(labels, isSolid);
+}
+
+/// Areas that somebody filled, with hatching or smudging: beside lines as dark as these in the mean and even without
+/// what is narrow, and they end sharply nearly all around. 255 up to where they are half as dark.
+cv::Mat1b filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lines) {
+  cv::Mat1f depth, deepest;
+  page.ground.convertTo(depth, CV_32F, -1.0, 255.0);
+  cv::dilate(depth, deepest, disc(page.brush));
+  cv::Mat1i labels;
+  const int count = cv::connectedComponents(shaded, labels, 8, CV_32S);
+  const auto sums = [&](const cv::Mat1b& where, const cv::Mat1f& values) {
+    return sumsOf(labels, count, where, values);
+  };
+  const cv::Mat1f one = cv::Mat1f::ones(shaded.size());
+  const cv::Mat1b border = rimOfMask(shaded), inner = shrunkMask(shaded, page.brush);
+  const cv::Mat1b bare = shaded & (grownMask(lines, static_cast<int>(std::ceil(kBesideLines * page.widthPx))) == 0);
+  const std::vector<double> borders = sums(border, one), sizes = sums(bare, one), inners = sums(inner, one);
+  const std::vector<double> ends = sums(border & (deepest >= kLeastDark * page.darkness), one);
+  const std::vector<double> darkness = sums(bare, 255.0 - page.level);
+  const std::vector<double> depths = sums(inner, depth), squares = sums(inner, depth.mul(depth));
+  std::vector<std::uint8_t> isFilled(count, 0);
+  for (int k = 1; k < count; ++k) {
+    const bool isWide = sizes[k] >= std::pow(kLeastShownWidths * page.widthPx, 2);
+    const bool isDark = darkness[k] >= kMostOfLines * page.darkness * sizes[k];
+    // The mean square is that of the mean and the variance.
+    const bool isEven = squares[k] * inners[k] <= (1.0 + kMostUnevenFill * kMostUnevenFill) * depths[k] * depths[k];
+    if (isWide && isDark && isEven && ends[k] >= kFilledShare * borders[k]) isFilled[k] = 255;
+  }
+  return labelled(labels, isFilled) & (depth >= 0.5 * kMostOfLines * page.darkness);
 }
 
 /// For each tone the length of the lines on it and beside it. [px]
@@ -169,13 +200,15 @@ std::optional<ToneAreas> findPencilTones(const ToneCopy& copy, const RunContext&
   const cv::Mat1b lines = linesOnTones(*look, shaded, context);
   if (context.isCancelled() || cv::countNonZero(lines) == 0) return std::nullopt;
   const cv::Mat1b lineLevel = levelOfLines(*look, lines);
-  const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel);
+  const cv::Mat1b filled = filledAreas(*look, shaded, lines);
+  const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel) | filled;
   const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines);
-  if (context.isCancelled() || cv::countNonZero(tones) == 0) return std::nullopt;
+  if (context.isCancelled() || cv::countNonZero(tones | filled) == 0) return std::nullopt;
   ToneAreas areas = areasOf(*look, tones, solids, lines, lineLevel);
   areas.pixelsPerPx = copy.pixelsPerPx;
   areas.lineWidthPx = look->widthPx * copy.pixelsPerPx;
   areas.lineDarkness = look->darkness;
+  if (cv::countNonZero(filled) > 0) areas.filled = bytesOf(filled);
   return areas;
 }
 

@@ -37,9 +37,11 @@ struct ToneAreas {
   std::vector<std::uint8_t> gain;
   std::vector<std::uint8_t> paper;  ///< [grey 0..255] What the ground is a share of, row by row.
   std::vector<std::uint8_t> bare;   ///< Not 0 along sharp borders that no line is drawn along, row by row; or empty.
-  double lineWidthPx = 0.0;         ///< [px of the page] Of the lines.
-  double lineDarkness = 0.0;        ///< [of 255] Of the lines.
-  double share = 0.0;               ///< 0..1 of the page is clearly shaded.
+  /// 255 where an area was filled with hatching and becomes as dark as lines all over, row by row; or empty.
+  std::vector<std::uint8_t> filled;
+  double lineWidthPx = 0.0;   ///< [px of the page] Of the lines.
+  double lineDarkness = 0.0;  ///< [of 255] Of the lines.
+  double share = 0.0;         ///< 0..1 of the page is clearly shaded.
 };
 
 /// Finds areas of even tone that lines are drawn on and around, as the shading of marker or airbrush: wider than any

@@ -118,6 +118,14 @@ class BareBorders {
   cv::Mat1b near_;
 };
 
+/// What was filled shows no paper: it is at least as dark as lines.
+std::uint16_t brightestAt(const ToneAreas& areas, const Place& place) {
+  const double share = areas.filled.empty() ? 0.0 : place.of(areas.filled) / 255.0;
+  if (!(share > 0.0)) return 65535;
+  const double paper = GreyImage::kGreyUnit * place.of(areas.paper);
+  return static_cast<std::uint16_t>(paper * (1.0 - share * areas.lineDarkness / 255.0) + 0.5);
+}
+
 }  // namespace
 
 GreyImage withoutTones(GreyImage page, const ToneAreas& areas, const RunContext& context) {
@@ -127,6 +135,7 @@ GreyImage withoutTones(GreyImage page, const ToneAreas& areas, const RunContext&
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < page.width; ++x) {
         const Place place(areas, x, y);
+        page.row(y)[x] = std::min(page.row(y)[x], brightestAt(areas, place));
         if (place.isPaper(areas.ground)) continue;
         const double ground = std::max(1.0, place.of(areas.ground)) / 255.0;
         const double paper = GreyImage::kGreyUnit * place.of(areas.paper);

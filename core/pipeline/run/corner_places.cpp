@@ -44,6 +44,7 @@ bool liesOnInk(const CornerSuggestion& corner, const Contour& contour, const Gre
   constexpr int kBesidePoints = 20;    // of the contour, to either side
   constexpr double kPaperReach = 3.0;  // widths of the stroke
   constexpr double kInkShare = 0.5;    // of the way from ink to paper
+  constexpr double kTipWidths = 0.75;  // of a pencil's stroke: its ragged tip may end so far before where its sides meet
   const std::optional<float> width = contour.points[corner.pointIndex].widthPx;
   if (contour.kind != ContourKind::Centreline || !width || page.pixels.empty()) return true;
   std::vector<double> ink;
@@ -53,7 +54,9 @@ bool liesOnInk(const CornerSuggestion& corner, const Contour& contour, const Gre
     if (i >= 0 && i < n) ink.push_back(greyAround(page, contour.points[i].at, 1.0).darkest);
   }
   const double dark = upperMedian(ink), light = greyAround(page, corner.positionPx, kPaperReach * *width).lightest;
-  return greyAround(page, corner.positionPx, 1.0).darkest <= dark + kInkShare * (light - dark);
+  const bool isSketched = !contour.points[corner.pointIndex].sigmaPx;
+  const double reachPx = isSketched ? std::max(1.0, kTipWidths * static_cast<double>(*width)) : 1.0;
+  return greyAround(page, corner.positionPx, reachPx).darkest <= dark + kInkShare * (light - dark);
 }
 
 }  // namespace

@@ -56,9 +56,12 @@ std::vector<std::vector<Vec2>> lightLines() {
           edgeOfBox({680.0, 60.0}, {700.0, 500.0}), edgeOfBox({90.0, 100.0}, {80.0, 500.0})};
 }
 
+/// What is drawn on the page beside the box: 0..1 of a pencil.
+using Cover = std::vector<float>;
+
 /// @param side, front 0..1 of the pencil on the faces; that of the front grows along it. @param light 0..1 of that of
 /// the light lines. @param tooth 0..1 how far the paper's grain tears it.
-GreyImage boxPage(double side, double front, double light, double tooth, std::uint32_t seed) {
+GreyImage boxPage(double side, double front, double light, double tooth, std::uint32_t seed, const Cover& beside = {}) {
   std::vector<float> cover = test::fillCoverage({kBoxB, kBoxE, kBoxF, kBoxC}, kBoxWidth, kBoxHeight);
   const std::vector<float> onFront = test::fillCoverage({kBoxA, kBoxB, kBoxC, kBoxD}, kBoxWidth, kBoxHeight);
   const std::vector<float> firm = test::coverageOf(firmLines(), kBoxLinePx, kBoxWidth, kBoxHeight);
@@ -69,6 +72,7 @@ GreyImage boxPage(double side, double front, double light, double tooth, std::ui
     const double tone = side * static_cast<double>(cover[i]) + graded * static_cast<double>(onFront[i]);
     const double line = std::max(0.9 * static_cast<double>(firm[i]), light * static_cast<double>(faint[i]));
     cover[i] = static_cast<float>(1.0 - (1.0 - tone) * (1.0 - line));
+    if (!beside.empty()) cover[i] = std::max(cover[i], beside[i]);
   }
   test::grainCoverage(
       cover, kBoxWidth, kBoxHeight, [=](double, double) { return tooth; }, seed);
@@ -141,6 +145,56 @@ TEST(PencilTones, ASolidBesideThemStays) {
   ASSERT_TRUE(tones);
   const GreyImage without = withoutTones(page, *tones, {});
   for (int x = 480; x < 600; x += 10) EXPECT_EQ(without.row(300)[x], page.row(300)[x]) << "at " << x;
+}
+
+constexpr double kGrilleLeft = 470.0, kGrilleTop = 480.0, kGrilleRight = 650.0, kGrilleBottom = 535.0;
+constexpr double kHatchPx = 14.0;  // from stroke to stroke along the border
+
+/// A rectangle that strokes to and fro both ways fill, with paper between them. @param base 0..1 of what they smudged.
+Cover grille(double base) {
+  std::vector<std::vector<Vec2>> strokes;
+  const double height = kGrilleBottom - kGrilleTop;
+  for (double x = kGrilleLeft; x + height <= kGrilleRight; x += kHatchPx) {
+    strokes.push_back(edgeOfBox({x, kGrilleTop}, {x + height, kGrilleBottom}));
+    strokes.push_back(edgeOfBox({x + height, kGrilleTop}, {x, kGrilleBottom}));
+  }
+  Cover cover = test::coverageOf(strokes, kBoxLinePx, kBoxWidth, kBoxHeight);
+  const Cover inside = test::fillCoverage({{kGrilleLeft, kGrilleTop},
+                                           {kGrilleRight, kGrilleTop},
+                                           {kGrilleRight, kGrilleBottom},
+                                           {kGrilleLeft, kGrilleBottom}},
+                                          kBoxWidth, kBoxHeight);
+  for (std::size_t i = 0; i < cover.size(); ++i)
+    cover[i] = inside[i] * static_cast<float>(base + (0.95 - base) * static_cast<double>(cover[i]));
+  return cover;
+}
+
+/// Closed outlines that leave out less of the grille at its sides than lies between two strokes.
+int outlinesOfGrille(const GreyImage& page) {
+  int found = 0;
+  for (const Contour& c : tracedPage(page).contours) {
+    if (c.kind != ContourKind::Outline || !c.closed || c.hole) continue;
+    Vec2 low = c.points.front().at, high = low;
+    for (const ContourPoint& p : c.points) low = low.cwiseMin(p.at), high = high.cwiseMax(p.at);
+    const double off = std::max((low - Vec2(kGrilleLeft, kGrilleTop)).cwiseAbs().maxCoeff(),
+                                (high - Vec2(kGrilleRight, kGrilleBottom)).cwiseAbs().maxCoeff());
+    found += off < kHatchPx ? 1 : 0;
+  }
+  return found;
+}
+
+// Hatching as dark as lines that ends sharply all around is a shape; faint or fading hatching is a tone.
+TEST(PencilTones, WhatHatchingFillsIsOneShape) {
+  for (const std::uint32_t seed : kBoxSeeds) {
+    const GreyImage page = boxPage(0.5, 0.4, 0.28, 0.5, seed, grille(0.45));
+    const std::optional<ToneAreas> tones = tonesOn(page, {});
+    ASSERT_TRUE(tones) << "seed " << seed;
+    EXPECT_EQ(outlinesOfGrille(withoutTones(page, *tones, {})), 1) << "seed " << seed;
+    ASSERT_FALSE(tones->filled.empty()) << "seed " << seed;
+    const std::optional<ToneAreas> ofFaint = tonesOn(boxPage(0.5, 0.4, 0.28, 0.5, seed, grille(0.15)), {});
+    EXPECT_TRUE(!ofFaint || ofFaint->filled.empty()) << "seed " << seed << ": mostly paper";
+    EXPECT_TRUE(tonesOn(shadedBox(seed), {})->filled.empty()) << "seed " << seed << ": shaded";
+  }
 }
 
 TEST(PencilTones, AreTheSameWithAnyNumberOfThreadsAndNotLookedForAfterACancel) {

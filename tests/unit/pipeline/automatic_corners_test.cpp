@@ -147,6 +147,51 @@ TEST(AutomaticCorners, GiveWayToMarks) {
   EXPECT_TRUE(hasCornerAt(corners, shape.corners[0], 1.0));
 }
 
+// Two sides of 150 px that turn by 120 degrees, rounded: where they would meet lies `radiusPx` beside the middle.
+std::vector<Vec2> roundedTip(const Vec2& vertex, double radiusPx) {
+  constexpr double kSidePx = 150.0;
+  const double half = std::numbers::pi / 6.0;  // between the middle of the tip and a side
+  const double tangent = radiusPx / std::tan(half);
+  std::vector<Vec2> points;
+  const auto onSide = [&](double sign, double s) {
+    return Vec2(vertex + s * Vec2(-std::cos(half), sign * std::sin(half)));
+  };
+  for (double s = kSidePx; s > tangent; s -= 1.0) points.push_back(onSide(-1.0, s));
+  const Vec2 centre = vertex - Vec2(radiusPx / std::sin(half), 0.0);
+  const double turn = 0.5 * std::numbers::pi - half;
+  const int steps = static_cast<int>(2.0 * turn * radiusPx);
+  for (int k = 1; k < steps; ++k) {
+    const double angle = turn * (2.0 * k / steps - 1.0);
+    points.push_back(centre + radiusPx * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  for (double s = tangent + 0.5; s < kSidePx; s += 1.0) points.push_back(onSide(1.0, s));
+  return points;
+}
+
+// The point of a pencil ends before the place where the sides meet; a pen's ink reaches it, or was bent.
+TEST(AutomaticCorners, OfAPencilMayLieALittleBeyondItsInk) {
+  const Vec2 vertex(300.0, 200.0);
+  for (const double widthPx : {3.0, 4.0, 5.0}) {
+    const std::vector<Vec2> line = roundedTip(vertex, widthPx);
+    const GreyImage page =
+        test::renderPage(test::strokeCoverage(line, false, widthPx, 500, 400), 500, 400, test::cleanPage()).grey;
+    ContourSet set;
+    Contour& contour = set.contours.emplace_back();
+    contour.kind = ContourKind::Centreline;
+    for (const Vec2& at : line) {
+      ContourPoint& point = contour.points.emplace_back();
+      point.at = point.unrefined = at;
+      point.refined = true;
+      point.widthPx = static_cast<float>(widthPx);
+    }
+    const std::vector<Corner> corners = certainCorners(set, page, {}, 16.0, {});
+    ASSERT_EQ(corners.size(), 1u) << widthPx;
+    EXPECT_LT((corners.front().positionPx - vertex).norm(), 1.0) << widthPx;
+    for (ContourPoint& point : contour.points) point.sigmaPx = 0.1f;
+    EXPECT_TRUE(certainCorners(set, page, {}, 16.0, {}).empty()) << widthPx;
+  }
+}
+
 TEST(AutomaticCorners, NoneWhenSwitchedOffOrOnPenLines) {
   const auto shape = test::truthShape("K", kSquareWidth, kSquareHeight);
   Recipe off;
