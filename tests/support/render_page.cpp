@@ -73,14 +73,14 @@ void throughJpeg(GreyImage& grey, int quality) {
   const tjhandle writer = tjInitCompress(), reader = tjInitDecompress();
   unsigned char* file = nullptr;
   unsigned long size = 0;
-  const int failed =
+  const bool isDone =
       tjCompress2(writer, page.data(), grey.width, 0, grey.height, TJPF_GRAY, &file, &size, TJSAMP_GRAY, quality,
-                  TJFLAG_ACCURATEDCT) |
-      tjDecompress2(reader, file, size, page.data(), grey.width, 0, grey.height, TJPF_GRAY, TJFLAG_ACCURATEDCT);
+                  TJFLAG_ACCURATEDCT) == 0 &&
+      tjDecompress2(reader, file, size, page.data(), grey.width, 0, grey.height, TJPF_GRAY, TJFLAG_ACCURATEDCT) == 0;
   tjFree(file);
   tjDestroy(writer);
   tjDestroy(reader);
-  if (failed != 0) throw std::runtime_error("the page does not go through JPEG");
+  if (!isDone) throw std::runtime_error("the page does not go through JPEG");
   for (std::size_t i = 0; i < page.size(); ++i) grey.pixels[i] = static_cast<std::uint16_t>(page[i] * 257);
 }
 

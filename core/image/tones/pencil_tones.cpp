@@ -88,7 +88,8 @@ cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Ma
 
 /// Areas that somebody filled, with hatching or smudging: beside lines as dark as these in the mean and even without
 /// what is narrow, and they end sharply nearly all around. 255 up to where they are half as dark.
-cv::Mat1b filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lines) {
+/// @param unlined not 0 beyond the blurred borders of lines.
+cv::Mat1b filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& unlined) {
   cv::Mat1f depth, deepest;
   page.ground.convertTo(depth, CV_32F, -1.0, 255.0);
   cv::dilate(depth, deepest, disc(page.brush));
@@ -99,7 +100,7 @@ cv::Mat1b filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv:
   };
   const cv::Mat1f one = cv::Mat1f::ones(shaded.size());
   const cv::Mat1b border = rimOfMask(shaded), inner = shrunkMask(shaded, page.brush);
-  const cv::Mat1b bare = shaded & (grownMask(lines, static_cast<int>(std::ceil(kBesideLines * page.widthPx))) == 0);
+  const cv::Mat1b bare = shaded & unlined;
   const std::vector<double> borders = sums(border, one), sizes = sums(bare, one), inners = sums(inner, one);
   const std::vector<double> ends = sums(border & (deepest >= kLeastDark * page.darkness), one);
   const std::vector<double> darkness = sums(bare, 255.0 - page.level);
@@ -134,11 +135,11 @@ std::vector<double> linesBeside(const PencilPage& page, const cv::Mat1i& tones, 
 }
 
 /// Shaded areas that are wider than lines and have some, and more than these and paper between them.
-cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lines) {
+cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lines, const cv::Mat1b& unlined) {
   cv::Mat1i labels;
   const int count = cv::connectedComponents(shaded, labels, 8, CV_32S);
   const cv::Mat1f one = cv::Mat1f::ones(shaded.size());
-  const cv::Mat1b within = shaded & (grownMask(lines, static_cast<int>(std::ceil(kBesideLines * page.widthPx))) == 0);
+  const cv::Mat1b within = shaded & unlined;
   const std::vector<double> borders = sumsOf(labels, count, rimOfMask(shaded), one);
   const std::vector<double> lined = linesBeside(page, labels, count, lines);
   const std::vector<double> bare = sumsOf(labels, count, within, one);
@@ -200,9 +201,10 @@ std::optional<ToneAreas> findPencilTones(const ToneCopy& copy, const RunContext&
   const cv::Mat1b lines = linesOnTones(*look, shaded, context);
   if (context.isCancelled() || cv::countNonZero(lines) == 0) return std::nullopt;
   const cv::Mat1b lineLevel = levelOfLines(*look, lines);
-  const cv::Mat1b filled = filledAreas(*look, shaded, lines);
+  const cv::Mat1b unlined = grownMask(lines, static_cast<int>(std::ceil(kBesideLines * look->widthPx))) == 0;
+  const cv::Mat1b filled = filledAreas(*look, shaded, unlined);
   const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel) | filled;
-  const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines);
+  const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines, unlined);
   if (context.isCancelled() || cv::countNonZero(tones | filled) == 0) return std::nullopt;
   ToneAreas areas = areasOf(*look, tones, solids, lines, lineLevel);
   areas.pixelsPerPx = copy.pixelsPerPx;
