@@ -209,8 +209,6 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
       faired[d].push_back(std::move(*part.faired[d]));
     }
   }
-  whole.recommendedDegree = whole.targets.recommendedDegree;
-  const bool bySimilarity = job.params.targetChoice == TargetChoice::Similarity;
   for (std::size_t d = faired.size(); d-- > 0;) {
     if (faired[d].size() != sections.size()) continue;
     auto joined = joinedParts(job.curve, job.closed, sections, std::move(faired[d]), check);
@@ -218,10 +216,14 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
       whole.problems[d] = joined.error().message;
       continue;
     }
-    if (!bySimilarity && isMet[d] && joined->report.withinTolerance) whole.recommendedDegree = static_cast<int>(d) + 1;
+    isMet[d] = isMet[d] && joined->report.withinTolerance;
     whole.faired[d] = std::move(*joined);
   }
-  if (const auto best = mostSimilar(whole.faired); bySimilarity && best) whole.recommendedDegree = best;
+  const auto best =
+      job.params.targetChoice == TargetChoice::Similarity
+          ? mostSimilar(whole.faired)
+          : fairestDegree(whole.faired, isMet, whole.targets.recommendedDegree, job.params.toleranceMm);
+  whole.recommendedDegree = best ? best : whole.targets.recommendedDegree;
   return whole;
 }
 

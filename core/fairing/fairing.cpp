@@ -92,14 +92,14 @@ void runTarget(const TargetsJob& job, TargetsRun& run, int degree, const RunCont
   }
 }
 
-/// The lowest degree that is met, where one is, or the most similar.
-void recommend(TargetsRun& run, TargetChoice choice) {
-  if (choice == TargetChoice::Similarity) {
-    if (const auto best = mostSimilar(run.outcomes->faired)) run.outcomes->recommendedDegree = best;
-    return;
-  }
-  const auto met = std::find(run.isMet.begin(), run.isMet.end(), true);
-  if (met != run.isMet.end()) run.outcomes->recommendedDegree = static_cast<int>(met - run.isMet.begin()) + 1;
+/// What TargetSet recommends stays only where there is no curve.
+void recommend(TargetsRun& run, const FairingParams& params) {
+  TargetOutcomes& outcomes = *run.outcomes;
+  const auto best =
+      params.targetChoice == TargetChoice::Similarity
+          ? mostSimilar(outcomes.faired)
+          : fairestDegree(outcomes.faired, run.isMet, outcomes.targets.recommendedDegree, params.toleranceMm);
+  if (best) outcomes.recommendedDegree = best;
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> j
   for (std::size_t i = 0; i < runs.size(); ++i) {
     TargetsRun& run = runs[i];
     if (context.isCancelled()) run.outcomes = cancelled();
-    if (run.outcomes) recommend(run, jobs[i].params.targetChoice);
+    if (run.outcomes) recommend(run, jobs[i].params);
     results.push_back(std::move(run.outcomes));
   }
   return results;

@@ -2,6 +2,7 @@
 #include "core/fairing/fairing_report.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "core/curve/curvature.h"
@@ -28,6 +29,19 @@ std::optional<int> mostSimilar(const FairedByDegree& faired) {
     best = s;
   }
   return degree;
+}
+
+std::optional<int> fairestDegree(const FairedByDegree& faired, const PerTarget<bool>& isMet, std::optional<int> nearest,
+                                 double toleranceMm) {
+  std::optional<int> best;
+  const auto rank = [&](int degree) {
+    const FairingReport& report = faired[degree - 1]->report;
+    const bool isAllowed = degree == nearest || (report.neededMm && *report.neededMm <= toleranceMm);
+    return std::tuple(!isMet[degree - 1], !isAllowed, report.extremaAfter);
+  };
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree)
+    if (faired[degree - 1] && (!best || rank(degree) < rank(*best))) best = degree;
+  return best;
 }
 
 void addSentence(std::string& notes, const std::string& note) {

@@ -42,9 +42,18 @@ class LevelFairing {
         targets_(levels.all.size()),
         profiles_(levels.all.size()) {}
 
-  Result<LevelOutcome> overAll() {
+  Result<LevelOutcome> run(LevelSearch search) {
+    if (search == LevelSearch::IfItMet) {
+      auto faired = modifyShape(targetOf(levels_.first), toleranceMm_, {.onlyIfMet = true});
+      if (!faired) return fail(faired.error());
+      keep(levels_.first, std::move(*faired));
+      if (!best_->faired.report.withinTolerance) {
+        if (!isAllowed()) return finished();
+        best_.reset();  // to be followed as far as it goes
+      }
+    }
     const auto fewest = std::ssize(levels_.ofTolerance().splits);
-    std::ptrdiff_t spans = 0;
+    std::ptrdiff_t spans = best_ ? fewest : 0;  // of the levels looked at
     for (std::size_t i = levels_.first; i < levels_.all.size(); ++i) {
       const auto splits = std::ssize(levels_.all[i].splits);
       if (best_ && (splits > kMostSplits || best_->faired.report.extremaAfter <= fewest)) break;
@@ -56,17 +65,6 @@ class LevelFairing {
       }
     }
     if (const auto met = findNeed()) meet(*met);
-    return finished();
-  }
-
-  Result<LevelOutcome> ifItMet() {
-    auto faired = over(levels_.first, true);
-    if (!faired) return fail(faired.error());
-    best_ = LevelOutcome{levels_.first, {}, std::move(*faired), false};
-    if (best_->faired.report.withinTolerance) {
-      needs_[levels_.first] = {best_->faired.report.neededMm, true};
-      if (isMet(*best_)) findNeed();
-    }
     return finished();
   }
 
@@ -85,21 +83,30 @@ class LevelFairing {
     if (!target) target = std::make_unique<TargetCourses>(setup_, profileOf(level), context_);
     return *target;
   }
-  Result<FairedCurve> over(std::size_t level, bool onlyIfMet) {
-    return modifyShape(targetOf(level), toleranceMm_, {ExtremaAsked::UpToSketch, onlyIfMet});
-  }
 
   std::optional<Error> tryLevel(std::size_t level) {
-    auto faired = over(level, false);
+    auto faired = modifyShape(targetOf(level), toleranceMm_);
     if (!faired) return faired.error();
-    const FairingReport& report = faired->report;
+    keep(level, std::move(*faired));
+    return std::nullopt;
+  }
+
+  /// Whether the tolerance allows the whole target over the spans of any level.
+  bool isAllowed() {
+    for (std::size_t i = levels_.first; i < levels_.all.size() && !context_.isCancelled(); ++i)
+      if (needOf(i, toleranceMm_)) return true;
+    return false;
+  }
+
+  /// The better one of this and the best.
+  void keep(std::size_t level, FairedCurve faired) {
+    const FairingReport& report = faired.report;
     needs_[level] = {report.neededMm, true};
     const auto isBetter = [&](const FairingReport& than) {
       return report.extremaAfter < than.extremaAfter ||
              (report.extremaAfter == than.extremaAfter && report.withinTolerance && !than.withinTolerance);
     };
-    if (!best_ || isBetter(best_->faired.report)) best_ = LevelOutcome{level, {}, std::move(*faired), false};
-    return std::nullopt;
+    if (!best_ || isBetter(best_->faired.report)) best_ = LevelOutcome{level, {}, std::move(faired), false};
   }
 
   /// What a level needs, where that is no more than `most`.
@@ -227,9 +234,78 @@ TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingPar
 
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& setup, const TargetLevels& levels,
                                     int degree, double toleranceMm, const RunContext& context, LevelSearch search) {
-  LevelFairing fairing(setup, levels, degree, toleranceMm, context);
-  return search == LevelSearch::All ? fairing.overAll() : fairing.ifItMet();
+  return LevelFairing(setup, levels, degree, toleranceMm, context).run(search);
 }
+
+namespace {
+
+/// The curves of the degrees that have a profile.
+struct ByDegree {
+  FairedByDegree faired;
+  PerTarget<bool> isMet{};
+};
+
+/// The degree that the parameters ask for, and its curve.
+class DegreeChoice {
+ public:
+  DegreeChoice(const std::shared_ptr<const FairingSetup>& setup, const TargetLevels& levels,
+               const FairingParams& params, const RunContext& context)
+      : setup_(setup), levels_(levels), params_(params), context_(context) {}
+
+  Result<FairedCurve> chosen() const {
+    if (const std::optional<int> asked = degreeOf(params_.target)) {
+      auto outcome = toDegree(*asked, LevelSearch::All);
+      return outcome ? Result<FairedCurve>(std::move(outcome->faired)) : fail(outcome.error());
+    }
+    const bool bySimilarity = params_.targetChoice == TargetChoice::Similarity;
+    auto found = toEach(bySimilarity ? LevelSearch::All : LevelSearch::IfItMet);
+    if (!found) return fail(found.error());
+    std::optional<int> best;
+    if (bySimilarity) best = mostSimilar(found->faired);
+    if (!best)
+      best = fairestDegree(found->faired, found->isMet, levels_.targets.recommendedDegree, params_.toleranceMm);
+    return std::move(*found->faired[*best - 1]);
+  }
+
+ private:
+  Result<LevelOutcome> toDegree(int degree, LevelSearch search) const {
+    auto outcome = fairOverLevels(setup_, levels_, degree, params_.toleranceMm, context_, search);
+    if (outcome) {
+      outcome->faired.report.targetDegree = degree;
+      outcome->faired.report.targetSplits = levels_.all[outcome->level].splits;
+    }
+    return outcome;
+  }
+
+  /// Where no target is met, the one that fits the sketch best is followed as far as it goes. @pre A profile is valid.
+  Result<ByDegree> toEach(LevelSearch search) const {
+    ByDegree found;
+    const int nearest = *levels_.targets.recommendedDegree;
+    const auto add = [&](int degree, LevelSearch how) -> std::optional<Error> {
+      auto outcome = toDegree(degree, how);
+      if (!outcome) return outcome.error();
+      found.isMet[degree - 1] = outcome->isMet;
+      found.faired[degree - 1] = std::move(outcome->faired);
+      return std::nullopt;
+    };
+    for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
+      if (!levels_.targets.profiles[degree - 1].valid) continue;
+      if (const auto error = add(degree, search)) return fail(*error);
+    }
+    const bool isAnyMet = std::find(found.isMet.begin(), found.isMet.end(), true) != found.isMet.end();
+    if (search == LevelSearch::IfItMet && !isAnyMet) {
+      if (const auto error = add(nearest, LevelSearch::All)) return fail(*error);
+    }
+    return found;
+  }
+
+  const std::shared_ptr<const FairingSetup>& setup_;
+  const TargetLevels& levels_;
+  const FairingParams& params_;
+  const RunContext& context_;
+};
+
+}  // namespace
 
 Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                  const RunContext& context) {
@@ -243,40 +319,9 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
     const TargetProfile& profile = first.profiles[*asked - 1];
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
-  return withSetup(
-      curve, closed, params, context, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
-        const auto followed = [&](LevelOutcome&& outcome, int degree) {
-          outcome.faired.report.targetDegree = degree;
-          outcome.faired.report.targetSplits = levels.all[outcome.level].splits;
-          return std::move(outcome.faired);
-        };
-        const auto toDegree = [&](int degree, LevelSearch search) -> Result<LevelOutcome> {
-          return fairOverLevels(setup, levels, degree, within.toleranceMm, context, search);
-        };
-        const std::optional<int> asked = degreeOf(params.target);
-        if (!asked && params.targetChoice == TargetChoice::Similarity) {
-          FairedByDegree all;
-          for (int tried = 1; tried <= kMostTargetDegree; ++tried) {
-            if (!first.profiles[tried - 1].valid) continue;
-            auto outcome = toDegree(tried, LevelSearch::All);
-            if (!outcome) return fail(outcome.error());
-            all[tried - 1] = followed(std::move(*outcome), tried);
-          }
-          if (const auto best = mostSimilar(all)) return std::move(*all[*best - 1]);
-          const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
-          if (any != all.end()) return std::move(**any);
-        }
-        for (int tried = 1; tried <= kMostTargetDegree && !asked; ++tried) {
-          if (!first.profiles[tried - 1].valid) continue;
-          auto outcome = toDegree(tried, LevelSearch::IfItMet);
-          if (!outcome) return fail(outcome.error());
-          if (outcome->isMet) return followed(std::move(*outcome), tried);
-        }
-        const int degree = asked ? *asked : *first.recommendedDegree;
-        auto outcome = toDegree(degree, LevelSearch::All);
-        if (!outcome) return fail(outcome.error());
-        return followed(std::move(*outcome), degree);
-      });
+  return withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
+    return DegreeChoice(setup, levels, within, context).chosen();
+  });
 }
 
 }  // namespace batten

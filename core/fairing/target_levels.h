@@ -54,7 +54,7 @@ struct LevelOutcome {
 /// How far a degree is followed.
 enum class LevelSearch {
   All,      ///< Over the spans of this tolerance and of smaller ones, for the fewest extrema.
-  IfItMet,  ///< Over those of this tolerance, if the tolerance allows the whole target; else the sketch comes back.
+  IfItMet,  ///< The same, if the tolerance allows the whole target over the spans of one; else the sketch comes back.
 };
 
 /// The level whose curve has the fewest extrema, of those one that meets its target, of these the first: one that has
