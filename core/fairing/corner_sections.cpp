@@ -219,10 +219,9 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
     isMet[d] = isMet[d] && joined->report.withinTolerance;
     whole.faired[d] = std::move(*joined);
   }
-  const auto best =
-      job.params.targetChoice == TargetChoice::Similarity
-          ? mostSimilar(whole.faired)
-          : fairestDegree(whole.faired, isMet, whole.targets.recommendedDegree, job.params.toleranceMm);
+  const auto best = job.params.targetChoice == TargetChoice::Similarity
+                        ? mostSimilar(whole.faired)
+                        : fairestDegree(whole.faired, isMet, whole.targets.recommendedDegree, job.params.toleranceMm);
   whole.recommendedDegree = best ? best : whole.targets.recommendedDegree;
   return whole;
 }

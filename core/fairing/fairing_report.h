@@ -60,8 +60,8 @@ using FairedByDegree = PerTarget<std::optional<FairedCurve>>;
 /// one.
 std::optional<int> mostSimilar(const FairedByDegree&);
 /// Of the degrees whose target is met the one whose curve has the fewest curvature extrema. Where none is met, of
-/// `nearest` and of those that the tolerance allows over the spans of a smaller one, as such a curve is still there to be
-/// taken. Of equal ones the lowest; none where there is no curve.
+/// `nearest` and of those that the tolerance allows over the spans of a smaller one, as such a curve is still there to
+/// be taken. Of equal ones the lowest; none where there is no curve.
 std::optional<int> fairestDegree(const FairedByDegree&, const PerTarget<bool>& isMet, std::optional<int> nearest,
                                  double toleranceMm);
 

@@ -6,6 +6,11 @@
 
 namespace batten {
 
+/// Of ink in [specks and holes per stroke width]: a pen leaves up to .06, a dry brush, pencil or charcoal .12 to .35.
+constexpr double kTornInk = 0.1;
+/// [widths of torn ink, half that of its strokes] More smoothing rounds strokes off.
+constexpr double kSmoothingPerWidth = 0.45;
+
 /// How far ink is torn: the grain of a pencil or of charcoal on rough paper.
 struct InkGrain {
   double widthPx =

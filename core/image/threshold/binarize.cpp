@@ -11,6 +11,7 @@
 #include "core/image/bits/run_pieces.h"
 #include "core/image/threshold/faint_lines.h"
 #include "core/image/threshold/level_masks.h"
+#include "core/image/threshold/whole_ink.h"
 
 namespace batten {
 namespace {
@@ -26,6 +27,18 @@ BitImage withRows(BitImage ink, const BitImage& all, const BitImage& certain, in
   if (context.isCancelled() || marks.count() == 0) return ink;
   const BitImage rows = marksInRows(marks, either(ink, marks), context);
   return either(std::move(ink), rows);
+}
+
+LevelMasks masksOf(const GreyImage& image, const RegionThresholds& thresholds, const ThresholdParams& params,
+                   const RunContext& context) {
+  LevelMasks masks = compareWithLevels(image, thresholds, params, context);
+  if (!thresholds.finer || !params.smooth || context.isCancelled()) return masks;
+  RegionThresholds finer = thresholds;
+  finer.smoothingPx = thresholds.finer->smoothingPx;
+  finer.contrast = thresholds.finer->contrast;
+  finer.certain = thresholds.finer->certain;
+  return withWholePieces(std::move(masks), thresholds.smoothingPx, compareWithLevels(image, finer, params, context),
+                         context);
 }
 
 BitImage withoutNoiseHoles(BitImage ink, int area, const RunContext& context) {
@@ -46,7 +59,7 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     const std::vector<PaperFold>& folds = thresholds.paper.folds;
     const GreyImage flat = folds.empty() ? GreyImage() : withoutFolds(image, folds, context);
     if (context.isCancelled()) return cancelled();
-    LevelMasks masks = compareWithLevels(folds.empty() ? image : flat, thresholds, params, context);
+    LevelMasks masks = masksOf(folds.empty() ? image : flat, thresholds, params, context);
     if (context.isCancelled()) return cancelled();
     BitImage ink = masks.ink;
     if (params.speckArea > 0) {

@@ -36,12 +36,9 @@ constexpr double kLeastVariance = 0.1;  // [px^2 of the shrunk page] below, noth
 constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;  // of the contrast of a region: darker is certainly ink
-// Of ink in [specks and holes per stroke width]: a pen leaves up to .06, a dry brush, pencil or charcoal .12 to .35.
-constexpr double kTorn = 0.1;
-constexpr double kSmoothingPerWidth = 0.45;  // [widths of torn ink, half that of its strokes] more rounds them off
-constexpr double kTornShare = 0.75;          // of the half level: grains are darker than the stroke that they make up
-constexpr double kMorePieces = 1.25;         // of those with more smoothing: it closed gaps
-constexpr double kNever = -1000.0;           // [grey] darker than anything
+constexpr double kTornShare = 0.75;     // of the half level: grains are darker than the stroke that they make up
+constexpr double kMorePieces = 1.25;    // of those with more smoothing: it closed gaps
+constexpr double kNever = -1000.0;      // [grey] darker than anything
 constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";  // a note
 constexpr double kLeastPaper = 0.005;  // of the cells: the paper is measured on no fewer
 constexpr int kNoiseSamples = 20000;   // cells that the noise is measured on: bounds the time
@@ -192,8 +189,11 @@ AgainstPaper flattenedThresholds(const Plane& grey, const InkEdges& edges, int s
     contrasts = contrastsOf(grey, edges, depths, 1.0);
     const InkGrain grain =
         measureGrain(inkOfPlane({grey, estimate.paper, contrasts.contrast, shrink}, kernel, context), context);
-    if (grain.perWidth <= kTorn) break;
-    if (std::exchange(isFirst, false)) out.halfLevelShare = kTornShare;
+    if (grain.perWidth <= kTornInk) break;
+    if (std::exchange(isFirst, false)) {
+      out.halfLevelShare = kTornShare;
+      out.finer = FinerLevels{q, contrastsOf(grey, edges, depths, strength).contrast, {}};
+    }
     roomPx = std::min(roomPx, kSmoothingPerWidth * grain.widthPx * shrink);
   }
   found.isPaperSeen = isPaperSeen(grey, estimate);
@@ -315,11 +315,13 @@ RegionThresholds withOwnLevels(const GreyImage& image, const ThresholdParams& pa
       out.level[region] = *own;
       out.contrast[region] = *own - paper;
       out.certain[region] = out.contrast[region];
+      if (out.finer) out.finer->contrast[region] = out.finer->certain[region] = out.contrast[region];
     } else if (out.paper.isEmpty()) {
       out.contrast[region] = out.foundLine ? out.automatic[region] - paper : kNever;
       out.certain[region] = out.contrast[region];
     } else {
       out.certain[region] = kCertainShare * out.contrast[region];
+      if (out.finer) out.finer->certain[region] = kCertainShare * out.finer->contrast[region];
     }
   }
   return out;

@@ -59,6 +59,12 @@ struct PaperBackground {
   double at(double xPx, double yPx) const;
 };
 
+/// Levels after a lesser smoothing.
+struct FinerLevels {
+  double smoothingPx = 0.0;                            ///< [px]
+  std::array<double, kRegions> contrast{}, certain{};  ///< [grey] As in RegionThresholds.
+};
+
 /// What the automatic start found, and what acts.
 struct RegionThresholds {
   PaperBackground paper;                     ///< Empty without flattening.
@@ -73,9 +79,10 @@ struct RegionThresholds {
   double faintLimit = -1.5;                ///< [grey] contrast that faint parts joined to ink must have at least.
   /// Of the half level at the edges, 0..1: less where the grain of a pencil tears the ink.
   double halfLevelShare = 1.0;
-  bool holesArePaper = false;  ///< The lines are so close that small holes are the paper between them.
-  bool foundLine = true;       ///< False: no edge stands out of the paper anywhere.
-  std::string note;            ///< One line for the user when something is unusual; else empty.
+  std::optional<FinerLevels> finer;  ///< For ink that the grain does not tear, where it tears that of the page.
+  bool holesArePaper = false;        ///< The lines are so close that small holes are the paper between them.
+  bool foundLine = true;             ///< False: no edge stands out of the paper anywhere.
+  std::string note;                  ///< One line for the user when something is unusual; else empty.
 };
 
 /// Chooses the 64 thresholds. Automatic regions follow the half level at their own edges, or three quarters of it where

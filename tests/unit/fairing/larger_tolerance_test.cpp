@@ -134,8 +134,8 @@ TEST(LargerTolerance, NeverGivesMoreExtremaWhereTheFilterWouldLeaveThem) {
 }
 
 /// Which target is recommended may change with the tolerance. Of line 9 the cubic that is met at 0.13 mm leaves three
-/// extrema where a quintic left one at 0.03 mm; of line 786 no target is met at 0.13 mm, and the one that fits the sketch
-/// best leaves one more than the cubic at 0.03 mm.
+/// extrema where a quintic left one at 0.03 mm; of line 786 no target is met at 0.13 mm, and the one that fits the
+/// sketch best leaves one more than the cubic at 0.03 mm.
 TEST(LargerTolerance, NeverGivesMoreExtremaWhereAnotherTargetIsRecommended) {
   constexpr int kNumbersPerLine = 17;  // that randomLine() draws
   for (const int i : {9, 161, 786}) {
