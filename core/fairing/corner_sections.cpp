@@ -187,8 +187,6 @@ void addProfile(TargetProfile& whole, const TargetProfile& part, const ProfileSp
 Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<CornerSection>& sections,
                                       std::vector<Result<TargetOutcomes>>& parts, CancelCheck check) {
   TargetOutcomes whole;
-  PerTarget<bool> isMet;
-  isMet.fill(true);
   PerTarget<std::vector<FairedCurve>> faired;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (!parts[i]) return std::move(parts[i]);
@@ -204,8 +202,6 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
       addProfile(whole.targets.profiles[d], part.targets.profiles[d], span, i == 0);
       addSentence(whole.problems[d], part.problems[d]);
       if (!part.faired[d]) continue;
-      const FairingReport& report = part.faired[d]->report;
-      isMet[d] = isMet[d] && report.withinTolerance && report.extremaAfter <= report.extremaBefore;
       faired[d].push_back(std::move(*part.faired[d]));
     }
   }
@@ -216,12 +212,11 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
       whole.problems[d] = joined.error().message;
       continue;
     }
-    isMet[d] = isMet[d] && joined->report.withinTolerance;
     whole.faired[d] = std::move(*joined);
   }
   const auto best = job.params.targetChoice == TargetChoice::Similarity
                         ? mostSimilar(whole.faired)
-                        : fairestDegree(whole.faired, isMet, whole.targets.recommendedDegree, job.params.toleranceMm);
+                        : fairestDegree(whole.faired, whole.targets.recommendedDegree, job.params.toleranceMm);
   whole.recommendedDegree = best ? best : whole.targets.recommendedDegree;
   return whole;
 }

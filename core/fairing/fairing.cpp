@@ -27,7 +27,6 @@ struct TargetsRun {
   std::shared_ptr<const FairingSetup> setup;  ///< Null: the curve cannot be made fair, `problem` says why.
   std::string problem;
   TargetLevels levels;
-  PerTarget<bool> isMet{};
   Result<TargetOutcomes> outcomes = cancelled();
 };
 
@@ -80,7 +79,6 @@ void runTarget(const TargetsJob& job, TargetsRun& run, int degree, const RunCont
     }
     auto faired = fairOverLevels(run.setup, run.levels, degree, tolerance, context);
     if (faired) {
-      run.isMet[at] = faired->isMet;
       faired->faired = againstSketch(*run.setup, std::move(faired->faired));
       outcomes.targets.profiles[at] = std::move(faired->profile);
       outcomes.faired[at] = std::move(faired->faired);
@@ -95,10 +93,9 @@ void runTarget(const TargetsJob& job, TargetsRun& run, int degree, const RunCont
 /// What TargetSet recommends stays only where there is no curve.
 void recommend(TargetsRun& run, const FairingParams& params) {
   TargetOutcomes& outcomes = *run.outcomes;
-  const auto best =
-      params.targetChoice == TargetChoice::Similarity
-          ? mostSimilar(outcomes.faired)
-          : fairestDegree(outcomes.faired, run.isMet, outcomes.targets.recommendedDegree, params.toleranceMm);
+  const auto best = params.targetChoice == TargetChoice::Similarity
+                        ? mostSimilar(outcomes.faired)
+                        : fairestDegree(outcomes.faired, outcomes.targets.recommendedDegree, params.toleranceMm);
   if (best) outcomes.recommendedDegree = best;
 }
 

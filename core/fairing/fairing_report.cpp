@@ -31,13 +31,13 @@ std::optional<int> mostSimilar(const FairedByDegree& faired) {
   return degree;
 }
 
-std::optional<int> fairestDegree(const FairedByDegree& faired, const PerTarget<bool>& isMet, std::optional<int> nearest,
-                                 double toleranceMm) {
+std::optional<int> fairestDegree(const FairedByDegree& faired, std::optional<int> nearest, double toleranceMm) {
   std::optional<int> best;
   const auto rank = [&](int degree) {
     const FairingReport& report = faired[degree - 1]->report;
+    const bool isMet = report.withinTolerance && report.extremaAfter <= report.extremaBefore;
     const bool isAllowed = degree == nearest || (report.neededMm && *report.neededMm <= toleranceMm);
-    return std::tuple(!isMet[degree - 1], !isAllowed, report.extremaAfter);
+    return std::tuple(!isMet, !isAllowed, report.extremaAfter);
   };
   for (int degree = 1; degree <= kMostTargetDegree; ++degree)
     if (faired[degree - 1] && (!best || rank(degree) < rank(*best))) best = degree;

@@ -43,7 +43,7 @@ class LevelFairing {
         profiles_(levels.all.size()) {}
 
   Result<LevelOutcome> run(LevelSearch search) {
-    if (search == LevelSearch::IfItMet) {
+    if (search == LevelSearch::IfAllowed) {
       auto faired = modifyShape(targetOf(levels_.first), toleranceMm_, {.onlyIfMet = true});
       if (!faired) return fail(faired.error());
       keep(levels_.first, std::move(*faired));
@@ -69,10 +69,6 @@ class LevelFairing {
   }
 
  private:
-  bool isMet(const LevelOutcome& one) const {
-    const FairingReport& report = one.faired.report;
-    return one.level == levels_.first && report.withinTolerance && report.extremaAfter <= report.extremaBefore;
-  }
   const TargetProfile& profileOf(std::size_t level) {
     auto& profile = profiles_[level];
     if (!profile) profile = levels_.profile(level, degree_);
@@ -106,7 +102,7 @@ class LevelFairing {
       return report.extremaAfter < than.extremaAfter ||
              (report.extremaAfter == than.extremaAfter && report.withinTolerance && !than.withinTolerance);
     };
-    if (!best_ || isBetter(best_->faired.report)) best_ = LevelOutcome{level, {}, std::move(faired), false};
+    if (!best_ || isBetter(best_->faired.report)) best_ = LevelOutcome{level, {}, std::move(faired)};
   }
 
   /// What a level needs, where that is no more than `most`.
@@ -155,7 +151,6 @@ class LevelFairing {
   Result<LevelOutcome> finished() {
     if (context_.isCancelled()) return cancelled();
     best_->profile = profileOf(best_->level);
-    best_->isMet = isMet(*best_);
     return std::move(*best_);
   }
 
@@ -239,12 +234,6 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
 
 namespace {
 
-/// The curves of the degrees that have a profile.
-struct ByDegree {
-  FairedByDegree faired;
-  PerTarget<bool> isMet{};
-};
-
 /// The degree that the parameters ask for, and its curve.
 class DegreeChoice {
  public:
@@ -252,57 +241,42 @@ class DegreeChoice {
                const FairingParams& params, const RunContext& context)
       : setup_(setup), levels_(levels), params_(params), context_(context) {}
 
-  Result<FairedCurve> chosen() const {
-    if (const std::optional<int> asked = degreeOf(params_.target)) {
-      auto outcome = toDegree(*asked, LevelSearch::All);
-      return outcome ? Result<FairedCurve>(std::move(outcome->faired)) : fail(outcome.error());
-    }
+  Result<FairedCurve> chosen() {
+    if (const std::optional<int> asked = degreeOf(params_.target)) return toDegree(*asked, LevelSearch::All);
     const bool bySimilarity = params_.targetChoice == TargetChoice::Similarity;
-    auto found = toEach(bySimilarity ? LevelSearch::All : LevelSearch::IfItMet);
-    if (!found) return fail(found.error());
-    std::optional<int> best;
-    if (bySimilarity) best = mostSimilar(found->faired);
-    if (!best)
-      best = fairestDegree(found->faired, found->isMet, levels_.targets.recommendedDegree, params_.toleranceMm);
-    return std::move(*found->faired[*best - 1]);
+    for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
+      if (!levels_.targets.profiles[degree - 1].valid) continue;
+      if (const auto error = add(degree, bySimilarity ? LevelSearch::All : LevelSearch::IfAllowed)) return fail(*error);
+    }
+    if (bySimilarity)
+      if (const auto best = mostSimilar(faired_)) return std::move(*faired_[*best - 1]);
+    const int nearest = *levels_.targets.recommendedDegree;
+    if (std::none_of(faired_.begin(), faired_.end(),
+                     [](const auto& one) { return one && one->report.withinTolerance; }))
+      if (const auto error = add(nearest, LevelSearch::All)) return fail(*error);
+    return std::move(*faired_[*fairestDegree(faired_, nearest, params_.toleranceMm) - 1]);
   }
 
  private:
-  Result<LevelOutcome> toDegree(int degree, LevelSearch search) const {
+  Result<FairedCurve> toDegree(int degree, LevelSearch search) const {
     auto outcome = fairOverLevels(setup_, levels_, degree, params_.toleranceMm, context_, search);
-    if (outcome) {
-      outcome->faired.report.targetDegree = degree;
-      outcome->faired.report.targetSplits = levels_.all[outcome->level].splits;
-    }
-    return outcome;
+    if (!outcome) return fail(outcome.error());
+    outcome->faired.report.targetDegree = degree;
+    outcome->faired.report.targetSplits = levels_.all[outcome->level].splits;
+    return std::move(outcome->faired);
   }
-
-  /// Where no target is met, the one that fits the sketch best is followed as far as it goes. @pre A profile is valid.
-  Result<ByDegree> toEach(LevelSearch search) const {
-    ByDegree found;
-    const int nearest = *levels_.targets.recommendedDegree;
-    const auto add = [&](int degree, LevelSearch how) -> std::optional<Error> {
-      auto outcome = toDegree(degree, how);
-      if (!outcome) return outcome.error();
-      found.isMet[degree - 1] = outcome->isMet;
-      found.faired[degree - 1] = std::move(outcome->faired);
-      return std::nullopt;
-    };
-    for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
-      if (!levels_.targets.profiles[degree - 1].valid) continue;
-      if (const auto error = add(degree, search)) return fail(*error);
-    }
-    const bool isAnyMet = std::find(found.isMet.begin(), found.isMet.end(), true) != found.isMet.end();
-    if (search == LevelSearch::IfItMet && !isAnyMet) {
-      if (const auto error = add(nearest, LevelSearch::All)) return fail(*error);
-    }
-    return found;
+  std::optional<Error> add(int degree, LevelSearch search) {
+    auto faired = toDegree(degree, search);
+    if (!faired) return faired.error();
+    faired_[degree - 1] = std::move(*faired);
+    return std::nullopt;
   }
 
   const std::shared_ptr<const FairingSetup>& setup_;
   const TargetLevels& levels_;
   const FairingParams& params_;
   const RunContext& context_;
+  FairedByDegree faired_;
 };
 
 }  // namespace

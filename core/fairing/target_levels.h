@@ -48,20 +48,19 @@ struct LevelOutcome {
   std::size_t level = 0;  ///< Which of the levels gave it.
   TargetProfile profile;  ///< The target over its splits.
   FairedCurve faired;
-  bool isMet = false;  ///< The target over the spans of the tolerance was met, without a curvature extremum more.
 };
 
 /// How far a degree is followed.
 enum class LevelSearch {
-  All,      ///< Over the spans of this tolerance and of smaller ones, for the fewest extrema.
-  IfItMet,  ///< The same, if the tolerance allows the whole target over the spans of one; else the sketch comes back.
+  All,        ///< Over the spans of this tolerance and of smaller ones, for the fewest extrema.
+  IfAllowed,  ///< The same, if the tolerance allows the whole target over the spans of one; else the sketch comes back.
 };
 
 /// The level whose curve has the fewest extrema, of those one that meets its target, of these the first: one that has
 /// no more than there are splits of the tolerance's level ends the search.
 ///
 /// Its `neededMm` is the smallest tolerance that meets the target over its own spans, or over those of a smaller one.
-/// It does not depend on the tolerance; IfItMet says it only where the target is met.
+/// It does not depend on the tolerance; IfAllowed says it only where the target is allowed.
 /// @param toleranceMm what fairing may take of the tolerance.
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, const TargetLevels&, int degree,
                                     double toleranceMm, const RunContext&, LevelSearch search = LevelSearch::All);
