@@ -53,7 +53,7 @@ QString PauseMeter::describe(const Event& event, const Spent& spent) {
 }
 
 void PauseMeter::begin(int loop, const QObject& receiver, const QEvent& event) {
-  if (!clock_.isValid()) clock_.start();
+  if (!clock_.isValid()) return;
   const bool isPart = !events_.empty() && loop <= events_.back().loop;
   if (!isPart && !events_.empty() && !events_.back().hasLoop) {
     events_.back().hasLoop = true;
@@ -66,6 +66,7 @@ void PauseMeter::begin(int loop, const QObject& receiver, const QEvent& event) {
 }
 
 void PauseMeter::end() {
+  if (events_.empty()) return;  // it began before the meter did
   const Event event = std::move(events_.back());
   events_.pop_back();
   if (!event.isPart) {
