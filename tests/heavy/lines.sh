@@ -8,9 +8,9 @@ cd "$(dirname "$0")/../.."
 . packaging/packages.sh
 build test_pipeline test_fairing test_construct >build/lines-build.log 2>&1 || { tail -20 build/lines-build.log; exit 1; }
 export BATTEN_RANDOM_LINES=${LINES_TRIED:-1000} BATTEN_LINES_OF_A_CASE=$((${LINES_TRIED:-1000} / 10))
-# Not by ctest: its limit of time for a test is made for fifty lines.
-shards=10
+# Not by ctest: its limit of time is made for fifty lines. Each test is a process of its own, so that all processors work.
 for program in test_pipeline:RandomLines test_fairing:LargerTolerance test_construct:MoreDetail; do
-  for ((i = 0; i < shards; ++i)); do echo "$program" "$i"; done
-done | GTEST_TOTAL_SHARDS=$shards xargs -P "${BATTEN_JOBS:-2}" -L 1 bash -c '
-  GTEST_SHARD_INDEX=$1 timeout 7200 "build/release/bin/${0%%:*}" --gtest_brief=1 --gtest_filter="*${0##*:}*"'
+  "build/release/bin/${program%%:*}" --gtest_list_tests --gtest_filter="*${program##*:}*" |
+    awk -v program="${program%%:*}" '/^[^ ]+\.( |$)/ { suite = $1 } /^  / { print program, suite $1 }'
+done | xargs -P "${BATTEN_JOBS:-2}" -L 1 bash -c '
+  timeout 7200 "build/release/bin/$0" --gtest_brief=1 --gtest_filter="$1"'
