@@ -128,7 +128,8 @@ class MainWindow : public QMainWindow {
   /// Targets and plots, in main_window_lower.cpp: shown where curves are judged; in a low window the strip shrinks,
   /// then the plots fold.
   void fitLower();
-  void fitLowerSoon();  ///< Once the parts of the window have their sizes.
+  void fitLowerSoon();   ///< Once the parts of the window have their sizes.
+  void followTargets();  ///< Computed where somebody looks at them: with the tiles, with Compare shapes.
   void foldLower(bool shown);
   bool isLowerWanted() const;
   void loadSettings();

@@ -88,8 +88,12 @@ void MainWindow::makeActions() {
 }
 
 void MainWindow::showShapes() {
-  if (!parts_->shapes) parts_->shapes = new ShapeWindow(session_, this);
+  if (!parts_->shapes) {
+    parts_->shapes = new ShapeWindow(session_, this);
+    connect(parts_->shapes, &QDialog::finished, this, &MainWindow::followTargets);
+  }
   parts_->shapes->show();
+  followTargets();
   parts_->shapes->raise();
 }
 

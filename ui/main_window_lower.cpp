@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ui/main_window_parts.h"
+#include "ui/panels/targets/shape_window.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
 
@@ -25,6 +26,11 @@ bool isJudging(PanelStage stage) { return stage == PanelStage::Curves || stage =
 
 bool MainWindow::isLowerWanted() const { return isJudging(stage()) ? parts_->showsLower : parts_->showsLowerHere; }
 
+void MainWindow::followTargets() {
+  const bool isCompared = parts_->shapes && parts_->shapes->isVisible();
+  session_.setTargetsWanted(isJudging(stage()) || isLowerWanted() || isCompared);
+}
+
 void MainWindow::foldLower(bool shown) {
   (isJudging(stage()) ? parts_->showsLower : parts_->showsLowerHere) = shown;
   fitLower();
@@ -42,6 +48,7 @@ void MainWindow::fitLower() {
   Parts& p = *parts_;
   const bool isWanted = isLowerWanted();
   p.foldAction->setChecked(isWanted);
+  followTargets();
   const bool hasPlots = height() >= kLowestWindow;
   p.plots->setVisible(hasPlots);
   p.lower->setVisible(isWanted);

@@ -121,6 +121,7 @@ TEST_F(Layout, AHeightDrawnByHandStaysInALowWindow) {
 
 TEST_F(Layout, OnlyWhatTheToleranceAllowsIsRecommended) {
   openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Fairing);
   Recipe recipe = session().recipe();
   recipe.fairing.toleranceMm = 0.01;
   session().change(QStringLiteral("Tolerance"), recipe);
@@ -335,7 +336,7 @@ TEST_F(Layout, NothingLiesOverTheRegionsWhileTheyAreWorkedOn) {
   openPage(test::zigzagPage({640, 500}));
   window_->setStage(PanelStage::Threshold);
   auto* canvas = find<CurveCanvas>("canvas");
-  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
+  ASSERT_TRUE(session().selectedCurve());
   const auto corners = [&] {
     const QImage all = canvas->grab().toImage();
     return std::pair(all.copy(0, 0, 300, 60), all.copy(0, all.height() - 60, 300, 60));

@@ -122,6 +122,7 @@ TEST_F(Selection, OpeningARecipeSelectsTheLongestLineAgain) {
 
 TEST_F(Selection, TilesOfALineThatIsGoneAreNotShownForAnother) {
   ASSERT_NO_FATAL_FAILURE(openPage(angleAndLinePage()));
+  window_->setStage(PanelStage::Fairing);
   ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
   const auto before = session().targets();
   bool wasShown = false;

@@ -352,6 +352,7 @@ TEST_F(Window, SettingsComeBack) {
 
 TEST_F(Window, PlotsHoldFiniteNumbersOverTheWholeLength) {
   openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Fairing);
   ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
   session().selectCurve(0);
   const double length = session().selected()->sketchedFigures.lengthMm;

@@ -57,9 +57,43 @@ TEST_F(Work, WithoutThreadsTheWindowSaysSoAndGoesOnOnceItGetsOne) {
   openWindow();  // with the usual threads, before these go
 }
 
+/// Where no tile shows them, the processor is the page's: a threshold is dragged, and the curve follows.
+TEST_F(Work, TheSixTargetsAreComputedWhereSomebodyLooksAtThem) {
+  openPage(longPage().scaledToWidth(650, Qt::SmoothTransformation));
+  const auto changeCurve = [this] {
+    Recipe recipe = session().recipe();
+    recipe.threshold.strength = recipe.threshold.strength == 1.0 ? 0.7 : 1.0;
+    const NurbsCurve before = session().selected()->sketched;
+    session().change(QStringLiteral("Contrast"), recipe);
+    ASSERT_TRUE(settle());
+    ASSERT_FALSE(session().selected()->sketched == before);
+  };
+  for (const PanelStage hidden : {PanelStage::Scan, PanelStage::Threshold, PanelStage::Edges, PanelStage::Corners}) {
+    window_->setStage(hidden);
+    changeCurve();
+    EXPECT_FALSE(session().isTargeting()) << static_cast<int>(hidden);
+    EXPECT_EQ(session().targets(), nullptr) << static_cast<int>(hidden) << ": those of the curve before";
+  }
+  for (const PanelStage shown : {PanelStage::Curves, PanelStage::Fairing}) {
+    window_->setStage(shown);
+    EXPECT_TRUE(session().isTargeting() || session().targets());
+    EXPECT_TRUE(waitUntil([this] { return session().targets() && !session().isTargeting(); }));
+  }
+  window_->setStage(PanelStage::Edges);
+  EXPECT_TRUE(session().targets()) << "they are still those of the curve";
+  changeCurve();
+  window_->setStage(PanelStage::Fairing);
+  ASSERT_TRUE(session().isTargeting());
+  window_->setStage(PanelStage::Edges);
+  EXPECT_FALSE(session().isTargeting()) << "nobody looks any more";
+  EXPECT_TRUE(waitUntil([this] { return !session().hasRunningJobs(); }));
+  EXPECT_EQ(session().targets(), nullptr);
+}
+
 TEST_F(Work, EscStopsTheSixTargetsAndTheWindowSaysThatTheyRan) {
   const QString path = folder_.filePath(QStringLiteral("long.png"));
   ASSERT_TRUE(longPage().save(path));
+  window_->setStage(PanelStage::Fairing);
   window_->openPath(path);
   ASSERT_TRUE(waitUntil([this] { return session().isTargeting() && !session().isBusy(); }));
   EXPECT_TRUE(session().isWorking());

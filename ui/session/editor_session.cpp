@@ -146,6 +146,16 @@ void EditorSession::setEdgesWanted(bool wanted) {
   if (wanted && !(output_.edges && !isStale(StageId::Edges))) runner_->run();
 }
 
+void EditorSession::setTargetsWanted(bool wanted) {
+  if (std::exchange(runner_->targetsWanted, wanted) == wanted) return;
+  if (wanted && !runner_->isStopped) {
+    runner_->computeTargets();
+  } else if (!wanted && runner_->targets.isComputing()) {
+    runner_->targets.stop();
+    runner_->updateBusy();
+  }
+}
+
 bool EditorSession::isStale(StageId stage) const {
   return runner_->shownGeneration[indexOf(stage)] != runner_->recipeGeneration;
 }

@@ -107,6 +107,9 @@ class EditorSession : public QObject {
   const TracedCurve* selected() const { return curveAt(selectedCurve_); }
   /// The edges layer is only computed while someone looks at it (off at the start).
   void setEdgesWanted(bool);
+  /// So are the six targets of the selected curve (on at the start). What is there stays when it is switched off; what
+  /// is computed stops.
+  void setTargetsWanted(bool);
   /// True while a stage's shown output does not belong to the present recipe yet.
   bool isStale(StageId) const;
   bool isBusy() const;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
 constexpr double kDoubtfulShare = 0.5;  // of that cost: what costs less is noise
-constexpr double kSameMarkPx = 1.0;    // nearer marks are one
+constexpr double kSameMarkPx = 1.0;     // nearer marks are one
 constexpr double kMostShift = 0.02;     // of the curve's length, by which fewer control points move an extremum
 QString extremumText(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
 

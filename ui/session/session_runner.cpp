@@ -210,6 +210,14 @@ void EditorSession::Runner::curvesChanged() {
 
 void EditorSession::Runner::computeTargets() {
   const TracedCurve* curve = session.selected();
+  if (!targetsWanted) {
+    // Those of another curve are not kept for later.
+    if (session.targets_ && (curve == nullptr || !targets.isOf(*curve))) {
+      session.targets_.reset();
+      emit session.targetsChanged();
+    }
+    return;
+  }
   if (curve == nullptr || curve->sketched.isEmpty()) {
     targets.stop();
     updateBusy();

@@ -48,7 +48,7 @@ struct EditorSession::Runner {
   std::array<std::uint64_t, kStages.size()> shownGeneration{};  ///< Which of them each shown output belongs to.
   std::uint64_t newestRun = 0, newestRead = 0;
   bool isRunning = false, isReading = false, isStopped = false;
-  bool wasBusy = false, wasWorking = false, hasRunFailure = false, edgesWanted = false;
+  bool wasBusy = false, wasWorking = false, hasRunFailure = false, edgesWanted = false, targetsWanted = true;
   bool selectsItself = true;  ///< Until the user selects: the longest curve.
   std::optional<Vec2> anchorPx;
 
