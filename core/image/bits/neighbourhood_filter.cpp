@@ -188,8 +188,7 @@ Changes limitChanges(const BitImage& from, const BitImage& to, int maxChangePx, 
   Changes changes;
   const RunPieces pieces = findPiecesOfDifference(from, to, Connectivity::Eight, context);
   if (context.isCancelled()) return changes;
-  std::vector<std::int64_t> area(pieces.runs.size(), 0);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
+  const std::vector<std::int64_t> area = areasOfPieces(pieces);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const InkRun& run = pieces.runs[i];
     changes.all += run.x1 - run.x0;

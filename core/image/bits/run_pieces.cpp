@@ -173,6 +173,12 @@ RunPieces findPiecesOfDifference(const BitImage& from, const BitImage& without, 
   return piecesOf(RowsOfDifference{from, without}, connectivity, context);
 }
 
+std::vector<std::int64_t> areasOfPieces(const RunPieces& pieces) {
+  std::vector<std::int64_t> area(pieces.runs.size(), 0);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
+  return area;
+}
+
 void setBits(BitImage& image, const InkRun& run) { setBits(image.row(run.y), run.x0, run.x1); }
 
 std::optional<int> pieceAt(const RunPieces& pieces, int x, int y) {

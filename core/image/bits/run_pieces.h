@@ -27,6 +27,9 @@ std::optional<int> pieceAt(const RunPieces& pieces, int x, int y);
 /// The pieces of all ink of an image. Not complete when cancelled.
 RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context);
 
+/// [px] For the first run of every piece the area of the piece, for the others 0.
+std::vector<std::int64_t> areasOfPieces(const RunPieces&);
+
 /// Sets the pixels of a run.
 void setBits(BitImage& image, const InkRun& run);
 /// Clears the pixels of a run.

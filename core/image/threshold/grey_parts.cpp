@@ -19,10 +19,8 @@ constexpr double kLongestMesh = 2.0;
 constexpr int kNoisePx = 4;  // [px] area: smaller pieces may be noise
 
 std::int64_t piecesBeyondNoise(const BitImage& image, Connectivity connectivity, const RunContext& context) {
-  const RunPieces found = findPieces(image, connectivity, context);
-  std::vector<int> area(found.runs.size(), 0);
-  for (std::size_t i = 0; i < found.runs.size(); ++i) area[found.piece[i]] += found.runs[i].x1 - found.runs[i].x0;
-  return std::count_if(area.begin(), area.end(), [](int a) { return a >= kNoisePx; });
+  const std::vector<std::int64_t> area = areasOfPieces(findPieces(image, connectivity, context));
+  return std::count_if(area.begin(), area.end(), [](std::int64_t a) { return a >= kNoisePx; });
 }
 
 }  // namespace

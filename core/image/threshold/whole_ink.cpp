@@ -20,22 +20,6 @@ constexpr double kWholeInk = 0.08;
 constexpr double kCellWidths = 40.0;  // side of a cell in stroke widths: about a word
 constexpr int kLeastCell = 8;         // [px]
 
-/// Fine ink in a piece of smoothed ink, or in cells of the page.
-struct FineInk {
-  std::int64_t area = 0, border = 0;  ///< [px]
-  std::int64_t small = 0;             ///< Specks and holes.
-  double widthPx() const { return 2.0 * static_cast<double>(area) / static_cast<double>(border); }
-  /// Specks and holes per width along the strokes.
-  double grain() const {
-    return border > 0 ? static_cast<double>(small) * widthPx() / (0.5 * static_cast<double>(border)) : 0.0;
-  }
-  void add(const FineInk& other) {
-    area += other.area;
-    border += other.border;
-    small += other.small;
-  }
-};
-
 /// Sums over cells of the page.
 class InkCells {
  public:
@@ -44,11 +28,11 @@ class InkCells {
         columns_((width + side_ - 1) / side_),
         rows_((height + side_ - 1) / side_),
         cells_(std::ptrdiff_t{columns_} * rows_) {}
-  FineInk& at(int x, int y) { return cells_[std::ptrdiff_t{y / side_} * columns_ + x / side_]; }
+  InkCounts& at(int x, int y) { return cells_[std::ptrdiff_t{y / side_} * columns_ + x / side_]; }
   /// Of the cell and its neighbours.
-  FineInk near(int x, int y) const {
+  InkCounts near(int x, int y) const {
     const int column = x / side_, row = y / side_;
-    FineInk sum;
+    InkCounts sum;
     for (int j = std::max(0, row - 1); j <= std::min(rows_ - 1, row + 1); ++j)
       for (int i = std::max(0, column - 1); i <= std::min(columns_ - 1, column + 1); ++i)
         sum.add(cells_[std::ptrdiff_t{j} * columns_ + i]);
@@ -57,16 +41,15 @@ class InkCells {
 
  private:
   int side_, columns_, rows_;
-  std::vector<FineInk> cells_;
+  std::vector<InkCounts> cells_;
 };
 
 /// Adds the pieces that are smaller than a square of the width of the ink around them to the cells where they begin.
 void addSmall(const RunPieces& parts, InkCells& cells) {
-  std::vector<std::int64_t> area(parts.runs.size(), 0);
-  for (std::size_t i = 0; i < parts.runs.size(); ++i) area[parts.piece[i]] += parts.runs[i].x1 - parts.runs[i].x0;
+  const std::vector<std::int64_t> area = areasOfPieces(parts);
   for (std::size_t i = 0; i < parts.runs.size(); ++i) {
     if (area[i] == 0) continue;
-    const FineInk around = cells.near(parts.runs[i].x0, parts.runs[i].y);
+    const InkCounts around = cells.near(parts.runs[i].x0, parts.runs[i].y);
     if (around.border > 0 && static_cast<double>(area[i]) < around.widthPx() * around.widthPx())
       ++cells.at(parts.runs[i].x0, parts.runs[i].y).small;
   }
@@ -80,11 +63,11 @@ LevelMasks withWholePieces(LevelMasks smoothed, double smoothingPx, const LevelM
   const RunPieces specks = findPieces(fine.ink, Connectivity::Eight, context),
                   holes = findPieces(paperOf(fine.ink), Connectivity::Four, context);
   if (context.isCancelled()) return smoothed;
-  const FineInk page{fine.ink.count(), border.count()};
+  const InkCounts page{fine.ink.count(), border.count()};
   if (page.border == 0) return smoothed;
   InkCells cells(fine.ink.width, fine.ink.height, kCellWidths * page.widthPx());
-  std::vector<FineInk> found(pieces.runs.size());
-  std::vector<FineInk> ofRun(pieces.runs.size());
+  std::vector<InkCounts> found(pieces.runs.size());
+  std::vector<InkCounts> ofRun(pieces.runs.size());
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const InkRun& run = pieces.runs[i];
     ofRun[i] = {countBits(fine.ink, run), countBits(border, run)};
@@ -100,7 +83,7 @@ LevelMasks withWholePieces(LevelMasks smoothed, double smoothingPx, const LevelM
   BitImage whole(smoothed.ink.width, smoothed.ink.height), other = whole;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const int piece = pieces.piece[i];
-    const FineInk& ink = found[piece];
+    const InkCounts& ink = found[piece];
     const bool isRoundedOff = ink.border > 0 && smoothingPx > kSmoothingPerWidth * ink.widthPx();
     const bool isTorn = grain[piece] > kWholeInk * static_cast<double>(ink.border);
     setBits(isRoundedOff && !isTorn ? whole : other, pieces.runs[i]);
