@@ -208,31 +208,27 @@ void EditorSession::Runner::curvesChanged() {
   if (!isStopped) computeTargets();
 }
 
+void EditorSession::Runner::dropTargets() {
+  if (!session.targets_) return;
+  session.targets_.reset();
+  emit session.targetsChanged();
+}
+
 void EditorSession::Runner::computeTargets() {
   const TracedCurve* curve = session.selected();
   if (!targetsWanted) {
-    // Those of another curve are not kept for later.
-    if (session.targets_ && (curve == nullptr || !targets.isOf(*curve))) {
-      session.targets_.reset();
-      emit session.targetsChanged();
-    }
+    if (curve == nullptr || !targets.isOf(*curve)) dropTargets();  // those of another curve are not kept for later
     return;
   }
   if (curve == nullptr || curve->sketched.isEmpty()) {
     targets.stop();
     updateBusy();
-    if (session.targets_) {
-      session.targets_.reset();
-      emit session.targetsChanged();
-    }
+    dropTargets();
     return;
   }
   if (!targets.start(*curve, session.pointedSpan_)) return;
   // While one curve changes, its last outcomes stay; another curve's would be read as this one's.
-  if (session.targets_ && targets.isLikeAnother(*curve)) {
-    session.targets_.reset();
-    emit session.targetsChanged();
-  }
+  if (targets.isLikeAnother(*curve)) dropTargets();
   if (!session.isStale(StageId::Faired)) isStopped = false;
   updateBusy();
 }

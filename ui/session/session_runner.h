@@ -28,6 +28,7 @@ struct EditorSession::Runner {
   void begin(const Recipe&, bool isRestored);
   void run();
   void computeTargets();
+  void dropTargets();
   void stopAll();
   void updateBusy();
   void fail(const Error& error, FailureOrigin origin);
