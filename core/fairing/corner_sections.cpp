@@ -15,6 +15,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/target_degrees.h"
+#include "core/fairing/target_levels.h"
 
 namespace batten {
 namespace {
@@ -214,9 +215,7 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
     }
     whole.faired[d] = std::move(*joined);
   }
-  const auto best = job.params.targetChoice == TargetChoice::Similarity
-                        ? mostSimilar(whole.faired)
-                        : fairestDegree(whole.faired, whole.targets.recommendedDegree, job.params.toleranceMm);
+  const auto best = degreeToRecommend(whole.faired, whole.targets.recommendedDegree, job.params);
   whole.recommendedDegree = best ? best : whole.targets.recommendedDegree;
   return whole;
 }

@@ -93,9 +93,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, int degree, const RunCont
 /// What TargetSet recommends stays only where there is no curve.
 void recommend(TargetsRun& run, const FairingParams& params) {
   TargetOutcomes& outcomes = *run.outcomes;
-  const auto best = params.targetChoice == TargetChoice::Similarity
-                        ? mostSimilar(outcomes.faired)
-                        : fairestDegree(outcomes.faired, outcomes.targets.recommendedDegree, params.toleranceMm);
+  const auto best = degreeToRecommend(outcomes.faired, outcomes.targets.recommendedDegree, params);
   if (best) outcomes.recommendedDegree = best;
 }
 

@@ -28,8 +28,7 @@ struct TargetOutcomes {
   TargetSet targets;
   FairedByDegree faired;
   PerTarget<std::string> problems;
-  /// Of the degrees that are met within the tolerance without a curvature extremum more the one with the fewest
-  /// (fairestDegree). With TargetChoice::Similarity the one of the highest S of the modified curve. Absent: none.
+  /// degreeToRecommend() of the curves; where there is none, the one that TargetSet recommends. Absent: none.
   std::optional<int> recommendedDegree;
   std::vector<double> splits;       ///< Shares of the arc length at which the polynomials meet.
   std::optional<ProfileSpan> span;  ///< The span that alone was moved; absent: the whole curve.

@@ -2,7 +2,6 @@
 #include "core/fairing/fairing_report.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "core/curve/curvature.h"
@@ -16,32 +15,6 @@ FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std
   result.report.note = std::move(note);
   if (!curve.isEmpty()) result.report.extremaBefore = result.report.extremaAfter = countedExtrema(curve, closed, check);
   return result;
-}
-
-std::optional<int> mostSimilar(const FairedByDegree& faired) {
-  std::optional<int> degree;
-  double best = 0.0;
-  for (std::size_t i = 0; i < faired.size(); ++i) {
-    if (!faired[i] || !faired[i]->report.similarityAfter) continue;
-    const double s = *faired[i]->report.similarityAfter;
-    if (degree && s <= best) continue;
-    degree = static_cast<int>(i) + 1;
-    best = s;
-  }
-  return degree;
-}
-
-std::optional<int> fairestDegree(const FairedByDegree& faired, std::optional<int> nearest, double toleranceMm) {
-  std::optional<int> best;
-  const auto rank = [&](int degree) {
-    const FairingReport& report = faired[degree - 1]->report;
-    const bool isMet = report.withinTolerance && report.extremaAfter <= report.extremaBefore;
-    const bool isAllowed = degree == nearest || (report.neededMm && *report.neededMm <= toleranceMm);
-    return std::tuple(!isMet, !isAllowed, report.extremaAfter);
-  };
-  for (int degree = 1; degree <= kMostTargetDegree; ++degree)
-    if (faired[degree - 1] && (!best || rank(degree) < rank(*best))) best = degree;
-  return best;
 }
 
 void addSentence(std::string& notes, const std::string& note) {

@@ -56,13 +56,6 @@ FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std
 
 /// The targets of one curve made fair; absent where one failed.
 using FairedByDegree = PerTarget<std::optional<FairedCurve>>;
-/// The degree of the highest S of the modified curve (003 section 6), of equal ones the lowest; none where no curve has
-/// one.
-std::optional<int> mostSimilar(const FairedByDegree&);
-/// Of the degrees whose target is met without a curvature extremum more the one whose curve has the fewest. Where none
-/// is met, of `nearest` and of those that the tolerance would allow, which for a smaller tolerance may have been met.
-/// Of equal ones the lowest; none where there is no curve.
-std::optional<int> fairestDegree(const FairedByDegree&, std::optional<int> nearest, double toleranceMm);
 
 /// Adds a sentence that is not there yet.
 void addSentence(std::string& notes, const std::string& note);

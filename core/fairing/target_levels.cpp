@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/fairing/corner_sections.h"
@@ -234,6 +235,42 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
 
 namespace {
 
+std::optional<int> mostSimilar(const FairedByDegree& faired) {
+  std::optional<int> degree;
+  double best = 0.0;
+  for (std::size_t i = 0; i < faired.size(); ++i) {
+    if (!faired[i] || !faired[i]->report.similarityAfter) continue;
+    const double s = *faired[i]->report.similarityAfter;
+    if (degree && s <= best) continue;
+    degree = static_cast<int>(i) + 1;
+    best = s;
+  }
+  return degree;
+}
+
+std::optional<int> fairest(const FairedByDegree& faired, std::optional<int> nearest, double toleranceMm) {
+  std::optional<int> best;
+  const auto rank = [&](int degree) {
+    const FairingReport& report = faired[degree - 1]->report;
+    const bool isMet = report.withinTolerance && report.extremaAfter <= report.extremaBefore;
+    const bool isAllowed = degree == nearest || (report.neededMm && *report.neededMm <= toleranceMm);
+    return std::tuple(!isMet, !isAllowed, report.extremaAfter);
+  };
+  for (int degree = 1; degree <= kMostTargetDegree; ++degree)
+    if (faired[degree - 1] && (!best || rank(degree) < rank(*best))) best = degree;
+  return best;
+}
+
+}  // namespace
+
+std::optional<int> degreeToRecommend(const FairedByDegree& faired, std::optional<int> nearest,
+                                     const FairingParams& params) {
+  return params.targetChoice == TargetChoice::Similarity ? mostSimilar(faired)
+                                                         : fairest(faired, nearest, params.toleranceMm);
+}
+
+namespace {
+
 /// The degree that the parameters ask for, and its curve.
 class DegreeChoice {
  public:
@@ -248,13 +285,13 @@ class DegreeChoice {
       if (!levels_.targets.profiles[degree - 1].valid) continue;
       if (const auto error = add(degree, bySimilarity ? LevelSearch::All : LevelSearch::IfAllowed)) return fail(*error);
     }
-    if (bySimilarity)
-      if (const auto best = mostSimilar(faired_)) return std::move(*faired_[*best - 1]);
     const int nearest = *levels_.targets.recommendedDegree;
-    if (std::none_of(faired_.begin(), faired_.end(),
-                     [](const auto& one) { return one && one->report.withinTolerance; }))
+    const auto isMet = [](const auto& one) { return one && one->report.withinTolerance; };
+    if (!bySimilarity && std::none_of(faired_.begin(), faired_.end(), isMet))
       if (const auto error = add(nearest, LevelSearch::All)) return fail(*error);
-    return std::move(*faired_[*fairestDegree(faired_, nearest, params_.toleranceMm) - 1]);
+    const auto best = degreeToRecommend(faired_, nearest, params_);
+    // Without any S the one that fits the sketch best, as its tile says.
+    return std::move(*faired_[best.value_or(nearest) - 1]);
   }
 
  private:
