@@ -28,9 +28,9 @@ struct PageKind {
 
 constexpr Colour kWhite{255, 255, 255};
 
-/// Ink of 200 x 160 px with eight holes of 16 px in it, every 400 px.
+/// Ink of 200 x 160 px with eight holes of 16 px in it, every 800 px.
 void drawPatches(Picture& page, const Colour& ink) {
-  constexpr int kEvery = 400, kWidth = 200, kHeight = 160, kHoleEvery = 40, kHole = 16;
+  constexpr int kEvery = 800, kWidth = 200, kHeight = 160, kHoleEvery = 40, kHole = 16;
   for (int y = 620; y < page.height; ++y) {
     for (int x = 20; x < page.width - 20; ++x) {
       const int u = x % kEvery, v = y % kEvery;

@@ -51,7 +51,7 @@ test::TruthPiece handRing(std::mt19937& random) {
 }
 
 /// How many lines: some by default, BATTEN_RANDOM_LINES where it is set.
-int linesOfDetail() { return test::askedCount("BATTEN_RANDOM_LINES", 50); }
+int linesOfDetail() { return test::askedCount("BATTEN_RANDOM_LINES", 25); }
 
 /// A curve of a smaller detail of so many control points, or fewer, is the curve of a larger one that needs more.
 constexpr int kMostKept = 40;

@@ -40,7 +40,7 @@ NurbsCurve randomLine(std::mt19937& random) {
 }
 
 /// How many lines: some by default, BATTEN_RANDOM_LINES where it is set.
-int lineCount() { return test::askedCount("BATTEN_RANDOM_LINES", 50); }
+int lineCount() { return test::askedCount("BATTEN_RANDOM_LINES", 25); }
 
 /// Times that the curvature turns back by more than rounding, counted the plain way.
 int turnsOf(const NurbsCurve& curve) {

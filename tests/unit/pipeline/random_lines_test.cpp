@@ -142,7 +142,7 @@ void expectSoundFairing(const NurbsCurve& start, const FairedCurve& faired, doub
 
 /// Lines of a case: 5, a dozen seconds of processor time; BATTEN_LINES_OF_A_CASE sets another number (packaging/check:
 /// 100).
-int linesOfACase() { return test::askedCount("BATTEN_LINES_OF_A_CASE", 5); }
+int linesOfACase() { return test::askedCount("BATTEN_LINES_OF_A_CASE", 3); }
 
 /// Every construction of its line, then every way of fairing one of the curves.
 class RandomLines : public testing::TestWithParam<int> {};
