@@ -168,16 +168,24 @@ struct OpenedInk {
   std::optional<BitImage> clear;  // InkSplit::clear
 };
 
+// Ink that a pencil helped to draw, by what drew it.
+struct PencilClosing {
+  BitImage pens;    // what pens drew, as it is
+  BitImage closed;  // what the pencil drew, its grain closed
+};
+
 // The ink with the paper open again that strokes which have run together, or lettering, have closed; absent: there is
-// none. @param closed what a pencil drew, its grain closed.
+// none. @param pencil absent: pens drew all of it.
 std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& grey, const InkSplit& split,
-                                         const BitImage& closed, const BitImage& pens, const PaperBackground& sheet,
+                                         const std::optional<PencilClosing>& pencil, const PaperBackground& sheet,
                                          const RunContext& context) {
-  const BitImage strokes = both(BitImage(pens), split.strokes);
+  const BitImage strokes = both(BitImage(pencil ? pencil->pens : ink), split.strokes);
   const BitImage open = withoutClosedPaper(strokes, grey, sheet, *split.penPx, context);
   OpenedInk opened;
-  if (closed.width > 0)
-    opened.clear = paperInLettering(without(BitImage(ink), pens), closed, grey, sheet, *split.penPx, context);
+  if (pencil) {
+    const BitImage drawn = without(BitImage(ink), pencil->pens);
+    opened.clear = paperInLettering(drawn, pencil->closed, grey, sheet, *split.penPx, context);
+  }
   if (context.isCancelled() || (open == strokes && !opened.clear)) return std::nullopt;
   opened.ink = either(without(BitImage(ink), strokes), open);
   if (opened.clear) opened.ink = without(std::move(opened.ink), *opened.clear);
@@ -213,14 +221,15 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   if (context.isCancelled()) return cancelled();
   // Strokes that have run together are told anew once the paper between them is open.
   if (paper.sheet != nullptr && split.penPx) {
-    const BitImage pens = pencil.any() ? penInk(ink, pencil) : ink;
-    Result<BitImage> closed;  // without a pencil: nothing
+    std::optional<PencilClosing> closing;
     if (pencil.any()) {
+      BitImage pens = penInk(ink, pencil);
       const double pencilPx = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
-      closed = withGrainClosed(without(BitImage(ink), pens), pencilPx, page != nullptr, context);
+      Result<BitImage> closed = withGrainClosed(without(BitImage(ink), pens), pencilPx, page != nullptr, context);
       if (!closed) return fail(closed.error());
+      closing = PencilClosing{std::move(pens), std::move(*closed)};
     }
-    auto opened = withPaperOpened(ink, grey, split, *closed, pens, *paper.sheet, context);
+    auto opened = withPaperOpened(ink, grey, split, closing, *paper.sheet, context);
     if (context.isCancelled()) return cancelled();
     const bool isOther = opened && opened->ink != ink;  // else only what the closing would fill stays open
     if (isOther) return splitByLabel(opened->ink, grey, params, page, {nullptr, std::move(opened->clear)}, context);
