@@ -28,37 +28,37 @@ EndRows::EndRows(std::span<const MeetingEnd> ends) {
   std::array<double, 2> sums = {0.0, 0.0};
   for (const MeetingEnd& end : ends) {
     const bool isAhead = end.out.dot(ends.front().out) > 0.0;
-    isAhead_.push_back(isAhead);
-    halfPx_.push_back(end.radius);
+    ends_.push_back({.isAhead = isAhead, .halfPx = end.radius});
     along += isAhead ? end.out : Vec2(-end.out);
     sums[isAhead ? 1 : 0] += end.radius;
   }
   along.normalize();
-  for (const MeetingEnd& end : ends) acrossPx_.push_back(cross(along, end.at));
+  for (std::size_t i = 0; i < ends.size(); ++i) ends_[i].acrossPx = cross(along, ends[i].at);
   rowPx_ = std::max(sums[0], sums[1]);
 }
 
 bool EndRows::changeSides(const Pair& one, const Pair& other) const {
-  const auto [a, b] = one;
-  auto [c, d] = other;
-  if (isAhead_[a] != isAhead_[c]) std::swap(c, d);
-  return (acrossPx_[a] - acrossPx_[c]) * (acrossPx_[b] - acrossPx_[d]) < 0.0;
+  const RowEnd &a = ends_[one.first], &b = ends_[one.second];
+  const RowEnd *c = &ends_[other.first], *d = &ends_[other.second];
+  if (a.isAhead != c->isAhead) std::swap(c, d);
+  return (a.acrossPx - c->acrossPx) * (b.acrossPx - d->acrossPx) < 0.0;
 }
 
 bool EndRows::isOutermost(int end, double side) const {
-  for (std::size_t i = 0; i < acrossPx_.size(); ++i)
-    if (isAhead_[i] == isAhead_[end] && side * acrossPx_[i] > side * acrossPx_[end]) return false;
-  return true;
+  const RowEnd& own = ends_[end];
+  return std::ranges::none_of(ends_, [&](const RowEnd& other) {
+    return other.isAhead == own.isAhead && side * other.acrossPx > side * own.acrossPx;
+  });
 }
 
 double EndRows::freePx(int a, int b) const {
   const auto areOutermost = [&](double side) { return isOutermost(a, side) && isOutermost(b, side); };
-  const bool isOne = isAhead_[a] != isAhead_[b] && (areOutermost(1.0) || areOutermost(-1.0));
-  return isOne ? std::abs(halfPx_[a] - halfPx_[b]) : 0.0;
+  const bool isOne = ends_[a].isAhead != ends_[b].isAhead && (areOutermost(1.0) || areOutermost(-1.0));
+  return isOne ? std::abs(ends_[a].halfPx - ends_[b].halfPx) : 0.0;
 }
 
 bool EndRows::mayCross(const Pair& one, const Pair& other, double narrowestPx) const {
-  const auto broader = [&](const Pair& pair) { return std::max(halfPx_[pair.first], halfPx_[pair.second]); };
+  const auto broader = [&](const Pair& pair) { return std::max(ends_[pair.first].halfPx, ends_[pair.second].halfPx); };
   return mayLieOnAnother(2.0 * narrowestPx, 2.0 * rowPx_, 2.0 * std::min(broader(one), broader(other)));
 }
 

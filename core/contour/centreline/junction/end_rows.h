@@ -40,12 +40,16 @@ class EndRows {
   double freePx(int a, int b) const;
 
  private:
+  struct RowEnd {
+    bool isAhead = false;   // in the row of the first end
+    double acrossPx = 0.0;  // where it lies across the direction of the rows
+    double halfPx = 0.0;    // half-width
+  };
+
   bool isOutermost(int end, double side) const;
 
-  std::vector<bool> isAhead_;     // in the row of the first end
-  std::vector<double> acrossPx_;  // where each end lies across the direction of the rows
-  std::vector<double> halfPx_;    // half-widths
-  double rowPx_ = 0.0;            // sum of the half-widths of the broader row
+  std::vector<RowEnd> ends_;
+  double rowPx_ = 0.0;  // sum of the half-widths of the broader row
 };
 
 }  // namespace batten
