@@ -25,11 +25,11 @@ MeetingEnd endAt(double x, double y, double outDeg, double radius) {
   return {0, {x, y}, {std::cos(outDeg * test::kDeg), std::sin(outDeg * test::kDeg)}, radius};
 }
 
-Pairs pairsInRows(const std::vector<MeetingEnd>& ends, double narrowest) {
+Pairs pairsInRows(const std::vector<MeetingEnd>& ends, double narrowestPx) {
   EXPECT_TRUE(EndRows::areIn(ends));
   PairingScale scale{9.0, 2.3, 40.0};
   scale.areInRows = true;
-  scale.narrowest = narrowest;
+  scale.narrowestPx = narrowestPx;
   return pairEnds(ends, scale);
 }
 

@@ -50,7 +50,8 @@ struct PairCost {
 class BestPairs {
  public:
   /// @param rows absent: any pairs may cross.
-  BestPairs(int ends, const std::vector<PairCost>& costs, std::optional<EndRows> rows, double narrowestPx)
+  BestPairs(int ends, const std::vector<PairCost>& costs, std::optional<EndRows> rows,
+            std::optional<double> narrowestPx)
       : gain_(ends, std::vector<std::optional<double>>(ends)),
         used_(ends),
         rows_(std::move(rows)),
@@ -90,7 +91,8 @@ class BestPairs {
     double sum = 0.0;
     for (const std::pair<int, int>& other : now_) {
       if (!rows_->changeSides(pair, other)) continue;
-      const double deg = rows_->mayCross(pair, other, narrowestPx_) ? kCrossingDeg : kNoCrossingDeg;
+      const bool mayCross = !narrowestPx_ || rows_->mayCross(pair, other, *narrowestPx_);
+      const double deg = mayCross ? kCrossingDeg : kNoCrossingDeg;
       sum += deg * deg;
     }
     return sum;
@@ -99,7 +101,7 @@ class BestPairs {
   std::vector<std::vector<std::optional<double>>> gain_;  // [a][b], a < b; absent: no stroke goes that way
   std::vector<bool> used_;
   std::optional<EndRows> rows_;
-  double narrowestPx_;
+  std::optional<double> narrowestPx_;
   std::vector<std::pair<int, int>> now_, best_;
   double bestSum_ = 0.0;
 };
@@ -222,7 +224,7 @@ std::vector<std::pair<int, int>> pairEnds(std::span<const MeetingEnd> ends, cons
     }
   }
   if (n > kMostEnds) return greedyPairs(n, std::move(costs));
-  return BestPairs(n, costs, rows, scale.narrowest).find();
+  return BestPairs(n, costs, rows, scale.narrowestPx).find();
 }
 
 std::optional<std::pair<int, int>> pairAlongArc(std::span<const EdgeFromEnd> edges, std::span<const MeetingEnd> ends,

@@ -33,7 +33,7 @@ struct PairingScale {
   bool ofBundles = false;    ///< Strokes will be merged: one may go on aside, as another one of its bundle.
   /// The ends lie in two rows (end_rows.h): what is wider holds more strokes, and no bolder one.
   bool areInRows = false;
-  double narrowest = 0.0;  ///< [px] SkeletonNode::narrowest
+  std::optional<double> narrowestPx = {};  ///< SkeletonNode::narrowestPx; absent: strokes may cross.
 };
 
 /// [deg] What it costs that two ends are one stroke: their bend, and with it how far one lies aside of the other's

@@ -130,7 +130,7 @@ class StrokePathMaker {
     PairingScale scale{node.radius, graph_.medianRadius(), params_.maxBendDeg, isOfBundles(params_)};
     // The grain of a pencil changes the widths of its strokes.
     scale.areInRows = of_ == JunctionsOf::Pen && EndRows::areIn(meeting);
-    scale.narrowest = node.narrowest;
+    scale.narrowestPx = node.narrowestPx;
     return scale;
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -282,9 +283,9 @@ void JunctionMerger::leadThrough(const Tangle& tangle, int node) {
 // How narrow the ink is within each set.
 void JunctionMerger::noteNarrowest(const std::vector<int>& inner) {
   for (const int edge : inner) {
-    double& narrowest = graph_.node(sets_.root(*graph_.edge(edge).node[0])).narrowest;
+    std::optional<double>& narrowestPx = graph_.node(sets_.root(*graph_.edge(edge).node[0])).narrowestPx;
     const double radius = graph_.narrowRadius(edge);
-    narrowest = narrowest > 0.0 ? std::min(narrowest, radius) : radius;
+    narrowestPx = narrowestPx ? std::min(*narrowestPx, radius) : radius;
   }
 }
 

@@ -54,8 +54,9 @@ struct SkeletonNode {
   Vec2 centre = Vec2::Zero();  ///< [px]
   double radius = 0.0;         ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
   std::vector<int> ends;       ///< Of edges, 2 * edge + side.
-  /// [px] Least half-width of the ink between the junctions of which it was made; 0 where it was one from the start.
-  double narrowest = 0.0;
+  /// [px] Least half-width of the ink between the junctions of which it was made; absent where it was one from the
+  /// start.
+  std::optional<double> narrowestPx = {};
   std::optional<LedThrough> led = {};  ///< Not valid any more where other ends have come.
 
   const LedThrough* leading() const { return led && ends.size() == led->discs.size() ? &*led : nullptr; }
