@@ -9,8 +9,8 @@ namespace batten {
 
 /// The shortest text that reads back to exactly the same number; C locale whatever the program's locale is.
 std::string numberToText(double value);
-/// A number for a message: rounded to so many digits behind the point, without zeros that end it; C locale. "7",
-/// "0.25".
+/// A number for a message or a file: rounded to so many digits behind the point, without zeros that end it, never an
+/// exponent nor a minus zero; C locale. "7", "0.25".
 std::string roundedText(double value, int decimals);
 /// The same, rounded to so many digits that count: "0.00123", "9.36", "1200".
 std::string significantText(double value, int digits);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/conventions.h"
+#include "core/base/number_text.h"
 #include "core/exchange/model/cubic_outline.h"
 #include "core/exchange/model/export_check.h"
 #include "core/exchange/model/file_text.h"
@@ -24,9 +25,9 @@ constexpr int kPdfDecimals = 9;                              // of places that a
 constexpr int kPdfPathDecimals = 12;                         ///< As in SVG, for the curvature of short cubics.
 constexpr double kPdfGridMm = 1e-12;                         // as many decimals
 
-std::string pdfNumber(double value) { return fixedNumber(value, kPdfDecimals); }
+std::string pdfNumber(double value) { return roundedText(value, kPdfDecimals); }
 std::string pdfPoint(const Vec2& p) {
-  return fixedNumber(p.x(), kPdfPathDecimals) + " " + fixedNumber(p.y(), kPdfPathDecimals) + " ";
+  return roundedText(p.x(), kPdfPathDecimals) + " " + roundedText(p.y(), kPdfPathDecimals) + " ";
 }
 
 /// UTF-16 with its mark, in hexadecimal: how PDF keeps text beyond ASCII.

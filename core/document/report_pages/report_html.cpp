@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/number_text.h"
 #include "core/exchange/model/file_text.h"
 
 namespace batten {
@@ -27,7 +28,7 @@ constexpr const char* kStyle =
     "@media print{body{margin:0;padding:0;max-width:none}details{display:none}"
     ".wide{overflow-x:visible}.wide svg{max-width:100%;height:auto}}\n";
 
-std::string decimalText(double value) { return fixedNumber(value, kFigureDecimals); }
+std::string decimalText(double value) { return roundedText(value, kFigureDecimals); }
 std::string pointText(const Vec2& p) { return decimalText(p.x()) + " " + decimalText(p.y()); }
 
 std::string pathText(const FigureStroke& stroke) {

@@ -9,10 +9,8 @@
 
 namespace batten {
 
-/// Numbers and texts as files hold them, whatever the program's language.
+/// Numbers and texts as files hold them, whatever the program's language. Rounded numbers: roundedText().
 
-/// Fixed notation with at most `decimals` decimals, without trailing zeros, never an exponent nor a minus zero.
-std::string fixedNumber(double value, int decimals);
 /// The shortest text that reads back to exactly the same number.
 std::string exactNumber(double value);
 /// Text for XML: markup escaped; control characters, which XML forbids, become spaces.

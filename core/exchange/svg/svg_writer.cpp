@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/number_text.h"
 #include "core/exchange/model/cubic_outline.h"
 #include "core/exchange/model/export_check.h"
 #include "core/exchange/model/file_text.h"
@@ -19,10 +20,10 @@ constexpr int kPathDecimals = 12;
 constexpr double kGridMm = 1e-12;           // as many decimals
 constexpr double kLeastToleranceMm = 1e-6;  // limit of input
 
-std::string fixed(double value) { return fixedNumber(value, kDecimals); }
+std::string fixed(double value) { return roundedText(value, kDecimals); }
 
 std::string pointText(const Vec2& p) {
-  return fixedNumber(p.x(), kPathDecimals) + "," + fixedNumber(p.y(), kPathDecimals);
+  return roundedText(p.x(), kPathDecimals) + "," + roundedText(p.y(), kPathDecimals);
 }
 
 void appendRun(std::string& data, const CubicRun& run) {
@@ -171,7 +172,7 @@ std::string description(const ExportDocument& document, const SvgText& svg) {
   return "  <title>" + xmlText(document.title) + "</title>\n  <desc>Fair curves in mm. " + kPathsLieWithin +
          fixed(svg.largestErrorMm) +
          " mm of the exact curves in the metadata; where cubics meet, the curvature jumps by at most " +
-         fixedNumber(100.0 * svg.largestJump, 4) + " percent" +
+         roundedText(100.0 * svg.largestJump, 4) + " percent" +
          (svg.outlines > 0 ? "; filled outlines show the strokes in their width" : "") +
          (document.dpi ? " (" + fixed(*document.dpi) + " dpi)"
                        : "; the scan states no resolution, so the scale is assumed") +
