@@ -96,11 +96,9 @@ BitImage closeGrain(const BitImage& ink, double widthPx, bool isFinePage, const 
 
 BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, const RunContext& context) {
   const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
-  std::vector<std::int64_t> area(pieces.runs.size()), inked(pieces.runs.size());
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    area[pieces.piece[i]] += pieces.runs[i].x1 - pieces.runs[i].x0;
-    inked[pieces.piece[i]] += countBits(ink, pieces.runs[i]);
-  }
+  const std::vector<std::int64_t> area = areasOfPieces(pieces);
+  std::vector<std::int64_t> inked(pieces.runs.size());
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) inked[pieces.piece[i]] += countBits(ink, pieces.runs[i]);
   BitImage kept(closed.width, closed.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const int piece = pieces.piece[i];
