@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/curve/bernstein.h"
-#include "core/fairing/profile/target_profiles.h"
 #include "core/solve/dense_solve.h"
 #include "core/solve/nonnegative_least_squares.h"
 

@@ -7,6 +7,13 @@
 
 namespace batten {
 
+/// Least-squares polynomial. Ascending powers of f in 0..1; empty where there are too few samples.
+std::vector<double> fitPolynomial(std::span<const double> f, std::span<const double> values, int degree);
+
+/// The same, non-decreasing (non-increasing); data of one sign keep it. Empty on failure.
+std::vector<double> fitMonotonePolynomial(std::span<const double> f, std::span<const double> values, int degree,
+                                          bool increasing);
+
 /// Least-squares polynomial whose value and slope at f = 1 equal those at f = 0: a profile of a closed curve. Degrees 1
 /// and 2 leave the constant only (a circle). Ascending powers of f in 0..1; empty where there are too few samples.
 std::vector<double> fitPeriodicPolynomial(std::span<const double> f, std::span<const double> values, int degree);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -99,10 +98,5 @@ struct TargetSet {
 TargetSet fitTargets(const NurbsCurve&, const TargetParams&, bool closed = false);
 /// The one of a degree alone.
 TargetProfile fitTarget(const NurbsCurve&, const TargetParams&, bool closed, int degree);
-
-/// The polynomial fit alone, for tests and for other data. `f` in 0..1.
-std::vector<double> fitPolynomial(std::span<const double> f, std::span<const double> values, int degree);
-std::vector<double> fitMonotonePolynomial(std::span<const double> f, std::span<const double> values, int degree,
-                                          bool increasing);
 
 }  // namespace batten
