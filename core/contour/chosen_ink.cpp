@@ -33,19 +33,6 @@ std::optional<int> nearestPiece(const RunPieces& pieces, const Vec2& px, double 
 
 }  // namespace
 
-std::optional<Error> validate(const EdgeChoice& choice) {
-  if (choice.positionPx.allFinite()) return std::nullopt;
-  return Error{ErrorCode::BadParameter, "The position of a trace mode choice is not a number.", {}};
-}
-
-std::optional<Error> validate(const JunctionChoice& choice) {
-  bool isFinite = choice.positionPx.allFinite();
-  for (const BranchPair& pair : choice.pairs)
-    isFinite = isFinite && pair.firstPx.allFinite() && pair.secondPx.allFinite();
-  if (isFinite) return std::nullopt;
-  return Error{ErrorCode::BadParameter, "A place of a junction's pairing is not a number.", {}};
-}
-
 ChosenInk::ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices) : pieces_(pieces) {
   for (int i = 0; i < std::ssize(choices); ++i) {
     if (const auto piece = nearestPiece(pieces, choices[i].positionPx, choices[i].reachPx)) {

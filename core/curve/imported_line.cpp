@@ -66,13 +66,6 @@ std::optional<Error> validateLine(const ImportedLine& line) {
 
 }  // namespace
 
-std::optional<Error> tooManySharpTurns(std::size_t turns) {
-  if (turns <= kMostSharpTurns) return std::nullopt;
-  return bad("The points of a file may turn sharply at " + std::to_string(kMostSharpTurns) +
-             " places at most, but do so at " + std::to_string(turns) +
-             ": put them in the order in which the line runs.");
-}
-
 std::optional<Error> validate(const ImportedFile& file) {
   if (file.lines.size() > kMostLines) return bad("At most 20000 lines can be imported from a file.");
   std::size_t points = 0, corners = 0;

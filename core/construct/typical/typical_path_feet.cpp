@@ -56,13 +56,6 @@ PathFoot nextFoot(const std::vector<PathGeometry>& geometry, const Vec2& p, cons
 
 }  // namespace
 
-std::vector<PathGeometry> geometryOf(const TypicalPath& path) {
-  std::vector<PathGeometry> all;
-  all.reserve(path.elements.size());
-  for (std::size_t e = 0; e < path.elements.size(); ++e) all.emplace_back(path, e);
-  return all;
-}
-
 void followFeet(const std::vector<PathGeometry>& geometry, const std::vector<Vec2>& points,
                 std::vector<PathFoot>& feet) {
   const bool fresh = feet.size() != points.size();

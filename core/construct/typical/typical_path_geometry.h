@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <vector>
 
 #include "core/construct/typical/typical_path.h"
 #include "core/curve/bezier_powers.h"

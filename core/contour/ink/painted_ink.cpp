@@ -12,9 +12,6 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastBrushRadiusPx = 0.5, kMostBrushRadiusPx = 1000.0;  // a brush of one pixel; limits of input
-constexpr std::size_t kMostPlaces = 100'000;                              // of one course, as of a pen stroke
-
 struct Interval {
   double from = 0.0, to = 0.0;
 };
@@ -81,21 +78,6 @@ Rows fillAround(const PaintedInk& painted, BitImage& brush, const RunContext& co
 }
 
 }  // namespace
-
-std::optional<Error> validate(const PaintedInk& painted) {
-  const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
-  if (painted.coursePx.empty() || painted.coursePx.size() > kMostPlaces)
-    return bad("Painted ink must have 1 to 100000 places.");
-  if (!std::ranges::all_of(painted.coursePx, [](const Vec2& p) { return p.allFinite(); }))
-    return bad("A place of painted ink is not a number.");
-  if (!(painted.radiusPx >= kLeastBrushRadiusPx && painted.radiusPx <= kMostBrushRadiusPx))
-    return bad("The radius of painted ink must be 0.5 to 1000 px.");
-  return std::nullopt;
-}
-
-double scaledRadius(const PaintedInk& painted, double scale) {
-  return std::clamp(painted.radiusPx * scale, kLeastBrushRadiusPx, kMostBrushRadiusPx);
-}
 
 bool isUnder(const PaintedInk& painted, const Vec2& px) {
   const auto& course = painted.coursePx;
