@@ -45,6 +45,8 @@ std::array<Vec2, 4> TypicalCurve::controlPoints() const {
   return points;
 }
 
+double TypicalCurve::size() const { return edge * (1.0 + ratio * std::cos(turnRad) + ratio * ratio); }
+
 double TypicalCurve::startCurvature() const { return 2.0 * ratio * std::sin(turnRad) / (3.0 * edge); }
 
 double TypicalCurve::endCurvature() const { return startCurvature() / (ratio * ratio * ratio * ratio); }
@@ -84,6 +86,21 @@ std::optional<TypicalCurve> typicalFromCurvatures(const Vec2& start, double angl
   if (!possible(phi, startCurvature) || !possible(phi, endCurvature)) return std::nullopt;
   const double h = std::pow(startCurvature / endCurvature, 0.25);
   return TypicalCurve{start, angleRad, 2.0 * h * std::sin(phi) / (3.0 * startCurvature), h, phi};
+}
+
+FormGradient formGradient(const TypicalCurve& c) {
+  // F(l, h, phi) = l (1 + h cos phi + h^2) - dS = 0; h^3 + cos(phi) h^2 + h - 3 dS kappa0 / (2 sin phi) = 0.
+  const double h = c.ratio, l = c.edge, cosine = std::cos(c.turnRad), sine = std::sin(c.turnRad);
+  const double size = c.size(), k = 1.5 * size * c.startCurvature() / sine;
+  FormGradient g;
+  g.ratioByTurn = (h * h * sine - k * cosine / sine) / (3.0 * h * h + 2.0 * cosine * h + 1.0);
+  const double sum = 1.0 + h * cosine + h * h;
+  g.edgeByTurn = -l / sum * ((cosine + 2.0 * h) * g.ratioByTurn - h * sine);
+  // C(1) = l (1 + z + z^2), z = h e^(i phi).
+  const std::complex<double> z = std::polar(h, c.turnRad), i(0.0, 1.0), dz = z * (g.ratioByTurn / h + i);
+  const std::complex<double> end = g.edgeByTurn * (1.0 + z + z * z) + l * (dz + 2.0 * z * dz);
+  g.endByTurn = {end.real(), end.imag()};
+  return g;
 }
 
 }  // namespace batten

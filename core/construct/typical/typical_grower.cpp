@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 
 #include "core/base/angle.h"
@@ -50,8 +49,6 @@ constexpr std::size_t kFewestGrouped = 10, kQuarters = 4;
 constexpr int kMostGrowths = 60;                             ///< Of one curve.
 constexpr double kSmallestRatio = 0.3, kLargestRatio = 3.0;  ///< Of a grown curve's edges: beyond, it is a spiral.
 
-double sizeOf(const TypicalCurve& c) { return c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio); }
-
 class Grower {
  public:
   Grower(const TypicalLine& line, const ConstructParams& params, StepRecord steps)
@@ -88,14 +85,14 @@ class Grower {
       } else if (!params_.growingAsInPaper) {
         stays = grown.toParameter(kKeptPart);
       }
-      if (sizeOf(stays) < kShortestPx) break;
+      if (stays.size() < kShortestPx) break;
       keep(stays);
       passed_ = nearestTo(stays.endJoint().point);
       passed_ = passed_ > kBehind ? passed_ - kBehind : 0;
       isFree_ = false;
       if (reachesEnd) break;
       ++kept_.segment;
-      curve = continued(stays, params_.growingAsInPaper ? kNextSeed * sizeOf(stays) : sizeOf(grown) - sizeOf(stays));
+      curve = continued(stays, params_.growingAsInPaper ? kNextSeed * stays.size() : grown.size() - stays.size());
       if (curve) {
         rested_ = refit(*curve);
         record(GrowingStep::Kind::Seed, *curve, false);
@@ -130,7 +127,7 @@ class Grower {
   static bool isPassed(const TypicalCurve& c, const Vec2& end) {
     const CurveFoot foot = feetOn(c, std::array{end}).front();
     const double away = std::abs(foot.distance);
-    return foot.t > 0.0 && foot.t <= 1.0 + kAtEnd && away <= kPassedShareOfSize * sizeOf(c) + kPassedPx;
+    return foot.t > 0.0 && foot.t <= 1.0 + kAtEnd && away <= kPassedShareOfSize * c.size() + kPassedPx;
   }
 
   /// A curve over joints: their length and change of direction.
@@ -149,7 +146,7 @@ class Grower {
   std::span<const Vec2> pointsOn(const TypicalCurve& c) const {
     const std::size_t near = nearestTo(c.start), begin = near > kBehind ? near - kBehind : 0;
     std::size_t end = begin + 1;
-    for (double length = 0.0; end < points_.size() && length < kReachOfSize * sizeOf(c) + kReachPx; ++end)
+    for (double length = 0.0; end < points_.size() && length < kReachOfSize * c.size() + kReachPx; ++end)
       length += (points_[end] - points_[end - 1]).norm();
     const std::span<const Vec2> beside = std::span(points_).subspan(begin, end - begin);
     const std::vector<CurveFoot> feet = feetOn(c, beside);
@@ -181,7 +178,7 @@ class Grower {
   bool refitWhole(TypicalCurve& c) const {
     const auto near = pointsOn(c);
     if (near.size() < kFewestNear) return true;
-    const double size = sizeOf(c), kappa = c.startCurvature();
+    const double size = c.size(), kappa = c.startCurvature();
     const auto curveOf = [&](std::span<const double> x) {
       return typicalFromForm(c.start, c.angleRad + x[0], kappa * std::exp(x[1]), size,
                              2.0 * c.turnRad * std::exp(x[2]));
@@ -213,7 +210,7 @@ class Grower {
   /// Bends the curve until it meets the points: only the change of direction moves (002 section 5).
   /// @return whether it came to rest; also true where there is nothing to meet.
   bool refit(TypicalCurve& c) const {
-    const double size = sizeOf(c), kappa = c.startCurvature();
+    const double size = c.size(), kappa = c.startCurvature();
     for (int i = 0; i < kTurnFits; ++i) {
       const auto near = pointsOn(c);
       if (near.size() < 3) return true;
@@ -346,21 +343,6 @@ class Grower {
 };
 
 }  // namespace
-
-FormGradient formGradient(const TypicalCurve& c) {
-  // F(l, h, phi) = l (1 + h cos phi + h^2) - dS = 0; h^3 + cos(phi) h^2 + h - 3 dS kappa0 / (2 sin phi) = 0.
-  const double h = c.ratio, l = c.edge, cosine = std::cos(c.turnRad), sine = std::sin(c.turnRad);
-  const double size = sizeOf(c), k = 1.5 * size * c.startCurvature() / sine;
-  FormGradient g;
-  g.ratioByTurn = (h * h * sine - k * cosine / sine) / (3.0 * h * h + 2.0 * cosine * h + 1.0);
-  const double sum = 1.0 + h * cosine + h * h;
-  g.edgeByTurn = -l / sum * ((cosine + 2.0 * h) * g.ratioByTurn - h * sine);
-  // C(1) = l (1 + z + z^2), z = h e^(i phi).
-  const std::complex<double> z = std::polar(h, c.turnRad), i(0.0, 1.0), dz = z * (g.ratioByTurn / h + i);
-  const std::complex<double> end = g.edgeByTurn * (1.0 + z + z * z) + l * (dz + 2.0 * z * dz);
-  g.endByTurn = {end.real(), end.imag()};
-  return g;
-}
 
 GrownCurves growStretch(const TypicalLine& line, const ConstructParams& params, const GrowingStretch& stretch,
                         const GrowingStart& start, StepRecord steps, const RunContext& context) {

@@ -86,7 +86,7 @@ std::size_t passedJoint(const TypicalLine& line, const GrowingStretch& stretch, 
   constexpr double kJointsOff = 3.0;     // … and so many joints more
   const auto chord = [&](std::size_t i) { return (line.joints[i + 1].point - line.joints[i].point).norm(); };
   double length = 0.0;
-  for (const TypicalCurve& c : grown) length += c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio);
+  for (const TypicalCurve& c : grown) length += c.size();
   const Vec2 end = grown.back().endJoint().point;
   std::size_t nearest = stretch.firstJoint;
   double s = 0.0, least = std::numeric_limits<double>::infinity();

@@ -12,15 +12,6 @@
 
 namespace batten {
 
-/// How a typical curve changes with phi while place, direction and curvature at its start and its size dS stay
-/// (002 Eq 7, 8).
-struct FormGradient {
-  double edgeByTurn = 0.0;        ///< dl / dphi
-  double ratioByTurn = 0.0;       ///< dh / dphi
-  Vec2 endByTurn = Vec2::Zero();  ///< dC(1) / dphi, in the frame of the curve itself.
-};
-FormGradient formGradient(const TypicalCurve&);
-
 /// What happened while a chain grew (002 figures 3 and 5). Model frame, mm; px while it grows.
 struct GrowingStep {
   enum class Kind {

@@ -182,7 +182,7 @@ std::vector<SegmentNote> segmentNotes(const TypicalPath& path, const TypicalLine
     if (note.typical) {
       const TypicalCurve curve = path.typical(e);
       note.ratio = curve.ratio;
-      note.length = curve.edge * (1.0 + curve.ratio * std::cos(curve.turnRad) + curve.ratio * curve.ratio);
+      note.length = curve.size();
       note.monotone = curve.isMonotone();
     } else {
       note.length = path.hermiteLength(e);

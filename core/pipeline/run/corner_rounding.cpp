@@ -30,8 +30,7 @@ Result<NurbsCurve> asCurve(const TypicalCurve& arc) {
   const auto q = arc.controlPoints();
   const Quintic quintic = elevatedCubic(q[0], q[1], q[2], q[3]);
   std::vector<double> knots(6, 0.0);
-  const double length = arc.edge * (1.0 + arc.ratio * std::cos(arc.turnRad) + arc.ratio * arc.ratio);
-  knots.insert(knots.end(), 6, length);
+  knots.insert(knots.end(), 6, arc.size());
   return NurbsCurve::make(kDegree, std::move(knots), {quintic.begin(), quintic.end()});
 }
 
