@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/construct/pixel_frame.h"
-#include "core/construct/typical/typical_grower.h"
+#include "core/construct/typical/growing_stretch.h"
 #include "core/construct/typical/typical_path_fit.h"
 #include "core/construct/typical/typical_rough_path.h"
 #include "core/construct/typical/typical_structure.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/typical/typical_grower.h"
+#include "core/construct/typical/growing_stretch.h"
 
 #include <algorithm>
 #include <cmath>
