@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
-#include <new>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
@@ -317,12 +316,12 @@ Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& 
                   : "No curve could be made. " + set.failures.front().message);
 }
 
-ConstructContour lineInput(const PipelineOutput& out, int contour) {
-  if (!out.contours || !out.pieces || !out.segments) return {};
-  if (out.segments->pieces.size() != out.pieces->pieces.size()) return {};
-  const PieceRange range = rangeOf(*out.pieces, contour);
-  if (range.first == range.last || contour < 0 || contour >= std::ssize(out.contours->contours)) return {};
-  return inputOf(*out.contours, *out.pieces, *out.segments, range, out.frame);
+ConstructContour contourInput(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments,
+                              int contour, const PageFrame& frame) {
+  if (segments.pieces.size() != pieces.pieces.size()) return {};
+  const PieceRange range = rangeOf(pieces, contour);
+  if (range.first == range.last || contour < 0 || contour >= std::ssize(contours.contours)) return {};
+  return inputOf(contours, pieces, segments, range, frame);
 }
 
 ConstructedSet constructFromPoints(const PipelineOutput& out, const Recipe& recipe, std::size_t first, std::size_t last,
@@ -331,24 +330,6 @@ ConstructedSet constructFromPoints(const PipelineOutput& out, const Recipe& reci
   alike.choices.clear();
   const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
   return builder.buildFromPoints({first, last});
-}
-
-Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const Recipe& recipe, int contour,
-                                               const RunContext& context) {
-  if (lineInput(out, contour).pieces.empty()) return fail(ErrorCode::NoCurve, "There is no such line.");
-  try {
-    const PieceRange range = rangeOf(*out.pieces, contour);
-    ConstructedSet outcome = constructFromPoints(out, recipe, range.first, range.last, context);
-    if (context.isCancelled()) return cancelled();
-    std::vector<TracedCurve> curves(range.last - range.first);
-    for (TracedCurve& curve : outcome.curves) {
-      const std::size_t at = curve.piece - range.first;
-      curves[at] = std::move(curve);
-    }
-    return curves;
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
-  }
 }
 
 }  // namespace batten

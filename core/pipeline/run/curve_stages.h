@@ -22,6 +22,9 @@ ConstructPiece typicalPieceOf(const PieceSet&, const SegmentSet&, const Recipe&,
 Result<ConstructedSet> constructAll(const ContourSet&, const PieceSet&, const SegmentSet&, const Recipe&,
                                     const PageFrame&, const RunContext&);
 
+/// What the constructions take of one contour: all its pieces. Empty if it has none.
+ConstructContour contourInput(const ContourSet&, const PieceSet&, const SegmentSet&, int contour, const PageFrame&);
+
 /// The pieces [first, last) of one line constructed from their points, whatever the user chose for its curves. What
 /// gave no curve is listed.
 ConstructedSet constructFromPoints(const PipelineOutput&, const Recipe&, std::size_t first, std::size_t last,

@@ -363,6 +363,11 @@ std::string nameOfCurve(const PipelineOutput& output, const Recipe& recipe, cons
   return own.empty() ? curveName(curveNumber(output, curve)) : own;
 }
 
+ConstructContour lineInput(const PipelineOutput& output, int contour) {
+  if (!output.contours || !output.pieces || !output.segments) return {};
+  return contourInput(*output.contours, *output.pieces, *output.segments, contour, output.frame);
+}
+
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {
   PageFrame frame = pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
   if (recipe.page) {

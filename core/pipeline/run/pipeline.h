@@ -119,10 +119,6 @@ std::string ownNameOfCurve(const PipelineOutput&, const Recipe&, const TracedCur
 
 /// What the constructions take of one line (contour): all its pieces, model frame. Empty if there is no such line.
 ConstructContour lineInput(const PipelineOutput&, int contour);
-/// One line constructed as `recipe.construct` says, to compare methods with; changes and caches nothing. `faired` stays
-/// empty. One entry per piece of the line in the order of the pieces; without a curve where its construction failed.
-Result<std::vector<TracedCurve>> constructLine(const PipelineOutput&, const Recipe& recipe, int contour,
-                                               const RunContext&);
 
 /// Frame of the scan at the recipe's, the file's or the assumed resolution.
 PageFrame frameFor(const Scan&, const Recipe&);

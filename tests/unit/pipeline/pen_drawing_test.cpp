@@ -7,6 +7,7 @@
 
 #include "core/document/report.h"
 #include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/piece_construction.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/render_page.h"
 #include "tests/unit/pipeline/ellipse_scan.h"
