@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/interpolation.h"
 #include "core/base/statistics.h"
 #include "core/contour/ink/line_company.h"
 #include "core/image/bits/bit_disc.h"
@@ -64,10 +65,8 @@ struct LinesOnGround {
   }
   double levelAt(const Vec2& px) const {
     const cv::Point2d at = cellAt(px);
-    const double x = std::clamp(at.x, 0.0, level.cols - 1.0), y = std::clamp(at.y, 0.0, level.rows - 1.0);
-    const int i = std::min(static_cast<int>(x), level.cols - 2), j = std::min(static_cast<int>(y), level.rows - 2);
-    const auto value = [&](int dx, int dy) { return static_cast<double>(level(j + dy, i + dx)); };
-    return std::lerp(std::lerp(value(0, 0), value(1, 0), x - i), std::lerp(value(0, 1), value(1, 1), x - i), y - j);
+    const BilinearPlace place(level.cols, level.rows, at.x, at.y);
+    return place.of([&](int x, int y) { return static_cast<double>(level(y, x)); });
   }
 };
 

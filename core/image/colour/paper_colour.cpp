@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/interpolation.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 
@@ -108,14 +109,11 @@ void PaperColour::ratiosOfRow(int y, int width, int height, std::array<std::vect
 
 float PaperColour::levelAt(int x, int y) const {
   const auto size = static_cast<float>(cellPx);
-  const float u = std::clamp((static_cast<float>(x) + 0.5f) / size - 0.5f, 0.0f, static_cast<float>(columns - 1));
-  const float v = std::clamp((static_cast<float>(y) + 0.5f) / size - 0.5f, 0.0f, static_cast<float>(rows - 1));
-  const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
-  const int x1 = std::min(x0 + 1, columns - 1), y1 = std::min(y0 + 1, rows - 1);
-  const auto cell = [&](int i, int j) { return level[std::ptrdiff_t{j} * columns + i]; };
-  const float s = u - static_cast<float>(x0), t = v - static_cast<float>(y0);
-  return (1.0f - t) * ((1.0f - s) * cell(x0, y0) + s * cell(x1, y0)) +
-         t * ((1.0f - s) * cell(x0, y1) + s * cell(x1, y1));
+  const BilinearPlace place(columns, rows, (static_cast<float>(x) + 0.5f) / size - 0.5f,
+                            (static_cast<float>(y) + 0.5f) / size - 0.5f);
+  // Every pixel of a page is asked for: in single precision, and exact at both ends without branches.
+  return place.of([&](int i, int j) { return level[std::ptrdiff_t{j} * columns + i]; },
+                  [](float a, float b, float share) { return (1.0f - share) * a + share * b; });
 }
 
 PaperColour measurePaperColour(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {

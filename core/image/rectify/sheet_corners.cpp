@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/interpolation.h"
 #include "core/base/statistics.h"
 
 namespace batten {
@@ -40,15 +41,10 @@ class Tints {
   bool has(const Vec2& px) const {
     return px.x() >= 0.0 && px.y() >= 0.0 && px.x() <= grey_.width && px.y() <= grey_.height;
   }
-  /// Linear between pixels.
+  /// Bilinear between pixels.
   double at(const Vec2& px, int channel) const {
-    const double u = std::clamp(px.x() - 0.5, 0.0, grey_.width - 1.0);
-    const double v = std::clamp(px.y() - 0.5, 0.0, grey_.height - 1.0);
-    const int x = static_cast<int>(u), y = static_cast<int>(v);
-    const int x1 = std::min(x + 1, grey_.width - 1), y1 = std::min(y + 1, grey_.height - 1);
-    const double above = std::lerp(pixel(x, y, channel), pixel(x1, y, channel), u - x);
-    const double below = std::lerp(pixel(x, y1, channel), pixel(x1, y1, channel), u - x);
-    return std::lerp(above, below, v - y);
+    const BilinearPlace place(grey_.width, grey_.height, px.x() - 0.5, px.y() - 0.5);
+    return place.of([&](int x, int y) { return pixel(x, y, channel); });
   }
 
  private:

@@ -344,20 +344,6 @@ std::optional<Error> validate(const ThresholdParams& params) {
   return std::nullopt;
 }
 
-double PaperBackground::at(double xPx, double yPx) const {
-  if (isEmpty()) return 255.0;
-  const double u = std::clamp(xPx / cellPx - 0.5, 0.0, columns - 1.0);
-  const double v = std::clamp(yPx / cellPx - 0.5, 0.0, rows - 1.0);
-  const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
-  const int x1 = std::min(x0 + 1, columns - 1), y1 = std::min(y0 + 1, rows - 1);
-  const auto cell = [&](int x, int y) { return static_cast<double>(grey[std::ptrdiff_t{y} * columns + x]); };
-  const double above = cell(x0, y0) + (u - x0) * (cell(x1, y0) - cell(x0, y0));
-  const double below = cell(x0, y1) + (u - x0) * (cell(x1, y1) - cell(x0, y1));
-  double level = above + (v - y0) * (below - above);
-  for (const PaperFold& fold : folds) level += fold.at(xPx, yPx);
-  return level;
-}
-
 Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParams& paper, const ThresholdParams& params,
                                         const RunContext& context) {
   if (const auto error = validate(params)) return fail(*error);

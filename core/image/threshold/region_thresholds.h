@@ -4,13 +4,12 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/base/conventions.h"
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/image/grey_image.h"
-#include "core/image/threshold/paper_fold.h"
+#include "core/image/threshold/paper_background.h"
 
 namespace batten {
 
@@ -45,19 +44,6 @@ struct ThresholdParams {
 };
 /// First invalid field, with its range, if any.
 std::optional<Error> validate(const ThresholdParams&);
-
-/// The paper's grey on a coarse grid: cell (i, j) is centred at px ((i + .5) * cellPx, (j + .5) * cellPx); between
-/// centres bilinear, beyond them constant. Empty when flattening is off.
-struct PaperBackground {
-  int cellPx = 8;  ///< [px] Side of a cell.
-  int columns = 0;
-  int rows = 0;
-  std::vector<float> grey;       ///< [grey 0..255] columns * rows.
-  std::vector<PaperFold> folds;  ///< Steps that come on top: folds and edges of shadows.
-  bool isEmpty() const { return grey.empty(); }
-  /// Paper level at an image position; 255 when empty.
-  double at(double xPx, double yPx) const;
-};
 
 /// Levels after a lesser smoothing.
 struct FinerLevels {

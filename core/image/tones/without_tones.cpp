@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/base/interpolation.h"
 #include "core/base/parallel.h"
 #include "core/image/grown_mask.h"
 
@@ -28,30 +29,21 @@ cv::Mat1b mapOf(const std::vector<std::uint8_t>& values, const ToneAreas& areas)
 class Place {
  public:
   Place(const ToneAreas& areas, int x, int y)
-      : u_(inside(x, areas.pixelsPerPx, areas.columns)),
-        v_(inside(y, areas.pixelsPerPx, areas.rows)),
-        i_(static_cast<int>(u_)),
-        j_(static_cast<int>(v_)),
-        right_(std::min(i_ + 1, areas.columns - 1)),
-        below_(std::min(j_ + 1, areas.rows - 1)),
+      : in_(areas.columns, areas.rows, (x + 0.5) / areas.pixelsPerPx - 0.5, (y + 0.5) / areas.pixelsPerPx - 0.5),
         columns_(areas.columns) {}
   double of(const std::vector<std::uint8_t>& map) const {
-    const double upper = at(map, i_, j_) + (u_ - i_) * (at(map, right_, j_) - at(map, i_, j_));
-    const double lower = at(map, i_, below_) + (u_ - i_) * (at(map, right_, below_) - at(map, i_, below_));
-    return upper + (v_ - j_) * (lower - upper);
+    return in_.of([&](int i, int j) { return at(map, i, j); }, FastBetween());
   }
   bool isPaper(const std::vector<std::uint8_t>& ground) const {
-    return (at(ground, i_, j_) & at(ground, right_, j_) & at(ground, i_, below_) & at(ground, right_, below_)) == 255;
+    return (at(ground, in_.left, in_.upper) & at(ground, in_.right, in_.upper) & at(ground, in_.left, in_.lower) &
+            at(ground, in_.right, in_.lower)) == 255;
   }
 
  private:
-  static double inside(int px, int pixelsPerPx, int count) {
-    return std::clamp((px + 0.5) / pixelsPerPx - 0.5, 0.0, count - 1.0);
-  }
   int at(const std::vector<std::uint8_t>& map, int i, int j) const { return map[std::ptrdiff_t{j} * columns_ + i]; }
 
-  double u_, v_;
-  int i_, j_, right_, below_, columns_;
+  BilinearPlace<double> in_;
+  int columns_;
 };
 
 /// Borders of tones become lines, tile by tile of the areas.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/hot_loop.h"
+#include "core/base/interpolation.h"
 #include "core/base/parallel.h"
 #include "core/contour/centreline/page_scale.h"
 #include "core/contour/centreline/profile/stroke_course.h"
@@ -284,13 +285,9 @@ RegionValues filledRegions(const RegionSums& sums, double GrainSum::*what) {
 
 // Bilinear between the centres of the regions.
 double valueAt(const RegionValues& values, const Vec2& px, int width, int height) {
-  const double most = kRegionsPerSide - 1.0;
-  const double u = std::clamp(px.x() * kRegionsPerSide / width - 0.5, 0.0, most);
-  const double v = std::clamp(px.y() * kRegionsPerSide / height - 0.5, 0.0, most);
-  const int x = std::min(static_cast<int>(u), kRegionsPerSide - 2),
-            y = std::min(static_cast<int>(v), kRegionsPerSide - 2);
-  const auto at = [&](int dx, int dy) { return values[(y + dy) * kRegionsPerSide + x + dx]; };
-  return std::lerp(std::lerp(at(0, 0), at(1, 0), u - x), std::lerp(at(0, 1), at(1, 1), u - x), v - y);
+  const BilinearPlace place(kRegionsPerSide, kRegionsPerSide, px.x() * kRegionsPerSide / width - 0.5,
+                            px.y() * kRegionsPerSide / height - 0.5);
+  return place.of([&](int x, int y) { return values[y * kRegionsPerSide + x]; });
 }
 
 }  // namespace
