@@ -181,7 +181,7 @@ ToneAreas areasOf(const PencilPage& page, const cv::Mat1b& tones, const cv::Mat1
   ToneAreas areas;
   areas.columns = ground.cols, areas.rows = ground.rows;
   areas.ground = bytesOf(ground);
-  areas.gain = bytesOf(gain);
+  areas.gain = ToneAreas::KnownGain{bytesOf(gain)};
   for (int y = 0; y < ground.rows; ++y)
     for (int x = 0; x < ground.cols; ++x)
       areas.paper.push_back(cv::saturate_cast<std::uint8_t>(page.paper.at(x + 0.5, y + 0.5)));

@@ -14,7 +14,7 @@ namespace batten {
 /// what is no line in it becomes paper, and the lines are made as dark as lines on paper are. Areas as dark as the
 /// lines beside them that end sharply are solids and stay ink, and so do areas that hardly a line is drawn on and
 /// around, those without grain, and whatever is narrower than a few lines.
-/// @return ToneAreas::gain says by how much. Absent: there are none, or the search was cancelled.
+/// @return with ToneAreas::KnownGain, which says by how much. Absent: there are none, or the search was cancelled.
 std::optional<ToneAreas> findPencilTones(const ToneCopy&, const RunContext&);
 
 }  // namespace batten

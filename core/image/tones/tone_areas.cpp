@@ -39,7 +39,7 @@ enum class AreaKind {
 struct Area {
   AreaKind kind = AreaKind::Solid;
   cv::Mat1b bare;         ///< Of a tone: its border where that is sharp and without a line.
-  double mostGain = 0.0;  ///< Of a tone: see ToneAreas.
+  double mostGain = 0.0;  ///< Of a tone: see ToneAreas::MostGain.
 };
 
 /// What an area of ink is that is nowhere darker than kDarkestTone. @param area not 0 inside; the pictures are cut to a
@@ -81,7 +81,7 @@ ToneLook cutTo(const ToneLook& look, const cv::Rect& box) {
 struct Parted {
   cv::Mat1b tones, solids;
   cv::Mat1b bare;      ///< Borders of tones that become lines.
-  cv::Mat1b mostGain;  ///< Of the tones, see ToneAreas.
+  cv::Mat1b mostGain;  ///< Of the tones, see ToneAreas::MostGain.
   int longestPx = 0;   ///< Of the tones.
 };
 void addTone(Parted& parted, const cv::Rect& box, const cv::Mat1b& mask, const Area& area, const ToneLook& look) {
@@ -189,11 +189,11 @@ std::optional<ToneAreas> findToneAreas(const ToneCopy& copy, const RunContext& c
   areas.columns = ground.cols, areas.rows = ground.rows;
   areas.ground.assign(ground.begin(), ground.end());
   const cv::Mat1b mostGain = fromBeside(parted.mostGain, parted.tones == 0);
-  areas.mostGain.assign(mostGain.begin(), mostGain.end());
+  areas.gain = ToneAreas::MostGain{{mostGain.begin(), mostGain.end()}};
   cv::Mat1b levels;
   paper.convertTo(levels, CV_8U, 1.0 / GreyImage::kGreyUnit);
   areas.paper.assign(levels.begin(), levels.end());
-  if (cv::countNonZero(parted.bare) > 0) areas.bare.assign(parted.bare.begin(), parted.bare.end());
+  if (cv::countNonZero(parted.bare) > 0) areas.bare.emplace(parted.bare.begin(), parted.bare.end());
   areas.lineWidthPx = look->lineWidthPx * areas.pixelsPerPx;
   areas.lineDarkness = look->lineDarkness;
   areas.share = static_cast<double>(cv::countNonZero(ground < kClearGround)) / static_cast<double>(ground.total());

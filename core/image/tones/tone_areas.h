@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -27,18 +28,23 @@ struct ToneAreas {
   int columns = 0, rows = 0;  ///< Of `ground`.
   /// [0..255 of the paper's brightness] What lines are drawn on, row by row: 255 where nothing is shaded.
   std::vector<std::uint8_t> ground;
-  /// [1 / kGainUnit] By what the depth below the ground may be multiplied at most, row by row: more, and the grain of
-  /// the tone is as deep as lines.
-  std::vector<std::uint8_t> mostGain;
   static constexpr double kGainUnit = 16.0;
   static constexpr double kGrainGain = 0.15;  ///< Of a pencil's grain: what is left is fainter than that of paper.
-  /// [1 / kGainUnit] By what the depth below the ground is multiplied, row by row, where that is known; or empty: by
-  /// what the ground is darker than the paper, up to mostGain.
-  std::vector<std::uint8_t> gain;
+  /// [1 / kGainUnit] The depth below the ground is multiplied by what the ground is darker than the paper, but at most
+  /// by this, row by row: more, and the grain of the tone is as deep as lines.
+  struct MostGain {
+    std::vector<std::uint8_t> units;
+  };
+  /// [1 / kGainUnit] It is multiplied by this, row by row.
+  struct KnownGain {
+    std::vector<std::uint8_t> units;
+  };
+  std::variant<MostGain, KnownGain> gain;
   std::vector<std::uint8_t> paper;  ///< [grey 0..255] What the ground is a share of, row by row.
-  std::vector<std::uint8_t> bare;   ///< Not 0 along sharp borders that no line is drawn along, row by row; or empty.
-  /// 255 where an area was filled with hatching and becomes as dark as lines all over, row by row; or empty.
-  std::vector<std::uint8_t> filled;
+  /// Not 0 along sharp borders that no line is drawn along, row by row. Absent: there are none.
+  std::optional<std::vector<std::uint8_t>> bare;
+  /// 255 where an area was filled with hatching and becomes as dark as lines all over, row by row. Absent: none was.
+  std::optional<std::vector<std::uint8_t>> filled;
   double lineWidthPx = 0.0;   ///< [px of the page] Of the lines.
   double lineDarkness = 0.0;  ///< [of 255] Of the lines.
   double share = 0.0;         ///< 0..1 of the page is clearly shaded.

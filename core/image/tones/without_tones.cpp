@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <variant>
 #include <vector>
 
 #include "core/base/interpolation.h"
@@ -46,7 +47,7 @@ class Place {
   int columns_;
 };
 
-/// Borders of tones become lines, tile by tile of the areas.
+/// Borders of tones become lines, tile by tile of the areas. @pre some are bare.
 class BareBorders {
  public:
   BareBorders(const GreyImage& scanned, const ToneAreas& areas)
@@ -55,7 +56,7 @@ class BareBorders {
         sigma_(std::max(1.0, kBorderWidth * areas.lineWidthPx / kWidthPerBlur)),
         reachPx_(static_cast<int>(std::ceil(kReach * sigma_))),
         reach_(reachPx_ / areas.pixelsPerPx + 2) {
-    near_ = grownMask(mapOf(areas.bare, areas), reach_);
+    near_ = grownMask(mapOf(*areas.bare, areas), reach_);
   }
 
   int tileColumns() const { return (areas_.columns + kTilePx - 1) / kTilePx; }
@@ -112,17 +113,24 @@ class BareBorders {
 
 /// What was filled shows no paper: it is at least as dark as lines.
 std::uint16_t brightestAt(const ToneAreas& areas, const Place& place) {
-  const double share = areas.filled.empty() ? 0.0 : place.of(areas.filled) / 255.0;
+  const double share = areas.filled ? place.of(*areas.filled) / 255.0 : 0.0;
   if (!(share > 0.0)) return 65535;
   const double paper = GreyImage::kGreyUnit * place.of(areas.paper);
   return static_cast<std::uint16_t>(paper * (1.0 - share * areas.lineDarkness / 255.0) + 0.5);
 }
 
+/// By what the depth below the ground is multiplied. @param ground 0..1 of the paper.
+double gainAt(const ToneAreas& areas, const Place& place, double ground, double depth) {
+  if (const auto* most = std::get_if<ToneAreas::MostGain>(&areas.gain))
+    return std::min(1.0 / ground, place.of(most->units) / ToneAreas::kGainUnit);
+  if (!(depth > 0.0)) return ToneAreas::kGrainGain;
+  return place.of(std::get<ToneAreas::KnownGain>(areas.gain).units) / ToneAreas::kGainUnit;
+}
+
 }  // namespace
 
 GreyImage withoutTones(GreyImage page, const ToneAreas& areas, const RunContext& context) {
-  const bool hasBare = !areas.bare.empty();
-  const GreyImage scanned = hasBare ? page : GreyImage();
+  const GreyImage scanned = areas.bare ? page : GreyImage();
   parallelFor(context, page.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < page.width; ++x) {
@@ -132,14 +140,11 @@ GreyImage withoutTones(GreyImage page, const ToneAreas& areas, const RunContext&
         const double ground = std::max(1.0, place.of(areas.ground)) / 255.0;
         const double paper = GreyImage::kGreyUnit * place.of(areas.paper);
         const double depth = paper * ground - page.row(y)[x];
-        const double gain = areas.gain.empty()
-                                ? std::min(1.0 / ground, place.of(areas.mostGain) / ToneAreas::kGainUnit)
-                                : (depth > 0.0 ? place.of(areas.gain) / ToneAreas::kGainUnit : ToneAreas::kGrainGain);
-        const double bright = paper - gain * depth;
+        const double bright = paper - gainAt(areas, place, ground, depth) * depth;
         page.row(y)[x] = static_cast<std::uint16_t>(std::clamp(bright + 0.5, 0.0, 65535.0));
       }
   });
-  if (!hasBare || context.isCancelled()) return page;
+  if (!areas.bare || context.isCancelled()) return page;
   const BareBorders borders(scanned, areas);
   parallelFor(context, borders.tileColumns() * borders.tileRows(), 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) borders.drawTile(k % borders.tileColumns(), k / borders.tileColumns(), page);

@@ -108,7 +108,7 @@ TEST(ToneAreas, ABareSharpBorderBecomesALineWhereTheToneEnds) {
   const Scan scan = pageOf(d);
   const auto areas = tonesOn(scan.grey, {});
   ASSERT_TRUE(areas);
-  ASSERT_FALSE(areas->bare.empty());
+  ASSERT_TRUE(areas->bare);
   const GreyImage page = withoutTones(scan.grey, *areas, {});
   for (int y = 210; y <= 320; y += 10) {
     double dark = 0.0, moment = 0.0;
@@ -149,12 +149,12 @@ TEST(ToneAreas, ABareBorderIsALineWhereThePageHasIt) {
   areas.pixelsPerPx = kTimes, areas.columns = kColumns, areas.rows = kRows;
   areas.lineWidthPx = 6.0, areas.lineDarkness = 200.0;
   areas.paper.assign(std::ptrdiff_t{kColumns} * kRows, static_cast<std::uint8_t>(kPaperGrey));
-  areas.mostGain.assign(areas.paper.size(), 255);
-  areas.ground = areas.mostGain;
-  areas.bare.assign(areas.paper.size(), 0);
+  areas.ground.assign(areas.paper.size(), 255);
+  areas.gain = ToneAreas::MostGain{areas.ground};
+  std::vector<std::uint8_t>& bare = areas.bare.emplace(areas.paper.size(), std::uint8_t{0});
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < 150; ++i) areas.ground[std::ptrdiff_t{j} * kColumns + i] = 128;
-    if (j > 30) areas.bare[std::ptrdiff_t{j} * kColumns + 149] = 255;
+    if (j > 30) bare[std::ptrdiff_t{j} * kColumns + 149] = 255;
   }
   RunContext one, eight;
   one.threads = 1, eight.threads = 8;
@@ -195,7 +195,7 @@ TEST(ToneAreas, TheGrainOfADarkToneIsNotRaisedToLines) {
   const auto [spread, darkest] = spreadOf(page);
   EXPECT_LT(spread, 0.375 * (kPaperGrey - kInkGrey)) << "lines are taken from half of it on";
   EXPECT_LT(page.level(320, 210), darkest) << "the lid's lower edge is darker";
-  std::fill(areas->mostGain.begin(), areas->mostGain.end(), std::uint8_t{255});
+  areas->gain = ToneAreas::MostGain{std::vector<std::uint8_t>(areas->ground.size(), 255)};
   EXPECT_LT(spread, 0.85 * spreadOf(withoutTones(scan.grey, *areas, {})).first) << "than as deep as on paper";
 }
 
