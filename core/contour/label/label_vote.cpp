@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/label/label_vote.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "core/solve/small_least_squares.h"
 
 namespace batten {
 namespace {
@@ -42,31 +43,28 @@ class WidthByDirection {
  public:
   void add(const Vec2& tangent, double widthPx) {
     const double c = tangent.x() * tangent.x() - tangent.y() * tangent.y(), s = 2.0 * tangent.x() * tangent.y();
-    const Eigen::Vector3d row(1.0, c, s);
-    normal_ += row * row.transpose();
-    right_ += widthPx * row;
+    fit_.add({1.0, c, s}, widthPx);
     squares_ += widthPx * widthPx;
   }
   void add(const WidthByDirection& other) {
-    normal_ += other.normal_;
-    right_ += other.right_;
+    fit_.add(other.fit_);
     squares_ += other.squares_;
   }
   // 0..1: of the variance of the widths what their direction explains.
   double explained() const {
-    const double count = normal_(0, 0);
+    const double count = fit_.normal()(0, 0);
     if (!(count > 0.0)) return 0.0;
-    const double all = squares_ - right_[0] * right_[0] / count;
-    Eigen::Matrix3d normal = normal_;
-    normal.diagonal() += Eigen::Vector3d::Constant(kPrior * count);
-    const double left = squares_ - right_.dot(normal.ldlt().solve(right_));
+    const Eigen::Vector3d& right = fit_.right();
+    const double all = squares_ - right[0] * right[0] / count;
+    SmallLeastSquares<3> held = fit_;
+    held.hold(Eigen::Vector3d::Constant(kPrior * count));
+    const double left = squares_ - right.dot(held.solve());
     return all > 0.0 ? std::clamp(1.0 - left / all, 0.0, 1.0) : 0.0;
   }
 
  private:
   static constexpr double kPrior = 1e-9;  // of lines of one direction alone
-  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+  SmallLeastSquares<3> fit_;
   double squares_ = 0.0;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/colour/paper_colour.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "core/base/interpolation.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/solve/small_least_squares.h"
 
 namespace batten {
 namespace {
@@ -74,15 +74,13 @@ std::array<double, 6> fitRatio(const std::vector<CellColour>& cells, std::size_t
     std::vector<double> residuals;
     for (const CellColour& cell : cells) residuals.push_back(cell.ratio[channel] - fitted.dot(termsAt(cell.u, cell.v)));
     const double spread = std::max(kLeastSpread, robustSigma(std::vector<double>(residuals)));
-    Eigen::Matrix<double, 6, 6> normal = kInertia * Eigen::Matrix<double, 6, 6>::Identity();
-    Sextet right = kInertia * fitted;
+    SmallLeastSquares<6> fit;
+    fit.hold(Sextet::Constant(kInertia), fitted);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const double away = residuals[i] / (2.0 * spread), weight = 1.0 / (1.0 + away * away);
-      const Sextet terms = termsAt(cells[i].u, cells[i].v);
-      normal += weight * terms * terms.transpose();
-      right += weight * cells[i].ratio[channel] * terms;
+      fit.add(termsAt(cells[i].u, cells[i].v), cells[i].ratio[channel], weight);
     }
-    fitted = normal.ldlt().solve(right);
+    fitted = fit.solve();
   }
   std::array<double, 6> out{};
   std::copy(fitted.begin(), fitted.end(), out.begin());

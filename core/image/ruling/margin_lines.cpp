@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/ruling/margin_lines.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <optional>
 
 #include "core/base/statistics.h"
+#include "core/solve/small_least_squares.h"
 
 namespace batten {
 namespace {
@@ -37,14 +37,9 @@ class MarginTrack {
   /// A cubic in 2 x / width - 1; absent if the line is hidden too often, or bends otherwise.
   std::optional<Eigen::Vector4d> course() const {
     if (steps_ == 0 || static_cast<double>(xs_.size()) < kLeastSeenAlong * steps_) return std::nullopt;
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    for (std::size_t i = 0; i < xs_.size(); ++i) {
-      const Eigen::Vector4d t = termsAt(xs_[i]);
-      normal += t * t.transpose();
-      right += ys_[i] * t;
-    }
-    const Eigen::Vector4d c = normal.ldlt().solve(right);
+    SmallLeastSquares<4> fit;
+    for (std::size_t i = 0; i < xs_.size(); ++i) fit.add(termsAt(xs_[i]), ys_[i]);
+    const Eigen::Vector4d c = fit.solve();
     std::vector<double> misfits;
     for (std::size_t i = 0; i < xs_.size(); ++i) misfits.push_back(std::fabs(c.dot(termsAt(xs_[i])) - ys_[i]));
     constexpr double kNineInTen = 0.9;  // quantile of the misfits

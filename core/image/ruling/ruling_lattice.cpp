@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/ruling/ruling_lattice.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/solve/small_least_squares.h"
 
 namespace batten {
 namespace {
@@ -226,17 +226,17 @@ class LatticeFit {
 
   /// @param terms how many of the terms move; higher ones are held back so that few stretches do not bend the page.
   void fit(int terms) {
-    Eigen::Matrix<double, kTerms, kTerms> normal = Eigen::Matrix<double, kTerms, kTerms>::Zero();
-    Terms right = Terms::Zero();
     const auto count = static_cast<double>(members_.size());
-    for (int i = 0; i < kTerms; ++i) normal(i, i) = (i >= terms ? kHeldTerm : i < 3 ? kFreeTerm : kBendingTerm) * count;
+    Terms prior;
+    for (int i = 0; i < kTerms; ++i) prior[i] = (i >= terms ? kHeldTerm : i < 3 ? kFreeTerm : kBendingTerm) * count;
+    SmallLeastSquares<kTerms> equations;
+    equations.hold(prior);
     for (const LatticeMember& m : members_) {
       const Terms t =
           termsOf((m.line - lattice_.middle) / lattice_.reach, (m.x - lattice_.fromX) / lattice_.halfWidth - 1.0);
-      normal += t * t.transpose();
-      right += m.y * t;
+      equations.add(t, m.y);
     }
-    const Terms fitted = normal.ldlt().solve(right);
+    const Terms fitted = equations.solve();
     std::copy(fitted.begin(), fitted.end(), lattice_.coefficients.begin());
   }
 

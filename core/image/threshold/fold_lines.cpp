@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/threshold/fold_lines.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <optional>
+
+#include "core/solve/small_least_squares.h"
 
 namespace batten {
 namespace {
@@ -126,8 +128,7 @@ bool bendToCrests(const Plane& u, const std::vector<Voter>& voters, FoldCourse& 
   const Vec2 middle(0.5 * u.width, 0.5 * u.height);
   const double scale = c.scale();
   for (const double reach : kReaches) {
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    SmallLeastSquares<4> fit;
     int near = 0;
     for (const Voter& v : voters) {
       if (v.direction.dot(c.normal) < kSameDirection) continue;
@@ -135,14 +136,13 @@ bool bendToCrests(const Plane& u, const std::vector<Voter>& voters, FoldCourse& 
       const double t = p.dot(c.along), d = p.dot(c.normal), off = d - c.bendAt(t);
       if (std::fabs(off) > reach) continue;
       const double s = t / scale, weight = std::pow(1.0 - off * off / (reach * reach), 2);
-      const Eigen::Vector4d row(1.0, s, s * s, s * s * s);
-      normal += weight * row * row.transpose();
-      right += weight * d * row;
+      fit.add({1.0, s, s * s, s * s * s}, d, weight);
       ++near;
     }
     if (near < kFewestVoters) return false;
-    normal.diagonal() += Eigen::Vector4d(kFreePrior, kFreePrior, kBendPrior, kBendPrior) * normal(0, 0);
-    const Eigen::Vector4d bend = normal.ldlt().solve(right);
+    const double weights = fit.normal()(0, 0);
+    fit.hold(Eigen::Vector4d(kFreePrior, kFreePrior, kBendPrior, kBendPrior) * weights);
+    const Eigen::Vector4d bend = fit.solve();
     if (!bend.allFinite()) return false;
     for (int k = 0; k < 4; ++k) c.bend[k] = bend[k];
   }

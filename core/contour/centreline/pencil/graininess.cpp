@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/centreline/pencil/graininess.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include "core/contour/centreline/profile/stroke_profile.h"
 #include "core/image/fine_page.h"
 #include "core/image/push_pull.h"
+#include "core/solve/small_least_squares.h"
 
 namespace batten {
 namespace {
@@ -136,15 +136,11 @@ void removeOfPixels(std::vector<Deviation>& deviations) {
   constexpr double kPrior = 1e-3;     // per sample: terms that are one along a diagonal, share what they explain
   const std::ptrdiff_t count = std::ssize(deviations);
   if (count < kFewestOfPixels) return;
-  Eigen::Matrix<double, kPixelTerms, kPixelTerms> normal = Eigen::Matrix<double, kPixelTerms, kPixelTerms>::Zero();
-  Eigen::Matrix<double, kPixelTerms, kLanes> right = Eigen::Matrix<double, kPixelTerms, kLanes>::Zero();
-  for (const Deviation& d : deviations) {
-    const PixelTerms terms = pixelTermsAt(d.at);
-    normal += terms * terms.transpose();
-    right += terms * Eigen::Map<const Eigen::Matrix<float, 1, kLanes>>(d.off.data()).cast<double>();
-  }
-  normal.diagonal().array() += kPrior * static_cast<double>(count);
-  const Eigen::Matrix<double, kPixelTerms, kLanes> waves = normal.ldlt().solve(right);
+  SmallLeastSquares<kPixelTerms, kLanes> fit;
+  for (const Deviation& d : deviations)
+    fit.add(pixelTermsAt(d.at), Eigen::Map<const Eigen::Matrix<float, 1, kLanes>>(d.off.data()).cast<double>());
+  fit.hold(PixelTerms::Constant(kPrior * static_cast<double>(count)));
+  const Eigen::Matrix<double, kPixelTerms, kLanes> waves = fit.solve();
   std::vector<Lanes> rest;
   double all = 0.0, left = 0.0;
   for (const Deviation& d : deviations) {
