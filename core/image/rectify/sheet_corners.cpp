@@ -31,6 +31,8 @@ constexpr double kFineReachPx = 9.0;      // of the second look
 constexpr double kTightestPx = 0.8;       // of what counts as on the line
 constexpr double kOnLineSigmas = 2.5;     // of the stations: what is farther off is not on the line
 constexpr int kLinesTried = 60;           // through each of as many stations and all others of them
+constexpr int kEdgeFitRounds = 3;         // which stations lie on the line hardly changes after them
+constexpr double kLeastOfTerms = 1e-9;    // [sightings] a prior: the matrix has an inverse with hardly any sighting
 constexpr double kPerPixel = 100.0;  // corners are rounded to a hundredth, so that files and messages show them whole
 
 /// Grey, and what red and blue differ from it.
@@ -201,12 +203,12 @@ FittedEdge leastMedianLine(const std::vector<Sighting>& all) {
   return best;
 }
 
-/// Through those that lie on the line, by least squares, three times over.
+/// Through those that lie on the line, by least squares, and again through those that lie on the new one.
 FittedEdge fittedEdge(const std::vector<Sighting>& all) {
   FittedEdge edge = leastMedianLine(all);
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < kEdgeFitRounds; ++round) {
     const double on = std::max(kTightestPx, kOnLineSigmas * edge.sigma);
-    Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d normal = kLeastOfTerms * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     edge.seen = 0;
     for (const Sighting& s : all) {

@@ -8,14 +8,18 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastPart = 0.6;     // of the course must show the step
-constexpr double kLeastAtEnds = 0.3;   // of the first and the last tenth
-constexpr double kAlike = 0.35;        // relative: steps that belong to one fold
-constexpr double kLooselyAlike = 0.8;  // the same on noisy pages: no step is never a step
-constexpr double kUneven = 6.0;        // median unevennesses of the paper: what stands out of it
-constexpr double kLeastAtEdge = 0.3;   // of the step in the middle: a fold may fade out, but not away
-constexpr double kStepLeft = 0.03;     // of the step: as good as none
-constexpr double kLeastLeft = 0.5;     // [grey] what medians do not tell from none
+constexpr double kLeastPart = 0.6;      // of the course must show the step
+constexpr double kLeastAtEnds = 0.3;    // of the first and the last tenth
+constexpr double kAlike = 0.35;         // relative: steps that belong to one fold
+constexpr double kLooselyAlike = 0.8;   // the same on noisy pages: no step is never a step
+constexpr double kUneven = 6.0;         // median unevennesses of the paper: what stands out of it
+constexpr double kLeastAtEdge = 0.3;    // of the step in the middle: a fold may fade out, but not away
+constexpr double kStepLeft = 0.03;      // of the step: as good as none
+constexpr double kLeastLeft = 0.5;      // [grey] what medians do not tell from none
+constexpr double kFarthestStep = 0.75;  // of the reach: beyond it too little of the strip is left to be its paper
+constexpr int kRowsPerShown = 3;        // a third of the rows show the step, or their medians are not those of the fold
+constexpr int kFewestSlopeRows = 5;     // either way, in a median of the slope: single rows are noisy, or hold lines
+constexpr int kSlopeReaches = 20;       // of the course: shading changes slowly along it
 /// Standard deviation over the median size of the difference of two normal variables: 1 / (sqrt(2) quantile(3/4)).
 constexpr double kSigmaPerJump = 1.05;
 
@@ -37,23 +41,22 @@ double noiseOf(const std::vector<double>& steps) {
   return jumps.empty() ? 0.0 : kSigmaPerJump * lowerQuantile(jumps, 0.5);
 }
 
-/// Median over rows [begin, end) that show the step of the grey at d less the brighter paper, in `out` (2 reach + 1).
-bool medianProfile(const FoldStrip& strip, const FoldStepFit& fit, int begin, int end, int reach,
-                   std::vector<float>& out) {
+/// The grey at each d from -reach to reach less the brighter paper: its median over the rows that show the step.
+/// Absent: too few do.
+std::optional<std::vector<float>> medianProfile(const FoldStrip& strip, const FoldStepFit& fit, int reach) {
   std::vector<int> rows;
-  for (int i = std::max(0, begin); i < std::min(end, strip.rows); ++i)
+  for (int i = 0; i < strip.rows; ++i)
     if (fit.shows[i] != 0) rows.push_back(i);
-  if (static_cast<int>(rows.size()) * 3 < end - begin || rows.empty()) return false;
+  if (static_cast<int>(rows.size()) * kRowsPerShown < strip.rows || rows.empty()) return std::nullopt;
   const int outer = std::min(strip.half, reach + kFoldPaperPx);
-  std::vector<float> bright, column;
+  std::vector<float> bright, column, profile;
   for (const int i : rows) bright.push_back(static_cast<float>(strip.mean(i, reach, outer)));
-  out.clear();
   for (int d = -reach; d <= reach; ++d) {
     column.clear();
     for (std::size_t k = 0; k < rows.size(); ++k) column.push_back(strip.row(rows[k])[d + strip.half] - bright[k]);
-    out.push_back(lowerQuantile(column, 0.5));
+    profile.push_back(lowerQuantile(column, 0.5));
   }
-  return true;
+  return profile;
 }
 
 }  // namespace
@@ -72,7 +75,7 @@ FoldStrip foldStripAlong(const GreyImage& image, const FoldCourse& course, int h
   return strip;
 }
 
-// Medians over a twentieth of the course either way.
+// Medians over the rows around each.
 std::vector<double> foldSlopesAcross(const FoldStrip& strip) {
   const int outer = strip.half, inner = strip.half / 2, width = kFoldPaperPx;
   const double apart = outer - inner;
@@ -82,7 +85,7 @@ std::vector<double> foldSlopesAcross(const FoldStrip& strip) {
     const double dark = strip.mean(i, -inner, width - inner) - strip.mean(i, -outer, width - outer);
     each.push_back(0.5 * (bright + dark) / apart);
   }
-  const int reach = std::max(5, strip.rows / 20);
+  const int reach = std::max(kFewestSlopeRows, strip.rows / kSlopeReaches);
   for (int i = 0; i < strip.rows; ++i) {
     std::vector<double> window(each.begin() + std::max(0, i - reach),
                                each.begin() + std::min(strip.rows, i + reach + 1));
@@ -146,11 +149,11 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
 
 // To where as good as nothing of the step is left, a crease included.
 std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
-  std::vector<float> profile;
   const int reach = strip.half - kFoldPaperPx;
-  if (!medianProfile(strip, fit, 0, strip.rows, reach, profile)) return std::nullopt;
+  const std::optional<std::vector<float>> profile = medianProfile(strip, fit, reach);
+  if (!profile) return std::nullopt;
   // The paper's own slope across: equal on both sides of the step.
-  const auto at = [&](int d) { return static_cast<double>(profile[d + reach]); };
+  const auto at = [&](int d) { return static_cast<double>((*profile)[d + reach]); };
   const double slope = 0.5 * ((at(reach) - at(reach / 2)) + (at(-reach / 2) - at(-reach))) / (reach - reach / 2);
   const double dark = at(-reach) + slope * reach, bright = at(reach) - slope * reach, step = bright - dark;
   if (step <= 0.0) return std::nullopt;
@@ -172,7 +175,7 @@ std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
   for (int d = 2; d < reach; ++d) {
     if (left(d) > tolerance || left(-d) > tolerance) last = std::max(last, d);
   }
-  if (4 * last > 3 * reach) return std::nullopt;  // no step, but a slope
+  if (last > kFarthestStep * reach) return std::nullopt;  // no step, but a slope
   return last + 3;
 }
 
