@@ -10,7 +10,7 @@
 
 namespace batten {
 
-/// Equally spaced lines across a plane: line k runs along y = at(k, x). Slightly turned, bent and in perspective.
+/// Equally spaced lines across a plane: line k runs along y = at(k, x). Slightly rotated, bent and in perspective.
 struct RulingLattice {
   double slope = 0.0;                   ///< [-] dy/dx that most of its lines share.
   double fromX = 0.0, halfWidth = 1.0;  ///< [grid] It runs from there on, twice as far; x is divided by it.
