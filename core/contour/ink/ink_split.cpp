@@ -2,7 +2,6 @@
 #include "core/contour/ink/ink_split.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -126,21 +125,13 @@ BitImage letteringOf(const BitImage& ink, double penPx, const RunContext& contex
   constexpr double kHighestWidths = 24.0;  // [pens] of letters with their tails
   constexpr double kLetterWidths = 16.0;   // [pens] a large letter alone
   constexpr double kLongerThanHigh = 1.5;  // of two letters or more
-  struct PieceBox {
-    int x0 = std::numeric_limits<int>::max(), y0 = x0, x1 = 0, y1 = 0;
-  };
   const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
-  std::vector<PieceBox> boxes(pieces.runs.size());
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const InkRun& run = pieces.runs[i];
-    PieceBox& box = boxes[pieces.piece[i]];
-    box = {std::min(box.x0, run.x0), std::min(box.y0, run.y), std::max(box.x1, run.x1), std::max(box.y1, run.y + 1)};
-  }
+  const std::vector<PieceBox> boxes = boxesOfPieces(pieces);
   BitImage lettering(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const PieceBox& box = boxes[pieces.piece[i]];
-    const double longer = std::max(box.x1 - box.x0, box.y1 - box.y0) / penPx;
-    const double lower = std::min(box.x1 - box.x0, box.y1 - box.y0) / penPx;
+    const double longer = std::max(box.width(), box.height()) / penPx;
+    const double lower = std::min(box.width(), box.height()) / penPx;
     const bool isLine = longer <= kLongestWidths && lower <= kHighestWidths && longer >= kLongerThanHigh * lower;
     if (isLine || longer <= kLetterWidths) setBits(lettering, pieces.runs[i]);
   }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 #include "core/base/parallel.h"
 #include "core/image/bits/run_differences.h"
@@ -179,6 +177,16 @@ std::vector<std::int64_t> areasOfPieces(const RunPieces& pieces) {
   return area;
 }
 
+std::vector<PieceBox> boxesOfPieces(const RunPieces& pieces) {
+  std::vector<PieceBox> boxes(pieces.runs.size());
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const InkRun& run = pieces.runs[i];
+    PieceBox& box = boxes[pieces.piece[i]];
+    box = {std::min(box.x0, run.x0), std::min(box.y0, run.y), std::max(box.x1, run.x1), std::max(box.y1, run.y + 1)};
+  }
+  return boxes;
+}
+
 void setBits(BitImage& image, const InkRun& run) { setBits(image.row(run.y), run.x0, run.x1); }
 
 std::optional<int> pieceAt(const RunPieces& pieces, int x, int y) {
@@ -209,28 +217,18 @@ int countBits(const BitImage& image, const InkRun& run) {
 }
 
 BitImage keepPieces(const BitImage& image, const PieceRule& rule, const RunContext& context) {
-  struct Piece {
-    std::int64_t area = 0;
-    int x0 = std::numeric_limits<int>::max(), x1 = 0, y0 = std::numeric_limits<int>::max(), y1 = 0;
-    bool seeded = false;
-  };
   const RunPieces found = findPieces(image, Connectivity::Eight, context);
-  std::vector<Piece> pieces(found.runs.size());
-  for (std::size_t i = 0; i < found.runs.size(); ++i) {
+  const std::vector<std::int64_t> areas = areasOfPieces(found);
+  const std::vector<PieceBox> boxes = boxesOfPieces(found);
+  std::vector<bool> isSeeded(found.runs.size(), rule.seeds == nullptr);
+  for (std::size_t i = 0; i < found.runs.size() && rule.seeds != nullptr; ++i) {
     const InkRun& run = found.runs[i];
-    Piece& piece = pieces[found.piece[i]];
-    piece.area += run.x1 - run.x0;
-    piece.x0 = std::min(piece.x0, run.x0);
-    piece.x1 = std::max(piece.x1, run.x1);
-    piece.y0 = std::min(piece.y0, run.y);
-    piece.y1 = std::max(piece.y1, run.y + 1);
-    piece.seeded = piece.seeded || rule.seeds == nullptr || anyBit(rule.seeds->row(run.y), run.x0, run.x1);
+    if (anyBit(rule.seeds->row(run.y), run.x0, run.x1)) isSeeded[found.piece[i]] = true;
   }
   BitImage kept(image.width, image.height);
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    const Piece& piece = pieces[found.piece[i]];
-    const bool large = std::hypot(piece.x1 - piece.x0, piece.y1 - piece.y0) >= rule.minDiagonal;
-    if (!piece.seeded || piece.area < rule.minArea || !large) continue;
+    const int piece = found.piece[i];
+    if (!isSeeded[piece] || areas[piece] < rule.minArea || !(boxes[piece].diagonal() >= rule.minDiagonal)) continue;
     setBits(kept.row(found.runs[i].y), found.runs[i].x0, found.runs[i].x1);
   }
   return kept;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -29,6 +31,16 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
 
 /// [px] For the first run of every piece the area of the piece, for the others 0.
 std::vector<std::int64_t> areasOfPieces(const RunPieces&);
+
+/// The pixels [x0, x1) and rows [y0, y1) that a piece lies in.
+struct PieceBox {
+  int x0 = std::numeric_limits<int>::max(), y0 = std::numeric_limits<int>::max(), x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  double diagonal() const { return std::hypot(width(), height()); }
+};
+/// For the first run of every piece the box of the piece, for the others none.
+std::vector<PieceBox> boxesOfPieces(const RunPieces&);
 
 /// Sets the pixels of a run.
 void setBits(BitImage& image, const InkRun& run);

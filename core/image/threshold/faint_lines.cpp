@@ -2,8 +2,6 @@
 #include "core/image/threshold/faint_lines.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,13 +23,12 @@ constexpr double kMostAlongside = 0.5;  ///< Share of a piece that may lie besid
 
 struct Piece {
   std::int64_t area = 0, interior = 0, beside = 0, atWide = 0;
-  int x0 = std::numeric_limits<int>::max(), x1 = 0, y0 = std::numeric_limits<int>::max(), y1 = 0;
+  double diagonal = 0.0;  ///< [px] Of its box.
 
   bool isLine(int pixelsPerPx) const {
     // A long strip of width w has two border pixels for every w of its area.
     const double border = std::max(1.0, static_cast<double>(area - interior));
     const double length = 0.5 * border, width = static_cast<double>(area) / length;
-    const double diagonal = std::hypot(x1 - x0, y1 - y0);
     if (static_cast<double>(atWide) > kMostAtWide * static_cast<double>(area)) return false;
     if (static_cast<double>(beside) > kMostAlongside * static_cast<double>(area)) return false;
     if (diagonal * diagonal < kBoxPerArea * static_cast<double>(area) && beside == 0) return false;
@@ -42,18 +39,17 @@ struct Piece {
 
 std::vector<Piece> measure(const RunPieces& found, const BitImage& interior, const BitImage& beside,
                            const BitImage& wide) {
+  const std::vector<std::int64_t> areas = areasOfPieces(found);
+  const std::vector<PieceBox> boxes = boxesOfPieces(found);
   std::vector<Piece> pieces(found.runs.size());
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
+    pieces[i].area = areas[i];
+    pieces[i].diagonal = boxes[i].diagonal();
     const InkRun& run = found.runs[i];
     Piece& piece = pieces[found.piece[i]];
-    piece.area += run.x1 - run.x0;
     piece.interior += countBits(interior, run);
     piece.beside += countBits(beside, run);
     piece.atWide += countBits(wide, run);
-    piece.x0 = std::min(piece.x0, run.x0);
-    piece.x1 = std::max(piece.x1, run.x1);
-    piece.y0 = std::min(piece.y0, run.y);
-    piece.y1 = std::max(piece.y1, run.y + 1);
   }
   return pieces;
 }

@@ -34,6 +34,7 @@ constexpr double kLeastShownWidths =
 constexpr double kMostUneven = 0.75;
 constexpr double kLeastLineGain = 0.8, kMostLineGain = 4.0;  // of lines: more would deepen noise on faint ones
 constexpr double kSolidRim = 1.5;                            // [widths] around a solid: its blurred edge stays
+constexpr double kGainSigmaWidths = 0.3;                     // [widths] over which the gain changes from lines to tones
 constexpr std::uint8_t kPaper = 252;                         // [of 255] what is as bright is left as it is
 
 /// Whether there are places enough that are darker than the paper near by in the mean, whatever grain is in them: where
@@ -165,7 +166,7 @@ cv::Mat1f gainOf(const PencilPage& page, const cv::Mat1b& ground, const cv::Mat1
   ofLines = cv::min(cv::max(ofLines, kLeastLineGain), kMostLineGain);
   gain.setTo(1.0f, grownMask(solids, static_cast<int>(std::ceil(kSolidRim * page.widthPx))));
   ofLines.copyTo(gain, lines);
-  return blurredTone(gain, 0.3 * page.widthPx);
+  return blurredTone(gain, kGainSigmaWidths * page.widthPx);
 }
 
 std::vector<std::uint8_t> bytesOf(const cv::Mat1b& picture) { return {picture.begin(), picture.end()}; }
