@@ -15,7 +15,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/target_degrees.h"
-#include "core/fairing/target_levels.h"
+#include "core/fairing/recommended_degree.h"
 
 namespace batten {
 namespace {

@@ -16,7 +16,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/shape_modification.h"
-#include "core/fairing/target_levels.h"
+#include "core/fairing/target_splits.h"
 
 namespace batten {
 namespace {

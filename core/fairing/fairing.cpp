@@ -9,7 +9,9 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_line.h"
 #include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/polynomial_fairing.h"
 #include "core/fairing/profile/target_degrees.h"
+#include "core/fairing/recommended_degree.h"
 #include "core/fairing/structure/fair_as_needed.h"
 #include "core/fairing/structure/monotone_fairing.h"
 #include "core/fairing/structure/tolerance_fairing.h"
@@ -18,6 +20,7 @@
 #include "core/fairing/target/shape_modification.h"
 #include "core/fairing/target/span_fairing.h"
 #include "core/fairing/target_levels.h"
+#include "core/fairing/target_splits.h"
 
 namespace batten {
 namespace {

@@ -35,10 +35,6 @@ struct TargetOutcomes {
 };
 Result<TargetOutcomes> fairAllTargets(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
 
-/// Where the targets of a curve are split: as the parameters say, or at its natural spans, and at sharp corners inside
-/// it (a closed curve that begins at one: also at 0).
-std::vector<double> targetSplits(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
-
 /// The same for several curves at once: all targets of all curves share the threads, the longest first.
 struct TargetsJob {
   NurbsCurve curve;

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "core/fairing/corner_sections.h"
-#include "core/fairing/fairing.h"
 #include "core/fairing/profile/drawn_profile.h"
 #include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/span_fairing.h"
-#include "core/fairing/target_levels.h"
+#include "core/fairing/target_splits.h"
 
 namespace batten {
 namespace {

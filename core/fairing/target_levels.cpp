@@ -5,28 +5,23 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
 
-#include "core/fairing/corner_sections.h"
-#include "core/fairing/fairing.h"
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/target_degrees.h"
 #include "core/fairing/target/calm_curve.h"
 #include "core/fairing/target/natural_spans.h"
 #include "core/fairing/target/shape_modification.h"
-#include "core/fairing/target/span_fairing.h"
 
 namespace batten {
 namespace {
 
-bool hasNaturalSpans(const TargetParams& params) {
-  return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
-}
-
-struct LevelNeed {
-  std::optional<double> mm;  ///< The tolerance that meets the target.
-  bool isTried = false;      ///< And the curve for the tolerance is known.
+/// What is known of one level.
+struct LevelState {
+  std::optional<double> neededMm;         ///< The tolerance that meets the target.
+  bool isTried = false;                   ///< And the curve for the tolerance is known.
+  std::unique_ptr<TargetCourses> target;  ///< Of a level that was looked at.
+  std::optional<TargetProfile> profile;   ///< Of the same.
 };
 
 /// One degree over the levels.
@@ -39,9 +34,7 @@ class LevelFairing {
         degree_(degree),
         toleranceMm_(toleranceMm),
         context_(context),
-        needs_(levels.all.size()),
-        targets_(levels.all.size()),
-        profiles_(levels.all.size()) {}
+        states_(levels.all.size()) {}
 
   Result<LevelOutcome> run(LevelSearch search) {
     if (search == LevelSearch::IfAllowed) {
@@ -71,12 +64,12 @@ class LevelFairing {
 
  private:
   const TargetProfile& profileOf(std::size_t level) {
-    auto& profile = profiles_[level];
+    auto& profile = states_[level].profile;
     if (!profile) profile = levels_.profile(level, degree_);
     return *profile;
   }
   TargetCourses& targetOf(std::size_t level) {
-    auto& target = targets_[level];
+    auto& target = states_[level].target;
     if (!target) target = std::make_unique<TargetCourses>(setup_, profileOf(level), context_);
     return *target;
   }
@@ -98,7 +91,8 @@ class LevelFairing {
   /// The better one of this and the best.
   void keep(std::size_t level, FairedCurve faired) {
     const FairingReport& report = faired.report;
-    needs_[level] = {report.neededMm, true};
+    states_[level].neededMm = report.neededMm;
+    states_[level].isTried = true;
     const auto isBetter = [&](const FairingReport& than) {
       return report.extremaAfter < than.extremaAfter ||
              (report.extremaAfter == than.extremaAfter && report.withinTolerance && !than.withinTolerance);
@@ -108,7 +102,7 @@ class LevelFairing {
 
   /// What a level needs, where that is no more than `most`.
   std::optional<double> needOf(std::size_t level, double most) {
-    std::optional<double>& mm = needs_[level].mm;
+    std::optional<double>& mm = states_[level].neededMm;
     if (!mm && most > 0.0) mm = neededWithin(targetOf(level), most);
     return mm && *mm <= most ? mm : std::nullopt;
   }
@@ -126,7 +120,7 @@ class LevelFairing {
       least = i;
     };
     for (std::size_t i = 0; i < levels_.all.size(); ++i)
-      if (needs_[i].mm) offer(i, largest);
+      if (states_[i].neededMm) offer(i, largest);
     for (std::size_t i = levels_.all.size(); i-- > 0 && !context_.isCancelled();) {
       if (least && levels_.all[i].fromMm >= neededMm_) break;
       offer(i, least ? std::min(neededMm_ - claimed, largest) : largest);
@@ -139,12 +133,12 @@ class LevelFairing {
 
   /// Where the tolerance meets the target, but the curve does not: it does, if that takes no extremum more.
   void meet(std::size_t level) {
-    const bool isAllowed = level >= levels_.first && *needs_[level].mm <= toleranceMm_;
+    const bool isAllowed = level >= levels_.first && *states_[level].neededMm <= toleranceMm_;
     if (best_->faired.report.withinTolerance || !isAllowed || context_.isCancelled()) return;
     const std::optional<double> needed = best_->faired.report.neededMm;
-    if (!needs_[level].isTried) tryLevel(level);
+    if (!states_[level].isTried) tryLevel(level);
     best_->faired.report.neededMm = needed;
-    const std::optional<double> ofBest = needs_[best_->level].mm;
+    const std::optional<double> ofBest = states_[best_->level].neededMm;
     const bool isOutOfReach = !ofBest || *ofBest > toleranceMm_;
     if (!best_->faired.report.withinTolerance && isOutOfReach) noteMetOverMoreSpans(best_->faired.report);
   }
@@ -161,38 +155,12 @@ class LevelFairing {
   int degree_;
   double toleranceMm_;
   const RunContext& context_;
-  std::vector<LevelNeed> needs_;                         ///< Per level.
-  std::vector<std::unique_ptr<TargetCourses>> targets_;  ///< Of the levels that were looked at.
-  std::vector<std::optional<TargetProfile>> profiles_;   ///< Of the same.
-  double neededMm_ = 0.0;                                ///< The least tolerance.
+  std::vector<LevelState> states_;  ///< Per level.
+  double neededMm_ = 0.0;           ///< The least tolerance.
   std::optional<LevelOutcome> best_;
 };
 
 }  // namespace
-
-std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
-  const bool isNatural = hasNaturalSpans(params.targets);
-  const auto naturalOf = [&check](const NurbsCurve& one, bool isClosed, const FairingParams& own) {
-    return naturalSplits(targetStart(one, isClosed, own, check), isClosed, own.toleranceMm);
-  };
-  const auto sections = cornerSections(curve, closed);
-  if (sections.empty()) return isNatural ? naturalOf(curve, closed, params) : params.targets.splits;
-  std::vector<double> splits = isNatural ? std::vector<double>{} : params.targets.splits;
-  for (const CornerSection& section : sections) {
-    if (section.span.from > 0.0 || closed) splits.push_back(section.span.from);
-    if (!isNatural || section.isStraight) continue;
-    for (const double f : naturalOf(section.curve, false, paramsOfSection(params, section, closed)))
-      splits.push_back(section.span.from + f * (section.span.to - section.span.from));
-  }
-  std::sort(splits.begin(), splits.end());
-  return splits;
-}
-
-LogAestheticTarget logAestheticOf(const NurbsCurve& curve, bool closed, const FairingParams& params,
-                                  CancelCheck check) {
-  return logAestheticTarget(targetStart(curve, closed, params, check), closed,
-                            targetSplits(curve, closed, params, check), params.alpha, params.targets.samples);
-}
 
 TargetLevels oneLevel(std::vector<double> splits, TargetSet targets) {
   TargetLevels levels;
@@ -231,108 +199,6 @@ TargetLevels targetLevels(const NurbsCurve& curve, bool closed, const FairingPar
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& setup, const TargetLevels& levels,
                                     int degree, double toleranceMm, const RunContext& context, LevelSearch search) {
   return LevelFairing(setup, levels, degree, toleranceMm, context).run(search);
-}
-
-namespace {
-
-std::optional<int> mostSimilar(const FairedByDegree& faired) {
-  std::optional<int> degree;
-  double best = 0.0;
-  for (std::size_t i = 0; i < faired.size(); ++i) {
-    if (!faired[i] || !faired[i]->report.similarityAfter) continue;
-    const double s = *faired[i]->report.similarityAfter;
-    if (degree && s <= best) continue;
-    degree = static_cast<int>(i) + 1;
-    best = s;
-  }
-  return degree;
-}
-
-std::optional<int> fairest(const FairedByDegree& faired, std::optional<int> nearest, double toleranceMm) {
-  std::optional<int> best;
-  const auto rank = [&](int degree) {
-    const FairingReport& report = faired[degree - 1]->report;
-    const bool isMet = report.withinTolerance && report.extremaAfter <= report.extremaBefore;
-    const bool isAllowed = degree == nearest || (report.neededMm && *report.neededMm <= toleranceMm);
-    return std::tuple(!isMet, !isAllowed, report.extremaAfter);
-  };
-  for (int degree = 1; degree <= kMostTargetDegree; ++degree)
-    if (faired[degree - 1] && (!best || rank(degree) < rank(*best))) best = degree;
-  return best;
-}
-
-}  // namespace
-
-std::optional<int> degreeToRecommend(const FairedByDegree& faired, std::optional<int> nearest,
-                                     const FairingParams& params) {
-  return params.targetChoice == TargetChoice::Similarity ? mostSimilar(faired)
-                                                         : fairest(faired, nearest, params.toleranceMm);
-}
-
-namespace {
-
-/// The degree that the parameters ask for, and its curve.
-class DegreeChoice {
- public:
-  DegreeChoice(const std::shared_ptr<const FairingSetup>& setup, const TargetLevels& levels,
-               const FairingParams& params, const RunContext& context)
-      : setup_(setup), levels_(levels), params_(params), context_(context) {}
-
-  Result<FairedCurve> chosen() {
-    if (const std::optional<int> asked = degreeOf(params_.target)) return toDegree(*asked, LevelSearch::All);
-    const bool bySimilarity = params_.targetChoice == TargetChoice::Similarity;
-    for (int degree = 1; degree <= kMostTargetDegree; ++degree) {
-      if (!levels_.targets.profiles[degree - 1].valid) continue;
-      if (const auto error = add(degree, bySimilarity ? LevelSearch::All : LevelSearch::IfAllowed)) return fail(*error);
-    }
-    const int nearest = *levels_.targets.recommendedDegree;
-    const auto isMet = [](const auto& one) { return one && one->report.withinTolerance; };
-    if (!bySimilarity && std::none_of(faired_.begin(), faired_.end(), isMet))
-      if (const auto error = add(nearest, LevelSearch::All)) return fail(*error);
-    const auto best = degreeToRecommend(faired_, nearest, params_);
-    // Without any S the one that fits the sketch best, as its tile says.
-    return std::move(*faired_[best.value_or(nearest) - 1]);
-  }
-
- private:
-  Result<FairedCurve> toDegree(int degree, LevelSearch search) const {
-    auto outcome = fairOverLevels(setup_, levels_, degree, params_.toleranceMm, context_, search);
-    if (!outcome) return fail(outcome.error());
-    outcome->faired.report.targetDegree = degree;
-    outcome->faired.report.targetSplits = levels_.all[outcome->level].splits;
-    return std::move(outcome->faired);
-  }
-  std::optional<Error> add(int degree, LevelSearch search) {
-    auto faired = toDegree(degree, search);
-    if (!faired) return faired.error();
-    faired_[degree - 1] = std::move(*faired);
-    return std::nullopt;
-  }
-
-  const std::shared_ptr<const FairingSetup>& setup_;
-  const TargetLevels& levels_;
-  const FairingParams& params_;
-  const RunContext& context_;
-  FairedByDegree faired_;
-};
-
-}  // namespace
-
-Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const FairingParams& params,
-                                 const RunContext& context) {
-  if (!params.spanTargets.empty())
-    return fairSpans(curve, closed, targetSplits(curve, closed, params, context), params, context);
-  const TargetLevels levels = targetLevels(curve, closed, params, context);
-  const TargetSet& first = levels.targets;
-  if (!first.recommendedDegree)
-    return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
-  if (const auto asked = degreeOf(params.target)) {
-    const TargetProfile& profile = first.profiles[*asked - 1];
-    if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
-  }
-  return withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
-    return DegreeChoice(setup, levels, within, context).chosen();
-  });
 }
 
 }  // namespace batten

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "core/base/cancel_check.h"
@@ -12,7 +12,6 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/profile/target_profiles.h"
-#include "core/fairing/target/log_aesthetic.h"
 
 namespace batten {
 
@@ -40,9 +39,6 @@ TargetLevels targetLevels(const NurbsCurve&, bool closed, const FairingParams&, 
 /// One list of splits, whatever the tolerance.
 TargetLevels oneLevel(std::vector<double> splits, TargetSet targets);
 
-/// The log-aesthetic profile that a curve is asked to follow, between its splits.
-LogAestheticTarget logAestheticOf(const NurbsCurve&, bool closed, const FairingParams&, CancelCheck check = {});
-
 /// What one degree comes to.
 struct LevelOutcome {
   std::size_t level = 0;  ///< Which of the levels gave it.
@@ -64,14 +60,5 @@ enum class LevelSearch {
 /// @param toleranceMm what fairing may take of the tolerance.
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, const TargetLevels&, int degree,
                                     double toleranceMm, const RunContext&, LevelSearch search = LevelSearch::All);
-
-/// The degree to recommend: with TargetChoice::Similarity that of the highest S of the modified curve (003 section 6).
-/// Else, of the degrees whose target is met without a curvature extremum more, the one whose curve has the fewest;
-/// where none is met, of `nearest` and of those that the tolerance would allow, which for a smaller tolerance may have
-/// been met. Of equal ones the lowest; none where there is no curve, or none with an S.
-std::optional<int> degreeToRecommend(const FairedByDegree&, std::optional<int> nearest, const FairingParams&);
-
-/// Target mode, the drawn profile excepted.
-Result<FairedCurve> fairToTarget(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
 
 }  // namespace batten

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/known_splits.h"
 
-#include "core/fairing/fairing.h"
+#include "core/fairing/target_splits.h"
 
 namespace batten {
 

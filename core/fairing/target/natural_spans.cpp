@@ -81,6 +81,10 @@ auto seriesFrom(double toleranceMm) {
 
 }  // namespace
 
+bool hasNaturalSpans(const TargetParams& params) {
+  return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
+}
+
 std::vector<double> naturalSplits(const NurbsCurve& curve, bool closed, double toleranceMm) {
   return NaturalSpans(curve, closed).splits(*seriesFrom(toleranceMm));
 }

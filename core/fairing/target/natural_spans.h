@@ -11,6 +11,9 @@
 
 namespace batten {
 
+/// Whether the parameters ask for them: no splits of their own, and polynomials of the curvature.
+bool hasNaturalSpans(const TargetParams&);
+
 /// Shares of the arc length, ascending and inside 0..1, of the curvature extrema whose removal would move the curve by
 /// a tenth of the tolerance or more (the estimate of structureLevels). So that they do not change with every step of a
 /// slider, the tolerance counts as the next lower one of the series 1, 2, 5, 10 …

@@ -9,6 +9,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
+#include "core/fairing/target_splits.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
