@@ -4,6 +4,7 @@
 #include <QElapsedTimer>
 #include <QTimer>
 #include <array>
+#include <memory>
 #include <tuple>
 
 #include "ui/canvas/curve_canvas.h"

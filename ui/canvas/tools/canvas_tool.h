@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QPainter>
-#include <memory>
 #include <optional>
 
 #include "ui/canvas/scene/canvas_scene.h"
@@ -50,19 +49,5 @@ class CanvasTool {
  protected:
   CanvasScene& scene_;
 };
-
-std::unique_ptr<CanvasTool> makeSelectTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeThresholdTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeCornerTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makePenTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeSegmentTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeLinesTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeRegionTool(CanvasScene&, bool isLasso);
-std::unique_ptr<CanvasTool> makeScaleTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeDirectionTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeJunctionTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeSheetTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makeInkTool(CanvasScene&);
-std::unique_ptr<CanvasTool> makePaintTool(CanvasScene&);
 
 }  // namespace batten

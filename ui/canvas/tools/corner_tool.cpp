@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/corner_tool.h"
+
 #include <QCoreApplication>
 #include <QPen>
 #include <cmath>
@@ -16,7 +18,6 @@ namespace {
 
 QString cornerText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Marks corners; the selected one is the session's, so that the list in the panel shows the same.
 class CornerTool final : public PointTool {
  public:
   using PointTool::PointTool;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/direction_tool.h"
+
 #include <QCoreApplication>
 #include <QPen>
 #include <QPolygonF>
@@ -8,7 +10,6 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/direction_edits.h"
 
@@ -20,8 +21,6 @@ constexpr double kHeadAngleRad = 0.45;            // of an arrow, half of it
 
 QString directionToolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Shows in which direction curves are exported and where they begin; click turns, drag of the ring of a closed line
-/// moves its start.
 class DirectionTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;

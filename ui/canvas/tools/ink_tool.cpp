@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/ink_tool.h"
+
 #include <QCoreApplication>
 #include <memory>
 #include <utility>
@@ -6,7 +8,6 @@
 #include "core/image/colour/ink_picker.h"
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/edits/ink_edits.h"
 #include "ui/session/guarded.h"
@@ -19,7 +20,6 @@ constexpr double kInkReachWidgetPx = 6.0;  // an ink is meant where it is pointe
 
 QString inkToolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Click on an ink leaves it out or traces it again, Shift+click traces it alone.
 class InkTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;

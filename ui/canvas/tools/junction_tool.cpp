@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/junction_tool.h"
+
 #include <QCoreApplication>
 #include <QPen>
 #include <memory>
@@ -6,7 +8,6 @@
 #include "ui/canvas/layers/junction_layer.h"
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/edits/junction_edits.h"
 
 namespace batten {
@@ -14,8 +15,6 @@ namespace {
 
 QString toolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Click on a junction: the next pairing of its strokes. Click on one of its branches, then on another: these
-/// two are one stroke, or come apart.
 class JunctionTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;

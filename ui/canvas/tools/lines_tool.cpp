@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/lines_tool.h"
+
 #include <QCoreApplication>
 #include <QPen>
 
 #include "ui/canvas/layers/choice_layer.h"
 #include "ui/canvas/layers/left_out_layer.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/piece_choice.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 QString linesText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Click leaves a line out of fairing and export, click again takes it in.
 class LinesTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;

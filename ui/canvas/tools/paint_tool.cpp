@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/paint_tool.h"
+
 #include <QCoreApplication>
 #include <QImage>
 #include <QKeyEvent>
@@ -9,7 +11,6 @@
 
 #include "ui/canvas/layers/kind_layer.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/edits/trace_mode_edits.h"
 
 namespace batten {
@@ -20,7 +21,6 @@ constexpr double kBrushGrowth = 1.25;  // of a key press
 
 QString paintText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Drag over ink paints its trace mode. Shows which ink is traced as what.
 class PaintTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;

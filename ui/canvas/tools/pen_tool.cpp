@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/pen_tool.h"
+
 #include <QCoreApplication>
 #include <QKeyEvent>
 #include <QPainterPath>
 #include <QPen>
 
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/edits/pen_edits.h"
 #include "ui/session/fairness_text.h"
 #include "ui/session/pen_fairness.h"
@@ -13,7 +14,6 @@
 namespace batten {
 namespace {
 
-/// [widget px] A press that stays within this is a click, not a stroke.
 /// [widget px] Points nearer than this to the last one say nothing new.
 constexpr double kStepPx = 1.0;
 /// A line that comes back to its start is closed when it is at least this many reaches long.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/region_tool.h"
+
 #include <QCoreApplication>
 #include <QKeyEvent>
 #include <QPen>
@@ -6,7 +8,6 @@
 #include <cmath>
 
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/edits/region_edits.h"
 
 namespace batten {
@@ -18,7 +19,6 @@ constexpr std::size_t kMostCorners = 200;  // of a lasso, about: it is thinned t
 
 QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Drag draws a region of interest: a rectangle, or freely.
 class RegionTool final : public CanvasTool {
  public:
   RegionTool(CanvasScene& scene, bool isLasso) : CanvasTool(scene), isLasso_(isLasso) {}

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/scale_tool.h"
+
 #include <QCoreApplication>
 #include <QKeyEvent>
 #include <QPen>
@@ -9,7 +11,6 @@
 #include "core/pipeline/run/pipeline.h"
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 
 namespace batten {
 namespace {
@@ -20,7 +21,6 @@ constexpr double kSteepDeg = 45.0;   ///< Shift: the line keeps to multiples of 
 
 QString scaleText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Measures a known length: a drag, or two clicks. Ends can be dragged later.
 class ScaleTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;

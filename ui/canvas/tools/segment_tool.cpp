@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/segment_tool.h"
+
 #include <QCoreApplication>
 #include <QPen>
 
 #include "ui/canvas/scene/canvas_colors.h"
-
 #include "ui/canvas/tools/point_tool.h"
 
 namespace batten {
@@ -11,7 +12,6 @@ namespace {
 
 QString segmentText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// Sets the places where typical curves meet.
 class SegmentTool final : public PointTool {
  public:
   using PointTool::PointTool;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/select_tool.h"
+
 #include <QCoreApplication>
 #include <QKeyEvent>
 
 #include "ui/canvas/layers/junction_layer.h"
 #include "ui/canvas/layers/text_box.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/junction_edits.h"

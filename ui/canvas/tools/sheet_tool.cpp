@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/sheet_tool.h"
+
 #include <QCoreApplication>
 #include <QKeyEvent>
 #include <QPen>
@@ -7,7 +9,6 @@
 
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/edits/rectify_edits.h"
 
 namespace batten {
@@ -17,7 +18,6 @@ constexpr double kHandlePx = 6.0;  // [widget px] half a handle
 
 QString sheetText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// The corners of the sheet: each can be dragged, Enter rectifies the page by them.
 class SheetTool final : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;

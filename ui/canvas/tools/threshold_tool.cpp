@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/tools/threshold_tool.h"
+
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QKeyEvent>
@@ -11,7 +13,6 @@
 #include "ui/canvas/layers/region_grid_layer.h"
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/grey_scale.h"
 
 namespace batten {
