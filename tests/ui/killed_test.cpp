@@ -7,8 +7,10 @@
 #include <QLabel>
 #include <QProcess>
 #include <QPushButton>
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -89,13 +91,8 @@ struct Victim {
   bool isOver() const { return isKilled && program->state() == QProcess::NotRunning; }
 };
 
-class Killed : public test::WindowFixture {};
-
-TEST_F(Killed, TheWorkOfADragIsOfferedBack) {
-  bool isNumber = false;
-  const int asked = qEnvironmentVariableIntValue("BATTEN_KILLS", &isNumber);
-  const int count = isNumber && asked > 0 ? asked : 3;
-  constexpr int kAtOnce = 4;
+/// Half of them hasty; those that live longest first: they live side by side.
+std::vector<Victim> victimsOf(int count) {
   std::mt19937 random(5);
   std::vector<Victim> victims(2 * count);
   for (int i = 0; i < std::ssize(victims); ++i) {
@@ -104,11 +101,16 @@ TEST_F(Killed, TheWorkOfADragIsOfferedBack) {
     const int shortMs = static_cast<int>(random() % (victims[i].isHasty ? 200 : 2500));
     victims[i].livesMs = isLong ? 30000 + static_cast<int>(random() % 15000) : shortMs;
   }
-  // The long ones first: they live side by side.
   std::stable_sort(victims.begin(), victims.end(),
                    [](const Victim& a, const Victim& b) { return a.livesMs / 30000 > b.livesMs / 30000; });
+  return victims;
+}
+
+/// Starts them, a few at once, and watches until all are dead; false where that takes too long.
+bool areKilled(std::vector<Victim>& victims) {
+  constexpr int kAtOnce = 4, kLimitMs = 600000;
   std::size_t started = 0;
-  ASSERT_TRUE(waitUntil(
+  return waitUntil(
       [&] {
         int running = 0;
         for (std::size_t i = 0; i < started; ++i) {
@@ -121,31 +123,49 @@ TEST_F(Killed, TheWorkOfADragIsOfferedBack) {
         }
         return running == 0;
       },
-      600000));
+      kLimitMs);
+}
+
+/// Offers back what one has left. @return [ms] the work that is lost; absent: nothing is offered.
+std::optional<double> lostOf(const Victim& victim) {
+  EditorSession session;
+  const bool hasJournal = victim.hasJournal();
+  RecipeJournal journal(session, victim.journals());
+  const auto left = journal.left();
+  // What is there is whole, whenever the program died.
+  EXPECT_EQ(left.has_value(), hasJournal) << "killed after " << victim.livesMs << " ms";
+  EXPECT_TRUE(left || victim.isHasty) << "nothing is offered after " << victim.livesMs << " ms";
+  if (!left) return std::nullopt;
+  session.restore(left->scanPath, left->recipe);
+  EXPECT_TRUE(waitUntil([&] { return session.hasScan() && !session.isBusy(); }));
+  EXPECT_TRUE(session.hasUnsavedChanges());
+  EXPECT_FALSE(session.curves().empty());
+  // What was set until the kill, less what the journal holds.
+  double lost = static_cast<double>(victim.changes.back().ms);
+  for (const auto& change : victim.changes)
+    if (change.factor <= left->recipe.log.factor + 0.5 * kFactorStep)
+      lost = static_cast<double>(victim.changes.back().ms - change.ms);
+  return lost;
+}
+
+class Killed : public test::WindowFixture {};
+
+TEST_F(Killed, TheWorkOfADragIsOfferedBack) {
+  bool isNumber = false;
+  const int asked = qEnvironmentVariableIntValue("BATTEN_KILLS", &isNumber);
+  const int count = isNumber && asked > 0 ? asked : 3;
+  std::vector<Victim> victims = victimsOf(count);
+  ASSERT_TRUE(areKilled(victims));
 
   double mostLost = 0.0;
   int offered = 0, offeredHasty = 0;
   for (const Victim& victim : victims) {
     ASSERT_FALSE(victim.changes.empty());
-    EditorSession session;
-    const bool hasJournal = victim.hasJournal();
-    RecipeJournal journal(session, victim.journals());
-    const auto left = journal.left();
-    // What is there is whole, whenever the program died.
-    ASSERT_EQ(left.has_value(), hasJournal) << "killed after " << victim.livesMs << " ms";
-    ASSERT_TRUE(left || victim.isHasty) << "nothing is offered after " << victim.livesMs << " ms";
-    if (!left) continue;
+    const auto lost = lostOf(victim);
+    ASSERT_FALSE(HasFailure());
+    if (!lost) continue;
     ++(victim.isHasty ? offeredHasty : offered);
-    session.restore(left->scanPath, left->recipe);
-    ASSERT_TRUE(waitUntil([&] { return session.hasScan() && !session.isBusy(); }));
-    EXPECT_TRUE(session.hasUnsavedChanges());
-    EXPECT_FALSE(session.curves().empty());
-    // What was set until the kill, less what the journal holds.
-    double lost = static_cast<double>(victim.changes.back().ms);
-    for (const auto& change : victim.changes)
-      if (change.factor <= left->recipe.log.factor + 0.5 * kFactorStep)
-        lost = static_cast<double>(victim.changes.back().ms - change.ms);
-    mostLost = std::max(mostLost, lost);
+    mostLost = std::max(mostLost, *lost);
   }
   std::cout << offered << " of " << count << " killed programs: work offered back, at most " << mostLost / 1000.0
             << " s lost; of those killed within 0.2 s of a drag, " << offeredHasty << "\n";
