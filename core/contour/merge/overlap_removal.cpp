@@ -70,7 +70,7 @@ class PieceMaker {
     keepUncovered(line, covers);
   }
 
-  StrokePieces finish() {
+  RemainingLines finish() {
     attachEnds();
     return std::move(result_);
   }
@@ -216,7 +216,7 @@ class PieceMaker {
   void attachEnds() {
     const double nearPx = std::max(onLine_, kTouch * distance_);
     std::vector<std::array<bool, 2>> attached(result_.pieces.size(), {false, false});
-    for (const StrokePieces::Attachment& a : result_.attachments) attached[a.piece][a.side] = true;
+    for (const RemainingLines::Attachment& a : result_.attachments) attached[a.piece][a.side] = true;
     for (int p = 0; p < std::ssize(result_.pieces); ++p) {
       for (const int side : {0, 1}) {
         if (result_.pieces[p].closed || attached[p][side]) continue;
@@ -228,13 +228,13 @@ class PieceMaker {
 
   double distance_, onLine_;  // [px]
   int ownLength_;             // points
-  StrokePieces result_;
+  RemainingLines result_;
   PointGrid<PiecePlace> index_;
 };
 
 }  // namespace
 
-StrokePieces removeOverlaps(std::vector<MeanLine> lines, double distancePx, const RunContext& context) {
+RemainingLines removeOverlaps(std::vector<MeanLine> lines, double distancePx, const RunContext& context) {
   PieceMaker maker(distancePx);
   for (MeanLine& line : lines) {
     if (context.isCancelled()) return {};

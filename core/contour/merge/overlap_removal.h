@@ -8,8 +8,8 @@
 
 namespace batten {
 
-/// Mean lines after removal of their overlaps.
-struct StrokePieces {
+/// What is left of mean lines once their overlaps are removed.
+struct RemainingLines {
   /// Where a piece was cut off because it continues along another: its start (side 0) or end (1) lies on point `index`
   /// of the piece `onto` (possibly the piece itself).
   struct Attachment {
@@ -23,6 +23,6 @@ struct StrokePieces {
 /// Keeps the parts of each line that do not lie on a line before it. A stretch lies on a line if it runs in the same
 /// direction within a small part of `distancePx`, or within `distancePx` between two such stretches (or such a stretch
 /// and an end). Lines that cross or meet at an end stay. @pre longest first. Not complete when cancelled.
-StrokePieces removeOverlaps(std::vector<MeanLine> lines, double distancePx, const RunContext& context);
+RemainingLines removeOverlaps(std::vector<MeanLine> lines, double distancePx, const RunContext& context);
 
 }  // namespace batten

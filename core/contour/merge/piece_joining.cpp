@@ -37,7 +37,7 @@ constexpr int kSpurRounds = 3;           // a spur may show only once another ha
 
 class PieceJoiner {
  public:
-  PieceJoiner(StrokePieces pieces, double distancePx, double widestPx)
+  PieceJoiner(RemainingLines pieces, double distancePx, double widestPx)
       : distance_(std::max(1.0, distancePx)),
         widest_(std::max(distance_, widestPx)),
         maxBendDeg_(distance_ < widest_ ? kEarlyBendDeg : kMaxBendDeg),
@@ -352,7 +352,7 @@ std::vector<std::pair<int, int>> PieceJoiner::facing(const std::vector<int>& end
 
 }  // namespace
 
-std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, double widestPx, const RunContext& context) {
+std::vector<MeanLine> joinPieces(RemainingLines pieces, double distancePx, double widestPx, const RunContext& context) {
   return PieceJoiner(std::move(pieces), distancePx, widestPx).lines(context);
 }
 

@@ -14,6 +14,6 @@ namespace batten {
 /// that meets itself is closed. A single stroke that leaves the others smoothly and ends counts as an overshoot up to a
 /// greater length. `widestPx` is the largest distance that strokes are merged over in the end. Not complete when
 /// cancelled.
-std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, double widestPx, const RunContext& context);
+std::vector<MeanLine> joinPieces(RemainingLines pieces, double distancePx, double widestPx, const RunContext& context);
 
 }  // namespace batten

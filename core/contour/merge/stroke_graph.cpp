@@ -44,10 +44,10 @@ struct PieceCut {
   int index = 0, attachment = 0;
 };
 
-std::vector<std::vector<AttachedMark>> marksOf(const StrokePieces& pieces) {
+std::vector<std::vector<AttachedMark>> marksOf(const RemainingLines& pieces) {
   std::vector<std::vector<AttachedMark>> marks(pieces.pieces.size());
   for (int a = 0; a < std::ssize(pieces.attachments); ++a) {
-    const StrokePieces::Attachment& m = pieces.attachments[a];
+    const RemainingLines::Attachment& m = pieces.attachments[a];
     const int last = pieces.pieces[m.piece].count() - 1;
     marks[m.piece].push_back({m.side == 0 ? 0 : last, a, true});
     marks[m.onto].push_back({m.index, a, false});
@@ -133,7 +133,7 @@ void StrokeGraph::remove(int edge) {
   gone.alive = false;
 }
 
-StrokeGraph graphOf(StrokePieces pieces, double distancePx) {
+StrokeGraph graphOf(RemainingLines pieces, double distancePx) {
   StrokeGraph graph;
   NodeNumbers numbers(std::ssize(pieces.attachments));
   const std::vector<std::vector<AttachedMark>> marks = marksOf(pieces);

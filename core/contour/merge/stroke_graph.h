@@ -26,6 +26,6 @@ struct StrokeGraph {
 };
 
 /// Cuts the pieces where others are attached; what is nearer than the distance along a piece is one node.
-StrokeGraph graphOf(StrokePieces pieces, double distancePx);
+StrokeGraph graphOf(RemainingLines pieces, double distancePx);
 
 }  // namespace batten

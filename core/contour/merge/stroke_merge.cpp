@@ -44,7 +44,7 @@ std::vector<MeanLine> mergeWithin(std::vector<MeanLine> strokes, double distance
   if (context.isCancelled()) return {};
   std::stable_sort(strokes.begin(), strokes.end(),
                    [](const MeanLine& a, const MeanLine& b) { return a.points.size() > b.points.size(); });
-  StrokePieces pieces = removeOverlaps(std::move(strokes), distancePx, context);
+  RemainingLines pieces = removeOverlaps(std::move(strokes), distancePx, context);
   if (context.isCancelled()) return {};
   return joinPieces(std::move(pieces), distancePx, widestPx, context);
 }
