@@ -70,7 +70,7 @@ TEST(MeetingEnds, ABranchEndsOnTheMiddleOfTheLineItMeets) {
   }
 }
 
-// An arc that leaves a line by and by. Where they share their ink only one middle is seen; the other line is led on to
+// An arc that leaves a line gradually. Where they share their ink only one middle is seen; the other line is led on to
 // it.
 TEST(MeetingEnds, WhatLeavesALineByAndByTouchesIt) {
   constexpr double kRadius = 220.0, kTouchX = 120.0;
