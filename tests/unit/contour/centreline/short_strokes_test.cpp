@@ -15,7 +15,7 @@ namespace {
 constexpr int kLadderWidth = 480, kLadderHeight = 360;
 using Lines = std::vector<std::vector<Vec2>>;
 
-std::vector<Vec2> straight(const Vec2& a, const Vec2& b) {
+std::vector<Vec2> rail(const Vec2& a, const Vec2& b) {
   const int steps = static_cast<int>((b - a).norm());
   std::vector<Vec2> line;
   for (int i = 0; i <= steps; ++i) line.push_back(a + (b - a) * i / steps);
@@ -74,9 +74,9 @@ GreyImage pencilPage(const Lines& strong, const Lines& weak, std::uint32_t seed)
 // A pencil presses less on the short strokes between the long ones; they end in those, as grain does not.
 TEST(ShortStrokes, AWeakStrokeBetweenStrongOnesHasALine) {
   Lines rails, rungs;
-  for (int k = 0; k < 8; ++k) rails.push_back(straight({40.0, 30.0 + 40.0 * k}, {440.0, 34.0 + 40.0 * k}));
+  for (int k = 0; k < 8; ++k) rails.push_back(rail({40.0, 30.0 + 40.0 * k}, {440.0, 34.0 + 40.0 * k}));
   for (int k = 0; k < 7; ++k)
-    rungs.push_back(straight({100.0 + 40.0 * k, 30.6 + 40.4 * k}, {100.0 + 40.0 * k, 70.6 + 40.4 * k}));
+    rungs.push_back(rail({100.0 + 40.0 * k, 30.6 + 40.4 * k}, {100.0 + 40.0 * k, 70.6 + 40.4 * k}));
   int found = 0;
   for (const std::uint32_t seed : kSeeds) found += linesFound(rungs, tracedPage(pencilPage(rails, rungs, seed)), 0.7);
   EXPECT_GE(found, 25) << "of 28";
@@ -86,9 +86,9 @@ TEST(ShortStrokes, AWeakStrokeBetweenStrongOnesHasALine) {
 // the middle of a stroke cannot be measured.
 TEST(ShortStrokes, ARungBetweenBroadRailsHasALine) {
   constexpr double kRailPx = 8.0, kRungPx = 6.0;
-  Lines rails = {straight({200, 40}, {200, 320}), straight({222, 40}, {222, 320})}, rungs, thin;
-  for (int k = 0; k < 4; ++k) rungs.push_back(straight({200.0, 80.0 + 60.0 * k}, {222.0, 80.0 + 60.0 * k}));
-  for (int k = 0; k < 8; ++k) thin.push_back(straight({300.0, 40.0 + 40.0 * k}, {450.0, 45.0 + 40.0 * k}));
+  Lines rails = {rail({200, 40}, {200, 320}), rail({222, 40}, {222, 320})}, rungs, thin;
+  for (int k = 0; k < 4; ++k) rungs.push_back(rail({200.0, 80.0 + 60.0 * k}, {222.0, 80.0 + 60.0 * k}));
+  for (int k = 0; k < 8; ++k) thin.push_back(rail({300.0, 40.0 + 40.0 * k}, {450.0, 45.0 + 40.0 * k}));
   std::vector<float> cover(static_cast<std::ptrdiff_t>(kLadderWidth) * kLadderHeight, 0.0f);
   ink(cover, rails, kRailPx, 1.0f);
   ink(cover, rungs, kRungPx, 1.0f);
@@ -105,9 +105,9 @@ GreyImage penLadder(Lines& rungs, std::uint32_t seed) {
   Lines rails;
   for (const double x : {60.0, 180.0, 300.0}) {
     const double gap = 20.0 + x / 150.0;
-    rails.push_back(straight({x, 30}, {x, 330}));
-    rails.push_back(straight({x + gap, 30}, {x + gap, 330}));
-    for (int k = 0; k < 6; ++k) rungs.push_back(straight({x, 60.0 + 45.0 * k}, {x + gap, 60.0 + 45.0 * k}));
+    rails.push_back(rail({x, 30}, {x, 330}));
+    rails.push_back(rail({x + gap, 30}, {x + gap, 330}));
+    for (int k = 0; k < 6; ++k) rungs.push_back(rail({x, 60.0 + 45.0 * k}, {x + gap, 60.0 + 45.0 * k}));
   }
   std::vector<float> cover(static_cast<std::ptrdiff_t>(kLadderWidth) * kLadderHeight, 0.0f);
   ink(cover, rails, kPenPx, 1.0f);
@@ -153,9 +153,9 @@ TEST(ShortStrokes, WhereTwoStrokesTouchNoRungIsDrawn) {
 // A short stroke that stands alone is ink by its threshold, which asks for half the depth of the strokes around.
 TEST(ShortStrokes, AWeakStrokeAloneHasALine) {
   Lines rails, ticks;
-  for (int k = 0; k < 5; ++k) rails.push_back(straight({40.0, 30.0 + 70.0 * k}, {440.0, 34.0 + 70.0 * k}));
+  for (int k = 0; k < 5; ++k) rails.push_back(rail({40.0, 30.0 + 70.0 * k}, {440.0, 34.0 + 70.0 * k}));
   for (int k = 0; k < 8; ++k)
-    ticks.push_back(straight({70.0 + 45.0 * k, 50.0 + 70.0 * (k % 4)}, {72.0 + 45.0 * k, 82.0 + 70.0 * (k % 4)}));
+    ticks.push_back(rail({70.0 + 45.0 * k, 50.0 + 70.0 * (k % 4)}, {72.0 + 45.0 * k, 82.0 + 70.0 * (k % 4)}));
   int found = 0;
   for (const std::uint32_t seed : kSeeds) found += linesFound(ticks, tracedPage(pencilPage(rails, ticks, seed)), 0.6);
   EXPECT_GE(found, 30) << "of 32";

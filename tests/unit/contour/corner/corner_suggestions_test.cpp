@@ -11,7 +11,7 @@
 #include "core/contour/corner/corner_marks.h"
 #include "tests/support/angles.h"
 #include "tests/support/contour_shapes.h"
-#include "tests/unit/contour/corner_lines.h"
+#include "tests/unit/contour/corner/corner_lines.h"
 
 namespace batten {
 namespace {

@@ -18,7 +18,7 @@
 namespace batten {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 360;
+constexpr int kSheetWidth = 480, kSheetHeight = 360;
 constexpr double kLineY = 240.0;  // of the line that the others meet
 
 std::vector<Vec2> straight(const Vec2& from, const Vec2& to) {
@@ -29,7 +29,9 @@ std::vector<Vec2> straight(const Vec2& from, const Vec2& to) {
 }
 
 ContourSet tracedLines(const std::vector<std::vector<Vec2>>& lines, double widthPx) {
-  return tracedPage(test::scanOfLines(test::coverageOf(lines, widthPx, kWidth, kHeight), kWidth, kHeight, 7).grey);
+  return tracedPage(
+      test::scanOfLines(test::coverageOf(lines, widthPx, kSheetWidth, kSheetHeight), kSheetWidth, kSheetHeight, 7)
+          .grey);
 }
 
 // The end of a line that lies nearest to a place.
@@ -91,15 +93,15 @@ TEST(MeetingEnds, WhatLeavesALineByAndByTouchesIt) {
 TEST(MeetingEnds, AStrokeThatRunsIntoAShapeMeetsItsBorder) {
   constexpr double kRadius = 45.0;
   const Vec2 centre(150.0, 180.0);
-  std::vector<float> coverage = test::coverageOf({straight(centre, {440.0, 150.0})}, 7.0, kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  std::vector<float> coverage = test::coverageOf({straight(centre, {440.0, 150.0})}, 7.0, kSheetWidth, kSheetHeight);
+  for (int y = 0; y < kSheetHeight; ++y) {
+    for (int x = 0; x < kSheetWidth; ++x) {
       const double inside = kRadius - (Vec2(x + 0.5, y + 0.5) - centre).norm() + 0.5;
-      float& c = coverage[std::ptrdiff_t{y} * kWidth + x];
+      float& c = coverage[std::ptrdiff_t{y} * kSheetWidth + x];
       c = std::max(c, static_cast<float>(std::clamp(inside, 0.0, 1.0)));
     }
   }
-  const ContourSet set = tracedPage(test::scanOfLines(std::move(coverage), kWidth, kHeight, 7).grey);
+  const ContourSet set = tracedPage(test::scanOfLines(std::move(coverage), kSheetWidth, kSheetHeight, 7).grey);
   ASSERT_EQ(set.contours.size(), 2u);
   const Vec2 end = nearestEnd(set, centre);
   // The mouth is laid straight across: up to .14 px within the circle.

@@ -16,7 +16,7 @@
 #include "tests/support/contour_shapes.h"
 #include "tests/support/growth.h"
 #include "tests/support/pen_lines.h"
-#include "tests/unit/contour/corner_lines.h"
+#include "tests/unit/contour/corner/corner_lines.h"
 
 namespace batten {
 namespace {

@@ -17,14 +17,14 @@ namespace {
 
 constexpr int kPage = 480;
 constexpr double kPaper = 230.0, kContrast = 100.0;
-const Vec2 kMiddle(240.3, 239.6);
+const Vec2 kDiscCentre(240.3, 239.6);
 
 double normalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// A disc; its tone falls inward as exp(-d / fade), 0 = it does not. The blur of a disc moves the half level inward by
 /// blur^2 / (2 radius); but for that the edge is blurred like a straight one.
 GreyImage softDisc(double radius, double blur, double fadePx, double noise, unsigned seed,
-                   const Vec2& middle = kMiddle) {
+                   const Vec2& middle = kDiscCentre) {
   GreyImage grey(kPage, kPage);
   std::mt19937 random(seed);
   std::normal_distribution<double> deviate(0.0, 1.0);
@@ -58,7 +58,7 @@ struct Misses {
 Misses fromCircle(const Contour& c, double radius) {
   Misses m;
   for (const Vec2& p : positionsOf(c.points)) {
-    const double e = (p - kMiddle).norm() - radius;
+    const double e = (p - kDiscCentre).norm() - radius;
     m.bias += e / static_cast<double>(c.points.size());
     m.rms += e * e / static_cast<double>(c.points.size());
   }

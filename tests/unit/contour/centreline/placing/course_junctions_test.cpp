@@ -13,11 +13,11 @@
 namespace batten {
 namespace {
 
-constexpr int kPageWidth = 400, kPageHeight = 160;
+constexpr int kStripWidth = 400, kStripHeight = 160;
 
 // What several pens have inked one over the other, scanned.
 Contour lineOf(const std::vector<std::vector<float>>& inks) {
-  const test::InkPage page = test::scannedInks(inks, kPageWidth, kPageHeight, 4.0);
+  const test::InkPage page = test::scannedInks(inks, kStripWidth, kStripHeight, 4.0);
   const auto set = centrelines(page.ink, page.grey, {}, {});
   EXPECT_TRUE(set && !set->contours.empty());
   if (!set || set->contours.empty()) return {};
@@ -25,7 +25,7 @@ Contour lineOf(const std::vector<std::vector<float>>& inks) {
 }
 
 std::vector<float> stroke(const std::vector<Vec2>& line, double widthPx) {
-  return test::strokeCoverage(line, false, widthPx, kPageWidth, kPageHeight);
+  return test::strokeCoverage(line, false, widthPx, kStripWidth, kStripHeight);
 }
 std::vector<float> disc(const Vec2& centre, double radiusPx) {
   std::vector<Vec2> outline;
@@ -33,7 +33,7 @@ std::vector<float> disc(const Vec2& centre, double radiusPx) {
     const double angle = 0.0698131700797732 * k;
     outline.push_back(centre + radiusPx * Vec2(std::cos(angle), std::sin(angle)));
   }
-  return test::fillCoverage(outline, kPageWidth, kPageHeight);
+  return test::fillCoverage(outline, kStripWidth, kStripHeight);
 }
 
 // [px] How far a line lies from y at the most, its ends left out, and the steepest it goes over 4 px.
@@ -70,7 +70,7 @@ TEST(Blots, AStrokeThatSwellsSlowlyKeepsItsMiddle) {
   const auto arc = [&](double x) { return kSwell * std::pow(std::sin(M_PI * (x - kFrom) / (kTo - kFrom)), 2); };
   std::vector<Vec2> outline{{kFrom, kY}, {kTo, kY}};
   for (double x = kTo; x >= kFrom; x -= 2.0) outline.emplace_back(x, kY - kThin - arc(x));
-  const Contour line = lineOf({test::fillCoverage(outline, kPageWidth, kPageHeight)});
+  const Contour line = lineOf({test::fillCoverage(outline, kStripWidth, kStripHeight)});
   for (const ContourPoint& p : line.points) {
     if (p.at.x() < kFrom + 30.0 || p.at.x() > kTo - 30.0) continue;
     EXPECT_NEAR(p.at.y(), kY - 0.5 * (kThin + arc(p.at.x())), 0.4) << p.at.x();
@@ -134,7 +134,7 @@ TEST(StrokeStubs, TheLegsOfAnAGoOnBelowItsBar) {
     const double bar = kTop + kBarPens * pen, foot = kTop + kFootPens * pen;
     const test::InkPage page = test::scannedInks(
         {stroke({leg(-1.0, foot), leg(0.0, kTop), leg(1.0, foot)}, pen), stroke({leg(-1.0, bar), leg(1.0, bar)}, pen)},
-        kPageWidth, kPageHeight, 4.0);
+        kStripWidth, kStripHeight, 4.0);
     const auto set = centrelines(page.ink, page.grey, {}, {});
     ASSERT_TRUE(set) << pen;
     for (const double side : {-1.0, 1.0}) {
