@@ -25,7 +25,7 @@ test::PhotoCamera cameraOf(double tiltDeg) {
       kPhotoHeight);
 }
 
-QImage imageOf(const Scan& scan) {
+QImage photoOf(const Scan& scan) {
   QImage image(kPhotoWidth, kPhotoHeight, QImage::Format_Grayscale8);
   for (int y = 0; y < kPhotoHeight; ++y)
     for (int x = 0; x < kPhotoWidth; ++x) image.scanLine(y)[x] = static_cast<uchar>(scan.grey.row(y)[x] / 257);
@@ -33,7 +33,7 @@ QImage imageOf(const Scan& scan) {
 }
 
 QImage photo(double tiltDeg) {
-  return imageOf(renderPhoto(cameraOf(tiltDeg), [](const Vec2& mm) {
+  return photoOf(renderPhoto(cameraOf(tiltDeg), [](const Vec2& mm) {
     return std::abs((mm - Vec2(74, 100)).norm() - 45.0) < 0.8 ? 1.0 : 0.0;
   }));
 }
@@ -247,7 +247,7 @@ TEST_F(RectifyWindow, NothingIsCutOffAlongADrawnFrameThatIsChosenAsTheRectangle)
     return isRing || std::abs(off.maxCoeff()) < 1.2 ? 1.0 : 0.0;
   };
   const test::PhotoCamera camera = cameraOf(25.0);
-  ASSERT_NO_FATAL_FAILURE(openPage(imageOf(renderPhoto(camera, frame))));
+  ASSERT_NO_FATAL_FAILURE(openPage(photoOf(renderPhoto(camera, frame))));
   window_->setStage(PanelStage::Scan);
   window_->action(ActionId::ToolSheet)->trigger();
   window_->view().setSheetCorners(SheetCorners{camera.toPicture(low), camera.toPicture({high.x(), low.y()}),
