@@ -8,6 +8,7 @@
 
 #include "core/curve/arc_length.h"
 #include "core/curve/extremum_indices.h"
+#include "core/curve/span_polynomials.h"
 
 namespace batten {
 
@@ -45,7 +46,7 @@ struct Profile {
   };
   std::vector<Point> points;
 
-  Profile(const NurbsCurve& curve, CancelCheck check) : curve_(curve), domain_(curve.end() - curve.start()) {
+  Profile(const NurbsCurve& curve, CancelCheck check) : spans_(curve), domain_(curve.end() - curve.start()) {
     const std::vector<double> breaks = curve.breaks();
     // Inside a span everything is smooth; the limits from both sides of a knot are taken just beside it.
     for (std::size_t i = 0; i + 1 < breaks.size() && !check.isCancelled(); ++i) {
@@ -69,7 +70,7 @@ struct Profile {
     std::optional<double> kappa, slope;
   };
   Sample sampleAt(double u) const {
-    Sample sample{u, curve_.derivatives(u, 3), {}, {}};
+    Sample sample{u, spans_.derivatives(u, 3), {}, {}};
     sample.kappa = curvatureOf(sample.d, domain_);
     sample.slope = slopeOf(sample.d, domain_);
     return sample;
@@ -118,7 +119,7 @@ struct Profile {
     if (found.u > a.u && found.u < b.u) push(found);
   }
 
-  const NurbsCurve& curve_;
+  SpanPolynomials spans_;
   double domain_;
 };
 

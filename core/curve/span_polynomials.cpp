@@ -10,12 +10,12 @@ SpanPolynomials::SpanPolynomials(const NurbsCurve& curve) : curve_(curve) {
 }
 
 std::array<Vec2, 3> SpanPolynomials::at(double u) const {
-  if (!basis_) {
-    const auto d = curve_.derivatives(u, 2);
-    return {d[0], d[1], d[2]};
-  }
-  const Jet jet = spans_.at(basis_->place(u), 2);
+  const Jet jet = derivatives(u, 2);
   return {jet[0], jet[1], jet[2]};
+}
+
+Jet SpanPolynomials::derivatives(double u, int order) const {
+  return basis_ ? spans_.at(basis_->place(u), order) : curve_.derivatives(u, order);
 }
 
 }  // namespace batten

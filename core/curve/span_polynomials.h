@@ -17,6 +17,8 @@ class SpanPolynomials {
   explicit SpanPolynomials(const NurbsCurve&);
   /// Point, first and second derivative at u, clamped to the domain. At a knot: of the span that begins there.
   std::array<Vec2, 3> at(double u) const;
+  /// Derivatives up to `order` (0..4) there; those above are zero.
+  Jet derivatives(double u, int order) const;
   double start() const { return curve_.start(); }
   double end() const { return curve_.end(); }
 
