@@ -26,11 +26,15 @@ TEST(SpanPolynomials, AgreeWithTheBasisOfEveryDegreeAtEveryKindOfKnot) {
     const SpanPolynomials polynomials(*curve);
     for (int i = -5; i <= 1305; ++i) {
       const double u = -2.0 + i / 100.0;
-      const auto expected = curve->derivatives(u, 2);
+      const auto expected = curve->derivatives(u, 3);
       const auto found = polynomials.at(u);
       EXPECT_LT((found[0] - expected[0]).norm(), 1e-11) << degree << " at " << u;
       EXPECT_LT((found[1] - expected[1]).norm(), 1e-9 * (1.0 + expected[1].norm())) << degree << " at " << u;
       EXPECT_LT((found[2] - expected[2]).norm(), 1e-8 * (1.0 + expected[2].norm())) << degree << " at " << u;
+      const Jet jet = polynomials.derivatives(u, 3);
+      for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(jet[k], found[k]);
+      EXPECT_LT((jet[3] - expected[3]).norm(), 1e-7 * (1.0 + expected[3].norm())) << degree << " at " << u;
+      EXPECT_EQ(jet[4], Vec2::Zero());
     }
   }
 }
@@ -40,7 +44,10 @@ TEST(SpanPolynomials, ARationalCurveIsEvaluatedAsItIs) {
   const auto quarter = NurbsCurve::make(2, {0, 0, 0, 1, 1, 1}, {{1, 0}, {1, 1}, {0, 1}}, {1, w, 1});
   ASSERT_TRUE(quarter);
   const SpanPolynomials polynomials(*quarter);
-  for (int i = 0; i <= 10; ++i) EXPECT_NEAR(polynomials.at(0.1 * i)[0].norm(), 1.0, 1e-15);
+  for (int i = 0; i <= 10; ++i) {
+    EXPECT_NEAR(polynomials.at(0.1 * i)[0].norm(), 1.0, 1e-15);
+    EXPECT_EQ(polynomials.derivatives(0.1 * i, 3), quarter->derivatives(0.1 * i, 3));
+  }
 }
 
 }  // namespace
