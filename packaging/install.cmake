@@ -7,10 +7,11 @@ set(pages ${CMAKE_BINARY_DIR}/packaging)
 set(doc ${CMAKE_INSTALL_DATADIR}/doc/batten)
 
 install(TARGETS batten-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+get_property(modules GLOBAL PROPERTY BATTEN_MODULE_TARGETS)
 if(WIN32)
-  install(TARGETS batten_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${modules} LIBRARY DESTINATION ${CMAKE_INSTALL_BINDIR})
 else()
-  install(TARGETS batten_pictures LIBRARY DESTINATION lib/batten/modules)
+  install(TARGETS ${modules} LIBRARY DESTINATION lib/batten/modules)
 endif()
 if(BATTEN_GUI)
   install(TARGETS batten RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} BUNDLE DESTINATION .)
@@ -31,7 +32,7 @@ if(WIN32 OR APPLE)
   # Qt and OpenCV where the system finds them. Not tried by us: we have neither system.
   if(BATTEN_GUI)
     if(APPLE)
-      install(TARGETS batten_pictures LIBRARY DESTINATION batten.app/Contents/lib/batten/modules)
+      install(TARGETS ${modules} LIBRARY DESTINATION batten.app/Contents/lib/batten/modules)
       install(FILES ${CMAKE_BINARY_DIR}/share/batten/samples/coupe-side.png
         ${CMAKE_BINARY_DIR}/share/batten/samples/coupe-side.recipe.json
         DESTINATION batten.app/Contents/share/batten/samples)
