@@ -17,10 +17,6 @@ constexpr int kCompared = 200;  ///< Places at which two shapes are compared.
 constexpr double kExact = 2e-8;
 constexpr double kFlattest = 1e4;  ///< [sizes of the curve] Arcs of larger radius have no certain centre.
 
-Vec2 onCircle(const Vec2& centre, double radius, double angle) {
-  return centre + radius * Vec2(std::cos(angle), std::sin(angle));
-}
-
 /// Places of each polynomial piece, more than a conic's equation along it has roots.
 std::vector<Vec2> placesAlong(const NurbsCurve& curve) {
   std::vector<Vec2> places = {curve.point(curve.start())};
@@ -155,12 +151,9 @@ double arcDifference(const CadArc& a, const CadArc& b) {
 
 }  // namespace
 
-bool isCircle(const CadArc& arc) { return arc.sweepRad >= kFullTurnRad * (1.0 - 1e-9); }
-
 Vec2 pointAt(const CadShape& shape, double fraction) {
   if (const auto* line = std::get_if<CadLine>(&shape)) return line->from + fraction * (line->to - line->from);
-  if (const auto* arc = std::get_if<CadArc>(&shape))
-    return onCircle(arc->centre, arc->radius, arc->startRad + fraction * arc->sweepRad);
+  if (const auto* arc = std::get_if<CadArc>(&shape)) return pointAt(*arc, fraction);
   if (const auto* line = std::get_if<CadPolyline>(&shape)) return pointOf(*line, fraction);
   const auto& curve = std::get<NurbsCurve>(shape);
   return curve.point(fraction == 1.0 ? curve.end() : curve.start() + fraction * (curve.end() - curve.start()));

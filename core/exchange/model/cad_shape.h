@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -50,11 +51,18 @@ struct CadDrawing {
 };
 
 /// Whether a sweep is that of a whole circle, but for rounding.
-bool isCircle(const CadArc&);
+inline bool isCircle(const CadArc& arc) { return arc.sweepRad >= kFullTurnRad * (1.0 - 1e-9); }
+
+inline Vec2 onCircle(const Vec2& centre, double radius, double angleRad) {
+  return centre + radius * Vec2(std::cos(angleRad), std::sin(angleRad));
+}
 
 /// The place at a fraction 0..1 of the parameter of a shape: the angle of an arc, the domain of a curve, the count of
 /// the vertices of a polyline.
 Vec2 pointAt(const CadShape&, double fraction);
+inline Vec2 pointAt(const CadArc& arc, double fraction) {
+  return onCircle(arc.centre, arc.radius, arc.startRad + fraction * arc.sweepRad);
+}
 
 /// A line, arc or circle if the curve is one, whatever its degree and parameters: not farther off than 1e-10 of its
 /// size, and never turning back. Absent for other curves.

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/loaded_module.h"
 #include "core/base/platform_memory.h"
 
 namespace batten {
@@ -160,6 +161,8 @@ TEST_F(SharedFiles, AFileIsItselfByAnyName) {
   EXPECT_NE(fileId(folder_ / "a"), fileId(folder_ / "b"));
   EXPECT_FALSE(fileId(folder_ / "none"));
 }
+
+TEST(Platform, AModuleThatIsMissingHasNoFunction) { EXPECT_EQ(functionOfModule("batten-none", "any"), nullptr); }
 
 }  // namespace
 }  // namespace batten

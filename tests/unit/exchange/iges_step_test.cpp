@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "core/curve/closest_point.h"
 #include "core/exchange/export_file.h"
@@ -179,6 +182,22 @@ TEST(StepFile, StatesLengthCentroidAndPlacesForItsReceiver) {
   ASSERT_TRUE(std::regex_search(flat, match, std::regex("curvecentrepoint',\\(([0-9.E+-]+),([0-9.E+-]+),")));
   EXPECT_NEAR(std::stod(match[1]), (50.0 * 25 + circle * 90) / (50 + circle), 1e-9);
   EXPECT_NEAR(std::stod(match[2]), (50.0 * 40 + circle * 80) / (50 + circle), 1e-9);
+}
+
+TEST(StepFile, IsWrittenWhileOthersAreWritten) {
+  // Open CASCADE, which is loaded by the first, keeps its unit in one place for all.
+  const ExportDocument document = exportOfAllDegrees();
+  std::vector<std::thread> writers;
+  for (const LengthUnit unit : {LengthUnit::Millimetre, LengthUnit::Inch}) {
+    for (const ExportFormat format : {ExportFormat::Iges, ExportFormat::Step})
+      writers.emplace_back([&document, unit, format] {
+        for (int i = 0; i < 3; ++i) {
+          const std::string found = parsed(fileOf(document, cad(format, unit)), format).unit;
+          EXPECT_EQ(found.find("INCH") != std::string::npos, unit == LengthUnit::Inch) << found;
+        }
+      });
+  }
+  for (std::thread& writer : writers) writer.join();
 }
 
 }  // namespace
