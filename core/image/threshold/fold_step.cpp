@@ -171,12 +171,13 @@ std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
   const double uneven = kUneven * lowerQuantile(outside, 0.5);
   if (uneven > step) return std::nullopt;  // hatching along the course: as much of a step everywhere
   const double tolerance = std::max({kStepLeft * step, kLeastLeft, uneven});
-  int last = 3;
+  constexpr int kNearestPx = 3, kBeyondPx = 3;  // the blur of a scan on either side; room beyond the last rest
+  int last = kNearestPx;
   for (int d = 2; d < reach; ++d) {
     if (left(d) > tolerance || left(-d) > tolerance) last = std::max(last, d);
   }
   if (last > kFarthestStep * reach) return std::nullopt;  // no step, but a slope
-  return last + 3;
+  return last + kBeyondPx;
 }
 
 }  // namespace batten
