@@ -32,7 +32,7 @@
 #include "ui/panels/targets/shape_window.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 #include "ui/setting_finder.h"
 #include "ui/status_line.h"
 #include "ui/top_bar.h"

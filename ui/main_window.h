@@ -8,7 +8,7 @@
 #include "ui/commands/action_catalog.h"
 #include "ui/panels/rail/panel_stage.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 #include "ui/theme/theme.h"
 
 class QMenu;

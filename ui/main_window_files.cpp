@@ -25,9 +25,9 @@
 #include "ui/main_window_parts.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/stages/scan_panel.h"
-#include "ui/session/judged_view.h"
-#include "ui/session/opened_scan.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/opened_scan.h"
+#include "ui/session/files/path_text.h"
+#include "ui/session/view/judged_view.h"
 #include "ui/status_line.h"
 
 namespace batten {

@@ -13,10 +13,10 @@
 #include "ui/help_window.h"
 #include "ui/main_window.h"
 #include "ui/opening_guard.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/inbox.h"
+#include "ui/session/background/thread_shortage.h"
 #include "ui/session/recipe_journal.h"
-#include "ui/session/thread_shortage.h"
 
 class QSplitter;
 class QStackedWidget;

@@ -11,7 +11,7 @@
 
 #include "ui/main_window_parts.h"
 #include "ui/opening_guard.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 
 namespace batten {
 namespace {

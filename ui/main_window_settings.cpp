@@ -9,7 +9,7 @@
 #include "ui/main_window_parts.h"
 #include "ui/panels/stages/export/export_panel.h"
 #include "ui/plots/curve_plots.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 #include "ui/top_bar.h"
 
 namespace batten {

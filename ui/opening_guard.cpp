@@ -6,7 +6,7 @@
 
 #include "core/base/platform.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 
 namespace batten {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "core/pipeline/run/pipeline.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/page_text.h"
+#include "ui/session/text/page_text.h"
 #include "ui/theme/elided_label.h"
 #include "ui/theme/theme.h"
 

@@ -14,7 +14,7 @@
 
 #include "ui/canvas/legend.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

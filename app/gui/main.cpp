@@ -11,8 +11,8 @@
 #include "core/base/platform.h"
 #include "core/base/platform_memory.h"
 #include "ui/main_window.h"
-#include "ui/session/painting_threads.h"
-#include "ui/session/path_text.h"
+#include "ui/session/background/painting_threads.h"
+#include "ui/session/files/path_text.h"
 
 namespace {
 

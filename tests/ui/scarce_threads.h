@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "ui/session/background_threads.h"
+#include "ui/session/background/background_threads.h"
 
 namespace batten::test {
 

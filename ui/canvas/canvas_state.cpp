@@ -32,11 +32,11 @@
 #include "ui/canvas/tools/select_tool.h"
 #include "ui/canvas/tools/sheet_tool.h"
 #include "ui/canvas/tools/threshold_tool.h"
-#include "ui/session/coarse_runner.h"
 #include "ui/session/explanation_source.h"
 #include "ui/session/growing_player.h"
-#include "ui/session/judged_view.h"
+#include "ui/session/runs/coarse_runner.h"
 #include "ui/session/suggestion_source.h"
+#include "ui/session/view/judged_view.h"
 
 namespace batten {
 namespace {

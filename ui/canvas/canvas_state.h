@@ -11,8 +11,8 @@
 #include "ui/canvas/scene/canvas_scene.h"
 #include "ui/canvas/still_image.h"
 #include "ui/canvas/tools/canvas_tool.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/inbox.h"
 
 namespace batten {
 

@@ -7,7 +7,7 @@
 
 #include "core/base/vec2.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 namespace batten {
 

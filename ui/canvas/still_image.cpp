@@ -11,9 +11,9 @@
 #include "ui/canvas/layers/segment_layer.h"
 #include "ui/canvas/layers/sketched_layer.h"
 #include "ui/canvas/layers/stroke_layer.h"
-#include "ui/session/coarse_runner.h"
 #include "ui/session/explanation_source.h"
 #include "ui/session/growing_player.h"
+#include "ui/session/runs/coarse_runner.h"
 
 namespace batten {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 class QAction;
 class QObject;

@@ -16,7 +16,7 @@
 #include "ui/plots/plot_style.h"
 #include "ui/plots/target_labels.h"
 #include "ui/plots/value_text.h"
-#include "ui/session/judged_view.h"
+#include "ui/session/view/judged_view.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

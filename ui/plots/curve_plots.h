@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "ui/plots/plot_series.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 namespace batten {
 

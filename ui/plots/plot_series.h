@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "ui/session/curves/extremum_marks.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/extremum_marks.h"
-#include "ui/session/judged_curve.h"
+#include "ui/session/view/judged_curve.h"
 
 namespace batten {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "ui/plots/curve_plots.h"
-#include "ui/session/place_text.h"
+#include "ui/session/text/place_text.h"
 
 namespace batten {
 namespace {

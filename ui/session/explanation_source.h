@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/document/explain/explanation.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/inbox.h"
 
 namespace batten {
 

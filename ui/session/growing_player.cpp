@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "ui/session/background/guarded.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/guarded.h"
 
 namespace batten {
 namespace {

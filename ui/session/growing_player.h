@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/pipeline/run/segment_points.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/inbox.h"
 
 namespace batten {
 

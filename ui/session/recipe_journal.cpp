@@ -13,7 +13,7 @@
 #include "core/base/regular_file.h"
 #include "core/document/unsaved_work.h"
 #include "core/exchange/save_atomically.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 
 namespace batten {
 namespace {

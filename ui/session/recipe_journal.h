@@ -8,9 +8,9 @@
 #include <memory>
 #include <optional>
 
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
 
 namespace batten {
 

@@ -12,10 +12,10 @@
 #include "core/base/platform_memory.h"
 #include "core/pipeline/recipe/recipe_places.h"
 #include "core/pipeline/run/stage_keys.h"
+#include "ui/session/background/guarded.h"
 #include "ui/session/curve_piece.h"
-#include "ui/session/guarded.h"
-#include "ui/session/merge_outputs.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
+#include "ui/session/runs/merge_outputs.h"
 
 namespace batten {
 namespace {

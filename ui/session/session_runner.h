@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
-#include "ui/session/background_worker.h"
-#include "ui/session/coarse_runner.h"
-#include "ui/session/discarded_values.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/discarded_values.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
-#include "ui/session/opened_scan.h"
-#include "ui/session/overtaken_runs.h"
-#include "ui/session/target_runner.h"
+#include "ui/session/files/opened_scan.h"
+#include "ui/session/runs/coarse_runner.h"
+#include "ui/session/runs/overtaken_runs.h"
+#include "ui/session/runs/target_runner.h"
 
 namespace batten {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/base/conventions.h"
-#include "ui/session/guarded.h"
-#include "ui/session/path_text.h"
+#include "ui/session/background/guarded.h"
+#include "ui/session/files/path_text.h"
 #include "ui/session/session_runner.h"
 
 namespace batten {

@@ -6,8 +6,8 @@
 #include "core/base/angle.h"
 #include "core/contour/corner/corner_suggestions.h"
 #include "core/pipeline/run/corner_places.h"
+#include "ui/session/background/guarded.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/guarded.h"
 
 namespace batten {
 SuggestionSource::SuggestionSource(EditorSession& session) : QObject(&session), session_(session) {}

@@ -7,8 +7,8 @@
 
 #include "core/contour/corner/corner_marks.h"
 #include "core/contour/corner/corner_suggestions.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/inbox.h"
 
 namespace batten {
 

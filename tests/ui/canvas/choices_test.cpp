@@ -14,7 +14,7 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/stages/curves/method_table.h"
 #include "ui/plots/curve_plots.h"
-#include "ui/session/extremum_marks.h"
+#include "ui/session/curves/extremum_marks.h"
 
 namespace batten {
 namespace {

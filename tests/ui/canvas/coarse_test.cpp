@@ -11,8 +11,8 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/layers/raster_layer.h"
-#include "ui/session/coarse_runner.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/inbox.h"
+#include "ui/session/runs/coarse_runner.h"
 
 namespace batten {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/document/unsaved_work.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 #include "ui/session/recipe_journal.h"
 
 namespace batten {

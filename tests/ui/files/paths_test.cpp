@@ -18,7 +18,7 @@
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/stages/export/export_panel.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 #include "ui/session/recipe_journal.h"
 
 namespace batten {

@@ -18,7 +18,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/curves/method_table.h"
 #include "ui/panels/stages/curves/pin_panel.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 
 namespace batten {
 namespace {

@@ -22,10 +22,10 @@
 #include "ui/panels/stages/curves/pin_panel.h"
 #include "ui/panels/stages/fairing_figures.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/curves/extremum_marks.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
-#include "ui/session/extremum_marks.h"
-#include "ui/session/judged_view.h"
+#include "ui/session/view/judged_view.h"
 
 namespace batten {
 namespace {

@@ -20,7 +20,7 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
 #include "ui/session/edits/like_edits.h"
-#include "ui/session/profile_library.h"
+#include "ui/session/files/profile_library.h"
 
 namespace batten {
 namespace {

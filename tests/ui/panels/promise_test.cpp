@@ -10,8 +10,8 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/fairing_figures.h"
-#include "ui/session/curve_names.h"
-#include "ui/session/tolerance_offer.h"
+#include "ui/session/curves/curve_names.h"
+#include "ui/session/runs/tolerance_offer.h"
 
 namespace batten {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/inbox.h"
+#include "ui/session/background/inbox.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <QElapsedTimer>
 
 #include "tests/ui/rendered_scan.h"
-#include "ui/session/overtaken_runs.h"
+#include "ui/session/runs/overtaken_runs.h"
 
 namespace batten {
 namespace {

@@ -15,8 +15,8 @@
 #include "core/pipeline/run/piece_choices.h"
 #include "tests/ui/rendered_scan.h"
 #include "ui/commands/action_catalog.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/discarded_values.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/discarded_values.h"
 
 namespace batten {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "tests/ui/rendered_scan.h"
 #include "tests/ui/scarce_threads.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/painting_threads.h"
-#include "ui/session/thread_shortage.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/painting_threads.h"
+#include "ui/session/background/thread_shortage.h"
 
 namespace batten {
 namespace {

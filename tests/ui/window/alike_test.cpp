@@ -20,8 +20,8 @@
 #include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
-#include "ui/session/curve_names.h"
-#include "ui/session/extremum_marks.h"
+#include "ui/session/curves/curve_names.h"
+#include "ui/session/curves/extremum_marks.h"
 
 namespace batten {
 namespace {

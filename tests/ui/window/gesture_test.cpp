@@ -9,7 +9,7 @@
 
 #include "tests/ui/window_fixture.h"
 #include "ui/error_strip.h"
-#include "ui/session/extremum_marks.h"
+#include "ui/session/curves/extremum_marks.h"
 
 namespace batten {
 namespace {

@@ -5,7 +5,7 @@
 #include <QProcess>
 
 #include "tests/ui/window_fixture.h"
-#include "ui/session/painting_threads.h"
+#include "ui/session/background/painting_threads.h"
 
 namespace batten {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "core/base/conventions.h"
 #include "ui/canvas/layers/text_box.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/piece_choice.h"
-#include "ui/session/judged_view.h"
-#include "ui/session/page_text.h"
-#include "ui/session/place_text.h"
+#include "ui/session/text/page_text.h"
+#include "ui/session/text/place_text.h"
+#include "ui/session/view/judged_view.h"
 
 namespace batten {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/fairing/target/natural_spans.h"
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/session/edits/fairing_edits.h"
-#include "ui/session/judged_view.h"
+#include "ui/session/view/judged_view.h"
 
 namespace batten {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/canvas/scene/canvas_scene.h"
 #include "ui/session/growing_player.h"
-#include "ui/session/judged_view.h"
+#include "ui/session/view/judged_view.h"
 
 namespace batten {
 

@@ -14,9 +14,9 @@
 #include "ui/canvas/scene/curve_shapes.h"
 #include "ui/canvas/scene/tile_pyramid.h"
 #include "ui/canvas/scene/view_transform.h"
+#include "ui/session/curves/extremum_marks.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/extremum_marks.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 namespace batten {
 

@@ -3,7 +3,7 @@
 
 #include "core/construct/polygon/control_polygon.h"
 #include "ui/canvas/scene/curve_shapes.h"
-#include "ui/session/judged_view.h"
+#include "ui/session/view/judged_view.h"
 
 namespace batten {
 

@@ -6,8 +6,8 @@
 
 #include "core/base/run_context.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/judged_curve.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/judged_curve.h"
+#include "ui/session/view/view_settings.h"
 
 namespace batten {
 

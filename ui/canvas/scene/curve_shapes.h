@@ -8,7 +8,7 @@
 
 #include "core/base/run_context.h"
 #include "core/pipeline/run/pipeline.h"
-#include "ui/session/judged_curve.h"
+#include "ui/session/view/judged_curve.h"
 
 namespace batten {
 

@@ -10,7 +10,7 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/direction_edits.h"
 
 namespace batten {

@@ -8,10 +8,10 @@
 #include "core/image/colour/ink_picker.h"
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/guarded.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/edits/ink_edits.h"
-#include "ui/session/guarded.h"
-#include "ui/session/inbox.h"
 
 namespace batten {
 namespace {

@@ -7,7 +7,7 @@
 #include "ui/canvas/layers/choice_layer.h"
 #include "ui/canvas/layers/left_out_layer.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/piece_choice.h"
 
 namespace batten {

@@ -7,9 +7,9 @@
 #include <QPen>
 
 #include "ui/canvas/scene/canvas_colors.h"
+#include "ui/session/curves/pen_fairness.h"
 #include "ui/session/edits/pen_edits.h"
-#include "ui/session/fairness_text.h"
-#include "ui/session/pen_fairness.h"
+#include "ui/session/text/fairness_text.h"
 
 namespace batten {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "ui/canvas/layers/junction_layer.h"
 #include "ui/canvas/layers/text_box.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/junction_edits.h"
 #include "ui/session/edits/pen_edits.h"
-#include "ui/session/judged_view.h"
+#include "ui/session/view/judged_view.h"
 
 namespace batten {
 namespace {

@@ -13,7 +13,7 @@
 #include "ui/canvas/layers/region_grid_layer.h"
 #include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/session/grey_scale.h"
+#include "ui/session/view/grey_scale.h"
 
 namespace batten {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/base/platform.h"
 #include "ui/panels/controls/save_here_dialog.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 
 namespace batten {
 namespace {

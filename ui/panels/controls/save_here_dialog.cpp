@@ -11,7 +11,7 @@
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/save_dialog.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 
 namespace batten {
 

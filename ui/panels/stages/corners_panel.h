@@ -8,7 +8,7 @@
 
 #include "core/contour/corner/corner_suggestions.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 class QLabel;
 class QListWidget;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 class QCheckBox;
 class QLabel;

@@ -8,7 +8,7 @@
 #include "core/fairing/target_advice.h"
 #include "ui/panels/stages/fairing_panel.h"
 #include "ui/session/edits/fairing_edits.h"
-#include "ui/session/judged_curve.h"
+#include "ui/session/view/judged_curve.h"
 
 namespace batten {
 namespace {

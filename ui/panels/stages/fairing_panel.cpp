@@ -22,7 +22,7 @@
 #include "ui/panels/stages/profile_shelf.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
-#include "ui/session/tolerance_offer.h"
+#include "ui/session/runs/tolerance_offer.h"
 
 namespace batten {
 namespace {

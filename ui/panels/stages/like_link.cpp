@@ -17,9 +17,9 @@
 
 #include "core/fairing/profile/like_profile.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/like_edits.h"
-#include "ui/session/profile_library.h"
+#include "ui/session/files/profile_library.h"
 
 namespace batten {
 namespace {

@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/guarded.h"
+#include "ui/session/background/guarded.h"
 
 namespace batten {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "core/pipeline/run/merge_advice.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
 
 class QLabel;
 class QPushButton;

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "ui/session/edits/like_edits.h"
-#include "ui/session/profile_library.h"
+#include "ui/session/files/profile_library.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

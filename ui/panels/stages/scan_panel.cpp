@@ -21,7 +21,7 @@
 #include "ui/panels/stages/rectify_controls.h"
 #include "ui/panels/stages/scale_controls.h"
 #include "ui/session/edits/ink_edits.h"
-#include "ui/session/page_text.h"
+#include "ui/session/text/page_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -10,9 +10,9 @@
 
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/slider_track.h"
-#include "ui/session/change_view.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/change_view.h"
+#include "ui/session/view/view_settings.h"
 
 namespace batten {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "ui/session/editor_session.h"
-#include "ui/session/grey_scale.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/grey_scale.h"
+#include "ui/session/view/view_settings.h"
 
 class QCheckBox;
 class QLabel;

@@ -17,7 +17,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/targets/shape_view.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/theme/minus_sign.h"
 #include "ui/theme/theme.h"

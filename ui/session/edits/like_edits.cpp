@@ -3,7 +3,7 @@
 
 #include "core/fairing/profile/like_profile.h"
 #include "ui/session/edits/fairing_edits.h"
-#include "ui/session/profile_library.h"
+#include "ui/session/files/profile_library.h"
 
 namespace batten {
 

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 namespace batten {
 

@@ -13,11 +13,11 @@
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/curves/curve_row.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/guarded.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/piece_choice.h"
-#include "ui/session/fairness_text.h"
-#include "ui/session/guarded.h"
+#include "ui/session/text/fairness_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

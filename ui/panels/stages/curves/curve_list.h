@@ -10,9 +10,9 @@
 #include "core/base/cancel_token.h"
 #include "core/base/result.h"
 #include "core/fairing/curve_fairness.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
-#include "ui/session/judged_curve.h"
+#include "ui/session/view/judged_curve.h"
 
 class QScrollArea;
 class QSpacerItem;

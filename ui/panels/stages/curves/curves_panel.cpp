@@ -21,9 +21,9 @@
 #include "ui/panels/stages/curves/method_table.h"
 #include "ui/panels/stages/curves/paper_row.h"
 #include "ui/panels/stages/curves/pin_panel.h"
+#include "ui/session/curves/selected_width.h"
 #include "ui/session/edits/pen_edits.h"
 #include "ui/session/edits/piece_choice.h"
-#include "ui/session/selected_width.h"
 
 namespace batten {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 class QLabel;
 class QPushButton;

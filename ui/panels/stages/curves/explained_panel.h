@@ -4,7 +4,7 @@
 #include <QWidget>
 
 #include "ui/session/editor_session.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 class QCheckBox;
 class QLabel;

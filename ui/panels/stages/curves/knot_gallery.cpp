@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

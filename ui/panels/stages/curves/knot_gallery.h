@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/construct/polygon/control_polygon.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
 
 namespace batten {
 

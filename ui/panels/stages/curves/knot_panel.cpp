@@ -11,7 +11,7 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/stages/curves/knot_gallery.h"
 #include "ui/panels/stages/curves/knot_strip.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

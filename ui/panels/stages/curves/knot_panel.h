@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "core/construct/polygon/control_polygon.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
-#include "ui/session/view_settings.h"
+#include "ui/session/view/view_settings.h"
 
 class QCheckBox;
 class QLabel;

@@ -14,10 +14,10 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/setting_name.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/background/guarded.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/piece_choice.h"
-#include "ui/session/guarded.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

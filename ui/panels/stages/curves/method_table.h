@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
 
 namespace batten {
 

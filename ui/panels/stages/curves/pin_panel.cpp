@@ -13,7 +13,7 @@
 #include "ui/panels/controls/lines_note.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/curves/method_table.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
 
 namespace batten {
 namespace {

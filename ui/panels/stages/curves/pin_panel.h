@@ -4,8 +4,8 @@
 #include <QWidget>
 #include <memory>
 
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
 
 class QPushButton;
 

@@ -12,7 +12,7 @@
 #include <array>
 
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -8,7 +8,7 @@
 
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 
 namespace batten {
 namespace {

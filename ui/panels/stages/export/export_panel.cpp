@@ -22,10 +22,10 @@
 #include "ui/panels/stages/export/export_preview.h"
 #include "ui/panels/stages/export/report_section.h"
 #include "ui/panels/stages/export/svg_carrier.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/curve_names.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/direction_edits.h"
-#include "ui/session/path_text.h"
+#include "ui/session/files/path_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -9,8 +9,8 @@
 
 #include "ui/panels/stages/export/export_folder.h"
 #include "ui/panels/stages/export/export_job.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
 
 class QLabel;
 class QLineEdit;

@@ -11,7 +11,7 @@
 #include "core/curve/arc_length.h"
 #include "core/exchange/model/arrangement.h"
 #include "core/exchange/model/cad_drawing.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

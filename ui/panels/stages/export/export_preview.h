@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ui/panels/stages/export/export_job.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/inbox.h"
 
 namespace batten {
 

@@ -20,8 +20,8 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/stages/export/export_folder.h"
-#include "ui/session/background_worker.h"
-#include "ui/session/path_text.h"
+#include "ui/session/background/background_worker.h"
+#include "ui/session/files/path_text.h"
 
 namespace batten {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/document/report_pages/report_file.h"
+#include "ui/session/background/inbox.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/inbox.h"
 
 class QComboBox;
 class QLabel;

@@ -11,7 +11,7 @@
 #include <new>
 
 #include "core/base/conventions.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/background/background_worker.h"
 
 namespace batten {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "ui/panels/stages/export/export_job.h"
-#include "ui/session/inbox.h"
+#include "ui/session/background/inbox.h"
 
 class QWidget;
 
