@@ -17,8 +17,6 @@ constexpr int kChecksPerSpan = 12, kMostChecks = 400;  // at least and at most, 
 /// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
 constexpr double kMeasured = 0.999;
 constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
-/// Of the largest distance: where a curve is no farther, no peak between that place and the next one exceeds it.
-constexpr double kClearlyNearer = 0.8;
 /// A move that is too long is shortened to this part of what is allowed: the deviation is all but proportional to it,
 /// and rounding must not make another round of it. Never to less than a hundredth at once.
 constexpr double kShrinkRoom = 0.9995, kMostShrinking = 0.01;
@@ -31,67 +29,25 @@ constexpr double kUnseenSeam = 1.01;
 constexpr double kUnseenOverFewerKnots = 1.015;
 constexpr double kMostTurn = 0.5;  // [rad] of the curve from place to place
 
-/// How far equally spaced points of a span of `from` are from their feet on `to`, a curve of similar course.
+/// Largest distance of `count` + 1 equally spaced points of a span of `from` from their feet on `to`, a curve of
+/// similar course; peaks between them by a parabola. `hint` says where on `to` a foot is looked for.
 template <class Hint>
-class SpanDistances {
- public:
-  /// @param hint where on `to` the foot of a place is looked for.
-  SpanDistances(const SpanCurve& from, const SpanCurve& to, int span, int count, const Hint& hint)
-      : from_(from), to_(to), span_(span), count_(count), hint_(hint), places_(count + 1) {}
-
-  /// The largest, or `known` where that is more; peaks between the points by a parabola. The feet of points that are
-  /// clearly nearer are not looked for.
-  double largest(double known) {
-    double largest = known;
-    for (int i = 0; i <= count_; ++i) {
-      places_[i].distance = distanceFromStart(i);
-      if (!(places_[i].distance <= kClearlyNearer * largest)) findFoot(i);
-      if (!std::isfinite(places_[i].distance)) return std::numeric_limits<double>::infinity();
-      if (places_[i].isFoot) largest = std::max(largest, places_[i].distance);
-    }
-    for (int i = 1; i < count_; ++i)
-      if (places_[i].distance > kClearlyNearer * largest) largest = std::max(largest, peakAt(i));
-    return largest;
-  }
-
- private:
-  struct Place {
-    double distance = 0.0;  ///< Of the foot, or no less than that.
-    bool isFoot = false;
-  };
-  SpanPlace placeOf(int i) const { return {span_, static_cast<double>(i) / count_}; }
-  /// Where the foot is likely: as far ahead of the hint, in the parameter, as the foot before was.
-  SpanPlace startOf(int i) const {
-    const SpanPlace near = hint_(placeOf(i));
-    return {near.span, std::clamp(near.tau + ahead_ / to_.basis().width(near.span), 0.0, 1.0)};
-  }
-  double distanceFromStart(int i) const { return (to_.at(startOf(i), 0)[0] - from_.at(placeOf(i), 0)[0]).norm(); }
-  void findFoot(int i) {
-    if (places_[i].isFoot) return;
-    const SpanPlace near = hint_(placeOf(i));
-    const Vec2 point = from_.at(placeOf(i), 0)[0];
-    const SpanPlace foot = footPoint(to_, point, startOf(i));
-    ahead_ = foot.span == near.span ? (foot.tau - near.tau) * to_.basis().width(near.span) : 0.0;
-    places_[i] = {(to_.at(foot, 0)[0] - point).norm(), true};
-  }
-  double peakAt(int i) {
-    for (const int k : {i - 1, i, i + 1}) findFoot(k);
-    const double before = places_[i - 1].distance, here = places_[i].distance, next = places_[i + 1].distance;
+double largestInSpan(const SpanCurve& from, const SpanCurve& to, int span, int count, const Hint& hint) {
+  double largest = 0.0, before = 0.0, here = 0.0;
+  for (int i = 0; i <= count; ++i) {
+    const SpanPlace place{span, static_cast<double>(i) / count};
+    const Vec2 point = from.at(place, 0)[0];
+    const double next = (to.at(footPoint(to, point, hint(place)), 0)[0] - point).norm();
+    if (!std::isfinite(next)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, next);
     const double bend = before - 2.0 * here + next;
-    if (!(here >= before && here >= next && bend < 0.0)) return std::max({before, here, next});
-    return here - (before - next) * (before - next) / (8.0 * bend);
+    if (i >= 2 && here >= before && here >= next && bend < 0.0) {
+      largest = std::max(largest, here - (before - next) * (before - next) / (8.0 * bend));
+    }
+    before = here;
+    here = next;
   }
-
-  const SpanCurve &from_, &to_;
-  int span_, count_;
-  const Hint& hint_;
-  double ahead_ = 0.0;
-  std::vector<Place> places_;
-};
-
-template <class Hint>
-double largestInSpan(const SpanCurve& from, const SpanCurve& to, int span, int count, double known, const Hint& hint) {
-  return SpanDistances(from, to, span, count, hint).largest(known);
+  return largest;
 }
 
 /// How closely a span must be looked at. Between places 1/n apart the difference of the curves bends away by no more
@@ -128,35 +84,33 @@ int farthestSpan(const SpanCurve& a, const SpanCurve& b) {
   return farthest;
 }
 
-/// Of two curves over one basis, or `known` where that is more; where it is more than `enough`, no more than that.
-double largestDistance(const SpanCurve& from, const SpanCurve& to, double known, double enough, CancelCheck check) {
+/// Of two curves over one basis; no more than that it is more than `enough`, where it is.
+double largestDistance(const SpanCurve& from, const SpanCurve& to, double enough, CancelCheck check) {
   const auto same = [](const SpanPlace& place) { return place; };
-  double largest = known;
+  double largest = 0.0;
   const int spans = from.basis().spanCount();
-  const auto isOver = [&] { return (largest > enough && std::isfinite(largest)) || check.isCancelled(); };
-  // Where the largest distance is likely is looked first: the feet of all that is nearer need not be found.
-  if (!isOver()) largest = largestInSpan(from, to, farthestSpan(from, to), kChecksPerSpan, largest, same);
-  for (int span = 0; span < spans && !isOver(); ++span)
-    largest = largestInSpan(from, to, span, kChecksPerSpan, largest, same);
+  const auto isMore = [&] { return largest > enough && std::isfinite(largest); };
+  if (std::isfinite(enough) && !check.isCancelled())
+    largest = largestInSpan(from, to, farthestSpan(from, to), kChecksPerSpan, same);
+  for (int span = 0; span < spans && !isMore() && !check.isCancelled(); ++span)
+    largest = std::max(largest, largestInSpan(from, to, span, kChecksPerSpan, same));
   if (!std::isfinite(largest)) return std::numeric_limits<double>::max();
-  for (int span = 0; span < spans && largest > 0.0 && !isOver(); ++span) {
+  for (int span = 0; span < spans && largest > 0.0 && !isMore() && !check.isCancelled(); ++span) {
     const int checks = checksFor(from, to, span, largest);
-    if (checks > kChecksPerSpan) largest = largestInSpan(from, to, span, checks, largest, same);
+    if (checks > kChecksPerSpan) largest = std::max(largest, largestInSpan(from, to, span, checks, same));
   }
   return std::isfinite(largest) ? largest : std::numeric_limits<double>::max();
 }
 
 /// Of a curve over fewer knots and the sketched one.
-double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays, double known,
-                                     double enough) {
-  constexpr double kRounding = 1.0 - 1e-12;  // what is known is no more than `enough` when it comes back
+double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays, double enough) {
   const int spans = setup.basis.spanCount(), sketched = setup.reference.basis().spanCount();
   const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
-  double largest = known / kUnseenOverFewerKnots * kRounding;
+  double largest = 0.0;
   const auto isMore = [&] { return kUnseenOverFewerKnots * largest > enough && std::isfinite(largest); };
   for (int span = 0; span < spans && !isMore() && !setup.check.isCancelled(); ++span) {
-    largest = largestInSpan(curve, setup.reference, span, turnsFor(curve, span, checks), largest,
-                            [&](const SpanPlace& place) { return setup.sketchedPlace(place); });
+    largest = std::max(largest, largestInSpan(curve, setup.reference, span, turnsFor(curve, span, checks),
+                                              [&](const SpanPlace& place) { return setup.sketchedPlace(place); }));
   }
   const auto shareOf = [&](const SpanPlace& place) {
     return setup.sketch->sampleAt(place) / (setup.closed ? setup.sampleCount() : setup.sampleCount() - 1);
@@ -168,8 +122,9 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
     return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
   };
   for (int span = 0; bothWays && span < sketched && !isMore() && !setup.check.isCancelled(); ++span) {
-    largest = largestInSpan(setup.reference, curve, span, turnsFor(setup.reference, span, kChecksPerSpan), largest,
-                            [&](const SpanPlace& place) { return placeAt(shareOf(place)); });
+    largest =
+        std::max(largest, largestInSpan(setup.reference, curve, span, turnsFor(setup.reference, span, kChecksPerSpan),
+                                        [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
   }
   return std::isfinite(largest) ? kUnseenOverFewerKnots * largest : std::numeric_limits<double>::max();
 }
@@ -300,13 +255,12 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
   return fromPeriodic(form, setup.original);
 }
 
-double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays, double enoughMm,
-                        double knownMm) {
+double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays, double enoughMm) {
   const SpanCurve curve(setup.basis, points);
-  if (setup.sketch) return largestDistanceOverFewerKnots(setup, curve, bothWays, knownMm, enoughMm);
-  const double there = largestDistance(curve, setup.reference, knownMm, enoughMm, setup.check);
+  if (setup.sketch) return largestDistanceOverFewerKnots(setup, curve, bothWays, enoughMm);
+  const double there = largestDistance(curve, setup.reference, enoughMm, setup.check);
   if (!bothWays || there > enoughMm) return there;
-  return largestDistance(setup.reference, curve, there, enoughMm, setup.check);
+  return std::max(there, largestDistance(setup.reference, curve, enoughMm, setup.check));
 }
 
 FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {

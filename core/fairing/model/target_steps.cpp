@@ -77,12 +77,14 @@ bool TargetStep::isWithin(double mm) const {
   if (deviationMm_) return *deviationMm_ <= mm;
   if (mm == std::numeric_limits<double>::infinity()) return true;
   if (leastMm_ > mm) return false;
-  if (mostMm_ <= mm || kSurelyWithin * largestMove(*setup, points) <= mm) return true;
-  constexpr double kRounding = 1e-9;  // what deviationMm() says is within what it says
-  const double room = mm * (1.0 + kRounding), deviation = largestDeviation(*setup, points, true, room, room);
-  const bool within = deviation <= room;
-  (within ? mostMm_ : leastMm_) = within ? mm : deviation;
-  return within;
+  if (kSurelyWithin * largestMove(*setup, points) <= mm) return true;
+  const double deviation = largestDeviation(*setup, points, true, mm);
+  if (deviation > mm) {
+    leastMm_ = deviation;
+  } else {
+    deviationMm_ = deviation;
+  }
+  return deviation <= mm;
 }
 
 int TargetStep::extrema() const {

@@ -42,8 +42,7 @@ struct TargetStep {
 
  private:
   mutable std::optional<double> deviationMm_;
-  /// What is known of the deviation, where all of it is not.
-  mutable double leastMm_ = 0.0, mostMm_ = std::numeric_limits<double>::infinity();
+  mutable double leastMm_ = 0.0;  ///< Part of the deviation, where all of it is not known.
   mutable std::optional<int> extrema_;
 };
 
