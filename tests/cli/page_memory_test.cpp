@@ -16,7 +16,7 @@ struct PageSize {
   double pixels() const { return 1.0 * width * height; }
 };
 // Blocks of the larger page go back to the system as soon as they are freed.
-constexpr PageSize kSmall{1500, 1000}, kLarge{4000, 3000};
+constexpr PageSize kSmall{1500, 1000}, kLarge{5000, 3600};
 
 /// What is on a page: an outline at its upper left, and over all of it lines.
 struct PageKind {
