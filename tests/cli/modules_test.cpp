@@ -20,11 +20,7 @@ class WithoutModules : public test::Program {
     write("roof.csv", "curve,x_mm,y_mm\nroof,0,0\nroof,30,12\nroof,60,15\nroof,90,10\n");
   }
   test::Outcome traceTo(const std::string& name) const {
-    const std::string command = "'" + file("bin/batten-cli") + "' trace '" + file("roof.csv") + "' -o '" + file(name) +
-                                "' >'" + file("out.txt") + "' 2>'" + file("err.txt") + "'";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::readFile(file("out.txt")),
-            test::readFile(file("err.txt"))};
+    return runProgram(file("bin/batten-cli"), "trace '" + file("roof.csv") + "' -o '" + file(name) + "'");
   }
   void expectRefused(const std::string& name) const {
     const auto outcome = traceTo(name);

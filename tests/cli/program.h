@@ -43,9 +43,11 @@ class Program : public ::testing::Test {
     std::ofstream(file(name), std::ios::binary) << bytes;
   }
   /// Runs the program with these words; words with blanks are to be quoted for the shell.
-  Outcome run(const std::string& words) const {
+  Outcome run(const std::string& words) const { return runProgram(BATTEN_CLI, words); }
+  /// The same of the program in another place.
+  Outcome runProgram(const std::string& program, const std::string& words) const {
     const std::string command =
-        std::string("'" BATTEN_CLI "' ") + words + " >'" + file("out.txt") + "' 2>'" + file("err.txt") + "'";
+        "'" + program + "' " + words + " >'" + file("out.txt") + "' 2>'" + file("err.txt") + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(file("out.txt")), readFile(file("err.txt"))};
   }
