@@ -39,11 +39,6 @@ ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, con
   return made;
 }
 
-/// The pieces [first, last) of one contour.
-struct PieceRange {
-  std::size_t first, last;
-};
-
 std::vector<PieceRange> rangesByContour(const PieceSet& set) {
   std::vector<PieceRange> ranges;
   for (std::size_t i = 0; i < set.pieces.size(); ++i) {
@@ -84,14 +79,6 @@ double inkWidth(const ContourSet& contours, ContourKind kind) {
   if (!widths.empty()) return static_cast<double>(upperMedian(widths));
   // A stroke of width w and length l has about the area w l and an outline of 2 l.
   return length > 0.0 ? std::max(0.0, 2.0 * area / length) : 0.0;
-}
-
-/// Where the pieces of a line stand; empty if it has none.
-PieceRange rangeOf(const PieceSet& set, int contour) {
-  for (const PieceRange& range : rangesByContour(set)) {
-    if (set.pieces[range.first].contour == contour) return range;
-  }
-  return {0, 0};
 }
 
 class ContourBuilder {
@@ -316,6 +303,13 @@ Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& 
                   : "No curve could be made. " + set.failures.front().message);
 }
 
+PieceRange rangeOf(const PieceSet& set, int contour) {
+  for (const PieceRange& range : rangesByContour(set)) {
+    if (set.pieces[range.first].contour == contour) return range;
+  }
+  return {};
+}
+
 ConstructContour contourInput(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments,
                               int contour, const PageFrame& frame) {
   if (segments.pieces.size() != pieces.pieces.size()) return {};
@@ -324,12 +318,12 @@ ConstructContour contourInput(const ContourSet& contours, const PieceSet& pieces
   return inputOf(contours, pieces, segments, range, frame);
 }
 
-ConstructedSet constructFromPoints(const PipelineOutput& out, const Recipe& recipe, std::size_t first, std::size_t last,
+ConstructedSet constructFromPoints(const PipelineOutput& out, const Recipe& recipe, const PieceRange& range,
                                    const RunContext& context) {
   Recipe alike = recipe;
   alike.choices.clear();
   const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
-  return builder.buildFromPoints({first, last});
+  return builder.buildFromPoints(range);
 }
 
 }  // namespace batten

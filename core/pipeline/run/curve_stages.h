@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {
+
+/// The pieces [first, last) of one contour, which stand together.
+struct PieceRange {
+  std::size_t first = 0, last = 0;
+};
+/// Where the pieces of a contour stand; empty if it has none.
+PieceRange rangeOf(const PieceSet&, int contour);
 
 /// Places of the points of a piece in the model frame.
 std::vector<Vec2> pointsToModel(std::span<const PiecePoint>, const PageFrame&);
@@ -25,9 +34,8 @@ Result<ConstructedSet> constructAll(const ContourSet&, const PieceSet&, const Se
 /// What the constructions take of one contour: all its pieces. Empty if it has none.
 ConstructContour contourInput(const ContourSet&, const PieceSet&, const SegmentSet&, int contour, const PageFrame&);
 
-/// The pieces [first, last) of one line constructed from their points, whatever the user chose for its curves. What
-/// gave no curve is listed.
-ConstructedSet constructFromPoints(const PipelineOutput&, const Recipe&, std::size_t first, std::size_t last,
-                                   const RunContext&);
+/// Pieces of one line constructed from their points, whatever the user chose for its curves. What gave no curve is
+/// listed.
+ConstructedSet constructFromPoints(const PipelineOutput&, const Recipe&, const PieceRange&, const RunContext&);
 
 }  // namespace batten

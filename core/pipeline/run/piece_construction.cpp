@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/run/piece_construction.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <new>
@@ -17,7 +16,8 @@ Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& reci
   if (!out.pieces || !out.segments || !out.contours || piece < 0 || piece >= std::ssize(out.pieces->pieces))
     return fail(ErrorCode::NoCurve, "There is no such line.");
   try {
-    ConstructedSet made = constructFromPoints(out, recipe, piece, piece + 1, context);
+    const std::size_t at = piece;
+    ConstructedSet made = constructFromPoints(out, recipe, {at, at + 1}, context);
     if (context.isCancelled()) return cancelled();
     if (!made.curves.empty()) return std::move(made.curves.front());
     if (!made.failures.empty()) return fail(made.failures.front());
@@ -29,16 +29,14 @@ Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& reci
 
 Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const Recipe& recipe, int contour,
                                                const RunContext& context) {
-  const std::size_t count = lineInput(out, contour).pieces.size();
-  if (count == 0) return fail(ErrorCode::NoCurve, "There is no such line.");
+  if (lineInput(out, contour).pieces.empty()) return fail(ErrorCode::NoCurve, "There is no such line.");
   try {
-    const std::vector<Piece>& pieces = out.pieces->pieces;  // those of one line stand together
-    const std::size_t first = std::ranges::find(pieces, contour, &Piece::contour) - pieces.begin();
-    ConstructedSet outcome = constructFromPoints(out, recipe, first, first + count, context);
+    const PieceRange range = rangeOf(*out.pieces, contour);
+    ConstructedSet outcome = constructFromPoints(out, recipe, range, context);
     if (context.isCancelled()) return cancelled();
-    std::vector<TracedCurve> curves(count);
+    std::vector<TracedCurve> curves(range.last - range.first);
     for (TracedCurve& curve : outcome.curves) {
-      const std::size_t at = curve.piece - first;
+      const std::size_t at = curve.piece - range.first;
       curves[at] = std::move(curve);
     }
     return curves;

@@ -22,8 +22,6 @@
 #include <TCollection_HAsciiString.hxx>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 #include <sstream>
 
 #include "core/base/conventions.h"
@@ -125,10 +123,9 @@ std::optional<PlainShape> arcOf(const Handle(IGESGeom_CircularArc) & entity) {
   if (!(entity->TransformedAxis().Z() > 0.5)) return std::nullopt;  // seen from behind
   const Vec2 c(centre.X(), centre.Y()), a = Vec2(from.X(), from.Y()) - c, b = Vec2(to.X(), to.Y()) - c;
   if (!(a.norm() > 0.0)) return std::nullopt;
-  constexpr double kFullTurn = 2.0 * std::numbers::pi;  // rad
   const double turn = std::atan2(cross(a, b), a.dot(b));
   const bool whole = a == b;
-  return CadArc{c, a.norm(), std::atan2(a.y(), a.x()), whole ? kFullTurn : turn > 0.0 ? turn : turn + kFullTurn};
+  return CadArc{c, a.norm(), std::atan2(a.y(), a.x()), whole ? kFullTurnRad : turn > 0.0 ? turn : turn + kFullTurnRad};
 }
 
 std::optional<PlainShape> shapeOf(const Handle(IGESData_IGESEntity) & entity) {
@@ -149,7 +146,6 @@ bool isCurve(int type) {
 PlainDrawing drawingIn(const Handle(IGESData_IGESModel) & model) {
   PlainDrawing drawing;
   drawing.mmPerUnit = model->GlobalSection().UnitValue();
-  std::map<int, std::string> layers;
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(IGESData_IGESEntity) entity = model->Entity(i);
     if (entity.IsNull() || !isCurve(entity->TypeNumber())) continue;

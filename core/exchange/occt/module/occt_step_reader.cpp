@@ -27,7 +27,6 @@
 #include <StepShape_GeometricSetSelect.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "core/base/conventions.h"
@@ -35,8 +34,6 @@
 
 namespace batten {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad] a whole one
 
 /// A string of ISO 10303-21 as UTF-8: what stands between \\X2\\ and \\X0\\ is UTF-16 in hexadecimal.
 std::string plain(const Handle(TCollection_HAsciiString) & text) {
@@ -88,7 +85,7 @@ std::optional<CadArc> circleOf(const Handle(StepGeom_Circle) & circle) {
   double start = 0.0;
   if (axes->HasRefDirection())
     start = std::atan2(axes->RefDirection()->DirectionRatiosValue(2), axes->RefDirection()->DirectionRatiosValue(1));
-  return CadArc{place(axes->Location()), circle->Radius(), start, kTurn};
+  return CadArc{place(axes->Location()), circle->Radius(), start, kFullTurnRad};
 }
 
 /// The parameter or the place at which a curve is trimmed.
@@ -129,8 +126,8 @@ std::optional<PlainShape> trimmedOf(const Handle(StepGeom_TrimmedCurve) & curve)
     };
     const auto a = angle(forwards ? first : second), b = angle(forwards ? second : first);
     if (!a || !b) return std::nullopt;
-    const double sweep = std::fmod(*b - *a, kTurn);
-    return CadArc{whole->centre, whole->radius, *a, sweep > 0.0 ? sweep : sweep + kTurn};
+    const double sweep = std::fmod(*b - *a, kFullTurnRad);
+    return CadArc{whole->centre, whole->radius, *a, sweep > 0.0 ? sweep : sweep + kFullTurnRad};
   }
   return std::nullopt;
 }
