@@ -68,15 +68,15 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   for (const Tool tool : kTools)
     if (tool != Tool::Sheet && tool != Tool::Ink) tools.append(action(toolAction(tool)));
   parts_->rail->layout()->addWidget(new ToolList(tools, parts_->rail));
+  column->addWidget(parts_->topBar);
   auto* row = new QHBoxLayout;
   row->setSpacing(0);
-  row->addWidget(parts_->rail);
-  row->addWidget(makeCentre(), 1);
-  row->addWidget(makeInspector());
-  parts_->status = new StatusLine(session_, whole);
-  column->addWidget(parts_->topBar);
-  parts_->errors->layOver(parts_->canvas);
   column->addLayout(row, 1);
+  row->addWidget(parts_->rail);
+  row->addWidget(makeCentre(whole), 1);
+  row->addWidget(makeInspector(whole));
+  parts_->status = new StatusLine(session_, whole);
+  parts_->errors->layOver(parts_->canvas);
   column->addWidget(parts_->status);
   setCentralWidget(whole);
   // The settings at hand follow the drawing; what leads elsewhere comes last.
@@ -101,12 +101,12 @@ MainWindow::~MainWindow() {
   session_.undoStack()->disconnect(this);
   view_.disconnect(this);
   delete parts_->shapes.data();
-  delete takeCentralWidget();
+  delete centralWidget();
 }
 
-QWidget* MainWindow::makeCentre() {
+QWidget* MainWindow::makeCentre(QWidget* whole) {
   Parts& p = *parts_;
-  p.splitter = new QSplitter(Qt::Vertical, this);
+  p.splitter = new QSplitter(Qt::Vertical, whole);
   p.splitter->setHandleWidth(1);
   p.splitter->setObjectName(QStringLiteral("centreSplitter"));
   p.canvas = new CurveCanvas(session_, view_, p.splitter);
@@ -132,46 +132,49 @@ QWidget* MainWindow::makeCentre() {
   return p.splitter;
 }
 
-QWidget* MainWindow::makeInspector() {
+// A widget that comes to another parent is styled anew, with all that it holds: so each has its own from the start.
+QWidget* MainWindow::makeInspector(QWidget* whole) {
   Parts& p = *parts_;
-  p.inspector = new QStackedWidget(this);
+  auto* frame = new HairlineFrame(whole);
+  auto* layout = new QVBoxLayout(frame);
+  layout->setContentsMargins(1, 0, 0, 0);
+  p.inspector = new QStackedWidget(frame);
   p.inspector->setObjectName(QStringLiteral("inspector"));
-  p.settings = new SettingFinder(this);
-  connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
-  p.scanPanel = new ScanPanel(session_, view_);
-  connect(p.scanPanel, &ScanPanel::pageChosen, this, &MainWindow::openPage);
-  p.exportPanel = new ExportPanel(session_);
-  auto* curves = new CurvesPanel(session_, view_);
-  connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);
-  auto* fairing = new FairingPanel(session_);
-  connect(fairing, &FairingPanel::comparisonAsked, this, &MainWindow::showShapes);
-  const std::pair<PanelStage, QWidget*> panels[] = {{PanelStage::Scan, p.scanPanel},
-                                                    {PanelStage::Threshold, new ThresholdPanel(session_, view_)},
-                                                    {PanelStage::CleanUp, new CleanUpPanel(session_)},
-                                                    {PanelStage::Edges, new EdgesPanel(session_, view_)},
-                                                    {PanelStage::Corners, new CornersPanel(session_, view_)},
-                                                    {PanelStage::Curves, curves},
-                                                    {PanelStage::Fairing, fairing},
-                                                    {PanelStage::Export, p.exportPanel}};
-  for (const auto& [stage, panel] : panels) {
-    panel->setObjectName(QStringLiteral("panel.") + key(stage));
-    auto* scroll = new QScrollArea;
-    scroll->setWidget(panel);
+  layout->addWidget(p.inspector);
+  frame->setFixedWidth(301);
+  QScrollArea* scroll = nullptr;
+  const auto nextPage = [&] {
+    scroll = new QScrollArea(p.inspector);
     scroll->setWidgetResizable(true);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setFocusPolicy(Qt::NoFocus);
     p.inspector->addWidget(scroll);
+    return scroll->viewport();
+  };
+  p.settings = new SettingFinder(this);
+  connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
+  const auto add = [&](PanelStage stage, QWidget* panel) {
+    panel->setObjectName(QStringLiteral("panel.") + key(stage));
+    scroll->setWidget(panel);
     p.settings->add(stage, scroll);
     // Keys typed after Enter are the drawing's.
     for (auto* field : panel->findChildren<NumberField*>())
       connect(field, &NumberField::entered, p.canvas, [this] { parts_->canvas->setFocus(Qt::OtherFocusReason); });
-  }
-  auto* frame = new HairlineFrame(this);
-  auto* layout = new QVBoxLayout(frame);
-  layout->setContentsMargins(1, 0, 0, 0);
-  layout->addWidget(p.inspector);
-  frame->setFixedWidth(301);
+  };
+  add(PanelStage::Scan, p.scanPanel = new ScanPanel(session_, view_, nextPage()));
+  add(PanelStage::Threshold, new ThresholdPanel(session_, view_, nextPage()));
+  add(PanelStage::CleanUp, new CleanUpPanel(session_, nextPage()));
+  add(PanelStage::Edges, new EdgesPanel(session_, view_, nextPage()));
+  add(PanelStage::Corners, new CornersPanel(session_, view_, nextPage()));
+  auto* curves = new CurvesPanel(session_, view_, nextPage());
+  add(PanelStage::Curves, curves);
+  auto* fairing = new FairingPanel(session_, nextPage());
+  add(PanelStage::Fairing, fairing);
+  add(PanelStage::Export, p.exportPanel = new ExportPanel(session_, nextPage()));
+  connect(p.scanPanel, &ScanPanel::pageChosen, this, &MainWindow::openPage);
+  connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);
+  connect(fairing, &FairingPanel::comparisonAsked, this, &MainWindow::showShapes);
   return frame;
 }
 

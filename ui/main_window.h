@@ -63,8 +63,8 @@ class MainWindow : public QMainWindow {
  private:
   void makeActions();
   void makeMenus();
-  QWidget* makeInspector();
-  QWidget* makeCentre();
+  QWidget* makeInspector(QWidget* whole);
+  QWidget* makeCentre(QWidget* whole);
   void connectSession();
   void connectActions();
   void connectLayers();

@@ -9,19 +9,24 @@
 #include <QPainterPath>
 #include <QString>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <functional>
 
 #include "ui/session/editor_session.h"
 
 namespace batten::test {
 
-/// Turns the event loop until `done` or the (generous) limit; says whether it was done.
+/// Turns the event loop until `done` or the (generous) limit; says whether it was done. Between events it sleeps: what it
+/// waits for needs the processors.
 inline bool waitUntil(const std::function<bool()>& done, int limitMs = 60000) {
+  constexpr int kLookAgainMs = 2;  // where nothing happens
   QElapsedTimer timer;
   timer.start();
+  QTimer again;
+  again.start(kLookAgainMs);
   while (!done()) {
     if (timer.elapsed() > limitMs) return false;
-    QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
+    QCoreApplication::processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents);
   }
   return true;
 }

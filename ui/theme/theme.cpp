@@ -108,9 +108,11 @@ void applyTheme(ThemeChoice choice) {
     return lines;
   }();
   Q_UNUSED(tips);
+  const QString sheet = sheetOf(theme);
+  if (qApp->styleSheet() == sheet) return;  // or every widget would be styled anew
   QApplication::setFont(uiFont());
   QApplication::setPalette(paletteOf(theme));
-  qApp->setStyleSheet(sheetOf(theme));
+  qApp->setStyleSheet(sheet);
 }
 
 QFont uiFont(int pixelSize, QFont::Weight weight) {
