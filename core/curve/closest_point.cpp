@@ -302,6 +302,7 @@ Deviation deviation(const NurbsCurve& a, const NurbsCurve& b, CancelCheck check)
   Follower follower(b, check);
   const std::vector<CurveSample> samples = sampleByArcLength(a, std::max(201, 10 * spans + 1), check);
   std::vector<Vec2> points;
+  points.reserve(samples.size());
   for (const CurveSample& sample : samples) points.push_back(sample.point);
   const std::vector<double> distances = distancesAlong(follower, points, check);
   if (distances.size() < points.size()) return {};

@@ -151,6 +151,7 @@ std::vector<Profile::Point> fromMostBent(const Profile& profile, bool periodic) 
 
 std::vector<ExtremumIndex> extremaOf(const std::vector<Profile::Point>& points, double prominence, bool periodic) {
   std::vector<double> kappas;
+  kappas.reserve(points.size());
   for (const Profile::Point& p : points) kappas.push_back(p.kappa);
   return extremumIndices(kappas, prominence, periodic ? SequenceStart::OnMaximum : SequenceStart::AtEnd);
 }

@@ -79,7 +79,8 @@ Result<NurbsCurve> startedAt(const NurbsCurve& closed, double u) {
 
 NurbsCurve startedNear(const NurbsCurve& closed, const Vec2& place) {
   auto started = startedAt(closed, closestPoint(closed, place).u);
-  return started ? std::move(*started) : closed;
+  if (!started) return closed;
+  return std::move(*started);
 }
 
 }  // namespace batten

@@ -276,7 +276,8 @@ NurbsCurve reversed(const NurbsCurve& curve) {
   auto result =
       NurbsCurve::make(curve.degree(), std::move(knots), {curve.controlPoints().rbegin(), curve.controlPoints().rend()},
                        {curve.weights().rbegin(), curve.weights().rend()});
-  return result ? std::move(*result) : curve;
+  if (!result) return curve;
+  return std::move(*result);
 }
 
 Result<NurbsCurve> reparametrized(const NurbsCurve& curve, double start, double end) {

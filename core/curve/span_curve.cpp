@@ -212,7 +212,7 @@ SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : bas
   coefficients_.assign(std::ptrdiff_t{basis.spanCount()} * (p + 1), Vec2::Zero());
   for (int s = 0; s < basis.spanCount(); ++s) {
     // The functions add up to 1, so points may be taken from one of their own: far from the origin that saves digits.
-    const Vec2 origin = points[basis.point(s, 0)];
+    const Vec2& origin = points[basis.point(s, 0)];
     for (int k = 0; k <= p; ++k) {
       Vec2& c = coefficients_[std::ptrdiff_t{s} * (p + 1) + k];
       if (k == 0) c = origin;

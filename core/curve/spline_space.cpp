@@ -7,6 +7,7 @@ namespace batten {
 
 std::vector<Vec2> SplineSpace::unrolled(const std::vector<Vec2>& controlPoints) const {
   std::vector<Vec2> all;
+  all.reserve(count);
   for (int i = 0; i < count; ++i) all.push_back(controlPoints[i % unknowns]);
   return all;
 }

@@ -199,6 +199,7 @@ Result<NurbsCurve> UniformQuintic::toNurbs(const Vec2& startShift, const Vec2& e
     points.push_back(point + (1.0 - greville) * startShift + greville * endShift);
   }
   std::vector<double> clampedKnots;
+  clampedKnots.reserve(places.size());
   for (const int place : places) clampedKnots.push_back(place == m ? knots_.length : place * knots_.spacing());
   return NurbsCurve::make(5, std::move(clampedKnots), std::move(points));
 }

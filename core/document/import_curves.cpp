@@ -81,8 +81,10 @@ CurveNumbers numbersOf(const ImportedFile& file, std::span<const NamedPart> part
     for (int k = 0; k < kPlaces; ++k) one.placesPx.push_back(frame.pointToImage(placeAt((k + 0.5) / kPlaces)));
   };
   for (const ImportedLine& line : file.lines) {
-    for (const auto& [curve, name] : line.curves)
-      add(name, [&](double part) { return curve.point(curve.start() + part * (curve.end() - curve.start())); });
+    for (const auto& named : line.curves) {
+      const NurbsCurve& curve = named.curve;
+      add(named.name, [&](double part) { return curve.point(curve.start() + part * (curve.end() - curve.start())); });
+    }
     if (!line.points.empty()) add(line.name, [&](double along) { return pointAlong(line, wholeOf(line), along); });
   }
   for (const NamedPart& part : parts) {

@@ -228,6 +228,7 @@ void addComparisons(const PipelineOutput& out, ReportJson& curves) {
   const auto& all = out.faired->curves;
   if (std::ssize(all) < 2 || std::ssize(all) > kMostCompared) return;
   std::vector<ShapeProfile> shapes;
+  shapes.reserve(all.size());
   for (const TracedCurve& c : all) shapes.push_back(c.included ? shapeProfile(c.faired, c.closed) : ShapeProfile{});
   for (int i = 0; i < std::ssize(all); ++i) {
     std::optional<ShapeComparison> best;

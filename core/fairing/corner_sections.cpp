@@ -83,6 +83,7 @@ Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std:
                                 std::vector<FairedCurve> parts, CancelCheck check) {
   FairedCurve result;
   std::vector<ProfileSpan> spans;
+  spans.reserve(sections.size());
   for (const CornerSection& section : sections) spans.push_back(section.span);
   std::vector<NurbsCurve> curves;
   for (FairedCurve& part : parts) {

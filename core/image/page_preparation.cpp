@@ -153,7 +153,8 @@ void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& con
   std::optional<ToneAreas> areas = findToneAreas(*copy, context);
   if (!areas && !context.isCancelled()) areas = findPencilTones(*copy, context);
   if (!areas || context.isCancelled()) return;
-  page.grey = withoutTones(page.grey ? std::move(*page.grey) : scan.grey, *areas, context);
+  if (!page.grey) page.grey = scan.grey;
+  page.grey = withoutTones(std::move(*page.grey), *areas, context);
   page.shadedShare = areas->share;
   page.notes.push_back("Shading on " + roundedText(100.0 * areas->share, areas->share < 0.01 ? 1 : 0) +
                        " % of the page was left out, so that the lines on it are found; paper.shading=keep traces it.");

@@ -123,6 +123,7 @@ std::vector<float> gaussianKernel(double variance) {
     sum += (k == 0 ? 1.0 : 2.0) * taps.back();
   }
   std::vector<float> kernel;
+  kernel.reserve(taps.size());
   for (const double tap : taps) kernel.push_back(static_cast<float>(tap / sum));
   return kernel;
 }

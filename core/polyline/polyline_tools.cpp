@@ -168,7 +168,7 @@ LocalQuadratic fitLocalQuadratic(std::span<const double> s, std::span<const Vec2
   double scale = 0.0;
   for (const double v : s) scale = std::max(scale, std::abs(v));
   if (!(scale > 0.0)) scale = 1.0;
-  const Vec2 origin = points[points.size() / 2];
+  const Vec2& origin = points[points.size() / 2];
   const Moments m = momentsOf(s, points, weights, scale, origin);
   int order = std::clamp(std::min(maxOrder, static_cast<int>(s.size()) - 1), 0, 2);
   Eigen::Matrix<double, 3, 2> c = Eigen::Matrix<double, 3, 2>::Zero();

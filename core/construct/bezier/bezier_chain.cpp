@@ -268,6 +268,7 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double lowPass, co
   }
   const double width = std::max(lowPass * total / distances, kShortestLowPassPx);
   std::vector<double> widths;
+  widths.reserve(shares.size());
   for (const double share : shares) widths.push_back(share * width);
   const auto targets = lowPassedCurvature(stations, closed, widths, places);
   const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), shares, lengths, closed);

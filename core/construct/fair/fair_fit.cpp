@@ -44,6 +44,7 @@ PooledNoise pooledNoise(const std::vector<FairPiece>& pieces, const ConstructCon
                         const FairFitOptions& options) {
   std::vector<std::optional<CutoffTable>> tables;
   std::vector<double> leastVariance;
+  tables.reserve(pieces.size());
   for (const FairPiece& piece : pieces) tables.push_back(piece.table);
   for (const ConstructPiece& piece : contour.pieces) leastVariance.push_back(piece.grain.density / options.blockPx);
   PooledNoise pooled{chooseCutoffs(tables, leastVariance, options.effectiveDofWeight)};

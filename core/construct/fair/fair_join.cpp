@@ -111,6 +111,7 @@ class TightProblem {
     cholesky.solveInPlace(y);
     if (!x.allFinite() || !y.allFinite()) return std::nullopt;
     std::vector<Vec2> controls;
+    controls.reserve(count_);
     for (int i = 0; i < count_; ++i) controls.emplace_back(x[i], y[i]);
     for (const Fixed& f : fixed_) controls[f.index] = f.point;
     return controls;

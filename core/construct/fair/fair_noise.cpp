@@ -113,6 +113,7 @@ double LocalNoise::at(double place) const {
 std::vector<LocalNoise> localNoise(const std::vector<NoiseTrace>& traces) {
   std::vector<LocalNoise> noise(traces.size());
   std::vector<std::vector<NoiseBlock>> blocks;
+  blocks.reserve(traces.size());
   for (const NoiseTrace& trace : traces) blocks.push_back(noiseBlocks(trace));
   const double usual = pooledMean(blocks);
   if (!(usual > 0.0)) return noise;

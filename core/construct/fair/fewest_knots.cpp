@@ -46,6 +46,7 @@ class KnotPlacing {
     const bool closed = full.knots().closed;
     constexpr double kLower = 0.25, kUpper = 0.75;  // places inside a span, whose fourth derivative is straight
     std::vector<Vec2> fifth;
+    fifth.reserve(n);
     for (int j = 0; j < n; ++j) fifth.push_back(full.at((j + kUpper) * h_, 4)[4] - full.at((j + kLower) * h_, 4)[4]);
     // The fifth derivative is constant in a span; its jumps at the knots stand for the sixth.
     const auto jump = [&](int j) {

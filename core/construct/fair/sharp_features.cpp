@@ -266,6 +266,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
     for (int i = 0; i < steps; ++i) parameter.push_back(breaks[j] + width * i / steps);
   }
   parameter.push_back(breaks.back());
+  polygon.reserve(parameter.size());
   for (const double u : parameter) polygon.push_back(curve.point(u));
   for (std::size_t i = 1; i < polygon.size(); ++i) length += (polygon[i] - polygon[i - 1]).norm();
   const int n = static_cast<int>(piece.points.size());

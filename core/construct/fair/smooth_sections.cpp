@@ -37,9 +37,10 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   const NurbsCurve& c = fit.curve;
   const double start = c.start(), end = c.end(), least = kNoLength * (end - start);
   const auto between = [&](double a, double b) -> Result<NurbsCurve> {
-    auto rest = a > start + least ? split(c, a).map([](SplitCurve s) { return s.right; }) : Result<NurbsCurve>(c);
+    auto rest =
+        a > start + least ? split(c, a).map([](SplitCurve s) { return std::move(s.right); }) : Result<NurbsCurve>(c);
     if (!rest || b > end - least) return rest;
-    return split(*rest, b).map([](SplitCurve s) { return s.left; });
+    return split(*rest, b).map([](SplitCurve s) { return std::move(s.left); });
   };
   const double seam = kSeamShare * (end - start);
   if (closed && from > end - seam) from = start;

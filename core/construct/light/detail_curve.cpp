@@ -109,7 +109,8 @@ LightCurve fitOf(const NurbsCurve& dense, const std::vector<Vec2>& points, Light
 
 /// Where a stretch is farthest from its chord.
 std::size_t farthestFromChord(const std::vector<Vec2>& points) {
-  const Vec2 first = points.front(), chord = points.back() - first;
+  const Vec2& first = points.front();
+  const Vec2 chord = points.back() - first;
   const double length = chord.norm();
   std::size_t at = points.size() / 2;
   double most = 0.0;
@@ -126,7 +127,8 @@ std::size_t farthestFromChord(const std::vector<Vec2>& points) {
 
 /// What is left of a spike or a notch: a straight line, if no point lies farther from it than that.
 std::optional<LightCurve> chordOf(const std::vector<Vec2>& points, double most) {
-  const Vec2 first = points.front(), chord = points.back() - first;
+  const Vec2& first = points.front();
+  const Vec2 chord = points.back() - first;
   const double length = chord.norm();
   if (!(length > 0.0)) return std::nullopt;
   for (const Vec2& p : points) {
@@ -269,6 +271,7 @@ std::optional<LightCurve> simplifiedTo(LightForms forms, const NurbsCurve& dense
     simple.report.tries += part.report.tries;
   }
   std::vector<NurbsCurve> curves;
+  curves.reserve(parts.size());
   for (const LightCurve& part : parts) curves.push_back(part.curve);
   auto joined = joinedAtCorners(curves, scale);
   if (!joined) return std::nullopt;

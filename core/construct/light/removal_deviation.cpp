@@ -24,6 +24,7 @@ std::vector<RankedExtremum> extremaOf(const LightReference& reference, double pr
     samples.push_back(samples.front());
   }
   std::vector<double> kappas;
+  kappas.reserve(samples.size());
   for (const LightSample& sample : samples) kappas.push_back(sample.kappa);
   std::vector<RankedExtremum> found;
   const SequenceStart start = reference.isClosed() ? SequenceStart::OnMaximum : SequenceStart::AtEnd;

@@ -96,6 +96,7 @@ std::optional<std::vector<Vec2>> solveSmallestEnergy(const SplineSpace& space, c
   const Eigen::MatrixXd x = lu.solve(right);
   if (!x.allFinite()) return std::nullopt;
   std::vector<Vec2> result;
+  result.reserve(n);
   for (int i = 0; i < n; ++i) result.emplace_back(x.row(i).transpose() + origin);
   return result;
 }

@@ -44,6 +44,7 @@ Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) 
   std::vector<Vec2> around = points;
   for (int i = 0; i < degree; ++i) around.push_back(points[i % points.size()]);
   std::vector<double> knots;
+  knots.reserve(around.size() + std::max(degree, 0) + 1);
   for (int i = 0; i < std::ssize(around) + degree + 1; ++i) knots.push_back(i - degree);
   const double length = polylineLength(points, true);
   auto curve = scaledToLength(degree, std::move(knots), std::move(around), length);

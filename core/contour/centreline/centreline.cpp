@@ -264,10 +264,10 @@ GraininessMap addFaintEnds(PathsFound& found, const GreyImage& grey, const EdgeP
   GraininessMap grain = grainOf(found.strokes.paths, grey, options, context);
   if (context.isCancelled()) return grain;
   const BitImage all = options.shapes != nullptr ? either(*found.bodies, *options.shapes) : *found.bodies;
-  BitImage trails = followFaintEnds(
+  const BitImage trails = followFaintEnds(
       found.strokes.paths, [&](int i) { return grain.isPencil(i); }, all, grey, context, options.pixelsPerPx());
   if (context.isCancelled() || trails.count() == 0) return grain;
-  found.bodies = either(std::move(*found.bodies), std::move(trails));
+  found.bodies = either(std::move(*found.bodies), trails);
   if (options.shapes != nullptr) found.bodies = without(std::move(*found.bodies), *options.shapes);
   found.strokes = centrelinesOf(*found.bodies, options, params, context, JunctionsOf::Pencil);
   return grainOf(found.strokes.paths, grey, options, context);

@@ -52,6 +52,7 @@ void scaleContours(ContourSet& set, double factor) {
 
 std::vector<StrokePath> fromFinePage(const std::vector<StrokePath>& paths) {
   std::vector<StrokePath> reduced;
+  reduced.reserve(paths.size());
   for (const StrokePath& path : paths) reduced.push_back(pathOnPage(path));
   return reduced;
 }

@@ -36,6 +36,7 @@ struct PlacedCorner {
 void locate(const Contour& contour, const GreyImage* grey, const RunContext& context,
             std::vector<PlacedCorner>& corners) {
   std::vector<int> places;
+  places.reserve(corners.size());
   for (const PlacedCorner& placed : corners) places.push_back(placed.corner.pointIndex);
   const std::vector<CornerFix> fixes = locateCorners(contour, places, context, grey);
   for (int i = 0; i < std::ssize(fixes); ++i) {

@@ -138,6 +138,7 @@ std::optional<CornerScene> readScene(const GreyImage& grey, const Vec2& corner, 
   const double inkLevel = upperMedian(ink);
   scene.contrast = scene.paper - inkLevel;
   std::vector<double> off;
+  off.reserve(paper.size() + ink.size());
   for (const double g : paper) off.push_back(std::abs(g - scene.paper));
   for (const double g : ink) off.push_back(std::abs(g - inkLevel));
   const double noise = robustSigma(off);

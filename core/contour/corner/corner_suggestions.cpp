@@ -321,8 +321,8 @@ std::vector<CornerSuggestion> suggestionsAt(const Contour& contour, const std::v
                                             const RunContext& context) {
   std::vector<CornerSuggestion> suggestions;
   if (kept.empty()) return suggestions;
-  std::vector<int> places;
-  for (const Candidate& k : kept) places.push_back(k.index);
+  std::vector<int> places(kept.size());
+  std::ranges::transform(kept, places.begin(), &Candidate::index);
   const std::vector<CornerFix> fixes = locateCorners(contour, places, context);
   std::vector<CornerEvidence> evidence = evidenceAt(contour, kept);
   const CornerJudge judge(contour);
@@ -391,8 +391,8 @@ std::vector<CornerSuggestion> oncePerCorner(const ContourSet& set, const std::ve
     kept.push_back(next.suggestion);
   }
   std::sort(kept.begin(), kept.end());
-  std::vector<CornerSuggestion> result;
-  for (const int i : kept) result.push_back(all[i]);
+  std::vector<CornerSuggestion> result(kept.size());
+  std::ranges::transform(kept, result.begin(), [&](int i) { return all[i]; });
   return result;
 }
 

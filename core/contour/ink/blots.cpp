@@ -55,8 +55,9 @@ BitImage leftBeside(const BitImage& ink, std::optional<double> penPx, const Cont
   const int half = stepsOfWide(*penPx);
   BitImage wide = shrunken(ink, half, context);
   if (wide.count() == 0 || context.isCancelled()) return none;
-  wide = without(std::move(wide), coveredBy(
-                                      lines, wide, [&](double r) { return std::max(kExplainedReachPx, r); }, context));
+  const BitImage explained = coveredBy(
+      lines, wide, [&](double r) { return std::max(kExplainedReachPx, r); }, context);
+  wide = without(std::move(wide), explained);
   if (wide.count() == 0 || context.isCancelled()) return none;
   const BitImage strokes = coveredBy(
       lines, wide, [](double) { return 0.0; }, context);

@@ -55,7 +55,7 @@ BitImage withTapers(const BitImage& solids, const BitImage& body, double penPx, 
 
 BitImage pencilSolids(const BitImage& body, const BitImage& shapes, double penPx, const RunContext& context) {
   const BitImage seeds = opened(shapes, kSolidWidths * penPx, context);
-  const BitImage solids = keepPieces(opened(shapes, kBorderWidths * penPx, context), {.seeds = &seeds}, context);
+  BitImage solids = keepPieces(opened(shapes, kBorderWidths * penPx, context), {.seeds = &seeds}, context);
   if (context.isCancelled() || solids.count() == 0) return solids;
   const BitImage largest = opened(solids, kCertainWidths * penPx, context);
   const BitImage certain = keepPieces(solids, {.seeds = &largest}, context);

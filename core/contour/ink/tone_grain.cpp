@@ -138,6 +138,7 @@ double overNoise(const std::vector<GroundCell>& ground, const GroundCell& line, 
            plane[2] * static_cast<double>(cell.y);
   };
   std::vector<double> levels;
+  levels.reserve(ground.size());
   for (const GroundCell& cell : ground) levels.push_back(above(cell));
   // Where clean paper shows, both lie on it.
   const double one = lowerQuantile(levels, kOneSigma), two = lowerQuantile(levels, kTwoSigma);

@@ -238,6 +238,7 @@ void smoothMean(PieceMean& mean) {
     return smooth;
   };
   std::vector<double> share;
+  share.reserve(samples.size());
   for (const StripSample& sample : samples) share.push_back(sample.strokes == 1 ? 0.0 : 1.0);
   share = hann(share);
   const std::vector<Vec2> smooth = hann(hann(positionsOf(samples)));
@@ -348,6 +349,7 @@ std::vector<PieceMean> PieceMeans::of(const std::vector<int>& group) const {
   }
   std::vector<Relation> relations = relationsOf(group, set_, pairs_, pairsOf_, areOne_);
   std::vector<const Strip*> strips;
+  strips.reserve(group.size());
   for (const int piece : group) strips.push_back(&set_.pieces[piece].strip);
   const CommonLength common(strips, std::move(relations));
   std::map<int, std::vector<Member>> trees;
@@ -367,6 +369,7 @@ std::vector<PieceMean> PieceMeans::of(const std::vector<int>& group) const {
     trees[at[r.b].first][at[r.b].second].continues[r.endB] = true;
   }
   std::vector<PieceMean> means;
+  means.reserve(trees.size());
   for (const auto& [name, members] : trees) means.push_back(meanOf(members));
   std::stable_sort(means.begin(), means.end(),
                    [](const PieceMean& a, const PieceMean& b) { return a.strip.count() > b.strip.count(); });

@@ -112,6 +112,7 @@ std::vector<bool> lookOverdrawn(const StrokePieceSet& set, const std::vector<Str
   const std::vector<Strip> strips = stripsOf(set);
   const PairView view{strips, scale};
   std::vector<bool> one;
+  one.reserve(pairs.size());
   for (const StripPair& pair : pairs)
     one.push_back(logOdds(learnedWeights()[0].side,
                           sideFeatures(measureSide(pair, view), pair, view, isSameLine(set, pair))) > kSurelyOne);

@@ -126,6 +126,7 @@ class PieceCutter {
     std::vector<StrokeCut> cuts;
     const int n = lines_[l].count();
     std::vector<bool> crossed;
+    crossed.reserve(n);
     for (int k = 0; k < n; ++k) crossed.push_back(isCrossed(l, k));
     for (int k = 0; k < n; ++k) {
       if (!crossed[k]) continue;

@@ -76,6 +76,7 @@ void shareRest(const BitImage& ink, InkLabels& labels, const RunContext& context
   }
   while (!front.empty() && !context.isCancelled()) {
     std::vector<bool> isShape;
+    isShape.reserve(front.size());
     for (const SkeletonPixel& p : front) isShape.push_back(touches(labels.shapes, p.x, p.y));
     for (std::size_t i = 0; i < front.size(); ++i) {
       (isShape[i] ? labels.shapes : labels.strokes).set(front[i].x, front[i].y, true);

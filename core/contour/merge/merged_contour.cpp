@@ -90,6 +90,7 @@ std::vector<BundleWidths> onBothSides(const std::vector<BundleWidths>& bundle, c
   left = function(left);
   right = function(right);
   std::vector<BundleWidths> made;
+  made.reserve(bundle.size());
   for (int i = 0; i < std::ssize(bundle); ++i) made.push_back({left[i], right[i]});
   return made;
 }

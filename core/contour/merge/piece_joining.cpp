@@ -205,6 +205,7 @@ class PieceJoiner {
     const std::vector<MeanPoint>& points = graph_.edges[end / 2].line.points;
     const int count = static_cast<int>(points.size()), half = std::max(1, count / 2);
     std::vector<float> outer;
+    outer.reserve(half);
     for (int k = 0; k < half; ++k) outer.push_back(points[end % 2 == 0 ? k : count - 1 - k].weight);
     return upperMedian(outer) < kSingleWeight;
   }

@@ -138,6 +138,7 @@ StrokeGraph graphOf(RemainingLines pieces, double distancePx) {
   NodeNumbers numbers(std::ssize(pieces.attachments));
   const std::vector<std::vector<AttachedMark>> marks = marksOf(pieces);
   std::vector<std::vector<PieceCut>> cuts;
+  cuts.reserve(pieces.pieces.size());
   for (int p = 0; p < std::ssize(pieces.pieces); ++p)
     cuts.push_back(cutsOf(pieces.pieces[p], marks[p], distancePx, numbers));
   for (int p = 0; p < std::ssize(pieces.pieces); ++p)

@@ -234,6 +234,7 @@ void moveToMean(std::vector<MeanLine>& means, double distancePx, const RunContex
     for (MeanLine& m : means) {
       const int n = m.count();
       std::vector<float> own;
+      own.reserve(n);
       for (int i = 0; i < n; ++i) own.push_back(shift[first + i].shift);
       const std::vector<float> smooth = smoothValues(own, m.closed, smoothing);
       std::vector<Vec2> moved = positionsOf(m);

@@ -70,6 +70,7 @@ std::vector<float> softness(const Contour& contour, const GreyImage& grey, doubl
   const std::vector<EdgeRise> rises =
       edgeRises(unrefinedPositionsOf(contour.points), contour.closed, grey, {kInnerPx, reach}, kMeasureSigma, context);
   std::vector<float> soft;
+  soft.reserve(rises.size());
   for (const EdgeRise& rise : rises)
     soft.push_back(rise.inner < static_cast<float>(kLeastShare) * rise.outer ? 1.0f : 0.0f);
   return smoothValues(soft, contour.closed, kBlendSigma);

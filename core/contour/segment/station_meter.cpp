@@ -46,7 +46,8 @@ double MeasuredPiece::s(int i) const {
   if (!closed()) return s_[i];
   const int n = count();
   const int j = wrapIndex(i, n);
-  return s_[j] + length_ * ((i - j) / n);
+  const int turns = (i - j) / n;
+  return s_[j] + length_ * turns;
 }
 
 double MeasuredPiece::weight(int i) const { return piece_.points[slot(i)].refined ? 1.0 : kPixelPointWeight; }

@@ -27,6 +27,7 @@ std::optional<std::vector<float>> filled(const std::vector<std::optional<float>>
   if (first == values.end()) return std::nullopt;
   std::vector<float> all;
   float last = **first;
+  all.reserve(values.size());
   for (const auto& v : values) all.push_back(last = v.value_or(last));
   return all;
 }

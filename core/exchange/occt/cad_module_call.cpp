@@ -28,7 +28,7 @@ std::optional<CadShape> cadShape(PlainShape shape) {
       auto curve = NurbsCurve::make(one.degree, std::move(one.knots), std::move(one.points), std::move(one.weights));
       return curve ? std::optional<CadShape>(std::move(*curve)) : std::nullopt;
     } else {
-      return std::move(one);
+      return std::forward<decltype(one)>(one);
     }
   };
   return std::visit(made, std::move(shape));

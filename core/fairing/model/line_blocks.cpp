@@ -58,6 +58,7 @@ std::vector<Foot> feetOf(const FairingSetup& setup, const std::vector<Vec2>& poi
 
 void dropOutliers(std::vector<Foot>& feet, double pixelMm) {
   std::vector<double> sizes;
+  sizes.reserve(feet.size());
   for (const Foot& f : feet) sizes.push_back(std::abs(f.distance));
   if (sizes.empty()) return;
   const double most = kOutlier * std::max(robustSigma(sizes), kNoiseFloorPx * pixelMm);
@@ -118,6 +119,7 @@ std::vector<double> LineBlocks::offsets(const FairingSetup& setup) const {
 double LineBlocks::misfit(const FairingSetup& setup, const FairingState& state) const {
   const auto& samples = state.samples;
   std::vector<double> at;
+  at.reserve(samples.size());
   for (const FairingSample& sample : samples) at.push_back(setup.sampleAt(sample.foot));
   double sum = 0.0;
   std::size_t next = 1;

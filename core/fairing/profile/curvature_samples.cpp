@@ -16,12 +16,14 @@ constexpr int kCurvaturePlaces = 4;  // a span
 
 std::vector<double> CurvatureSamples::perimeters() const {
   std::vector<double> all;
+  all.reserve(count());
   for (int i = 0; i < count(); ++i) all.push_back(perimeter(i));
   return all;
 }
 
 std::vector<CurvatureSample> CurvatureSamples::places() const {
   std::vector<CurvatureSample> all;
+  all.reserve(count());
   for (int i = 0; i < count(); ++i) all.push_back({perimeter(i), kappa[i]});
   return all;
 }

@@ -78,6 +78,7 @@ void judgeProfile(TargetProfile& profile, const ProfileData& data, const std::ve
     profile.pearson = pearson(fitted, data.kappa);
   } else {
     std::vector<double> radius;
+    radius.reserve(fitted.size());
     for (const double value : fitted) {
       radius.push_back(profile.quantity == TargetQuantity::Curvature
                            ? clippedRadius(value, data.largestRadius)

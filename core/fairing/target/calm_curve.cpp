@@ -60,7 +60,8 @@ std::optional<NurbsCurve> withoutTremor(const NurbsCurve& curve, bool closed, co
 
 NurbsCurve targetStart(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {
   auto calm = withoutTremor(curve, closed, params, check);
-  return calm ? std::move(*calm) : curve;
+  if (!calm) return curve;
+  return std::move(*calm);
 }
 
 }  // namespace batten

@@ -250,6 +250,7 @@ LogAestheticTarget logAestheticTarget(const NurbsCurve& curve, bool closed, cons
   const std::size_t count = stretches.size();
   // Where two meet: the mean of what both want there.
   std::vector<LogAesthetic> fits;
+  fits.reserve(count);
   for (const Stretch& one : stretches) fits.push_back(fitLogAesthetic(one.x, one.kappa, alpha, {}, {}));
   std::vector<double> joint(count, 0.0);
   for (std::size_t k = 0; k < count; ++k) joint[k] = 0.5 * (fits[k].kappa(1.0) + fits[(k + 1) % count].kappa(0.0));

@@ -32,6 +32,7 @@ class NaturalSpans {
     // The last sample of a closed curve is the first one.
     const int count = samples_.count() - (closed ? 1 : 0);
     std::vector<double> s;
+    s.reserve(count);
     for (int i = 0; i < count; ++i) s.push_back(samples_.perimeter(i) * samples_.lengthMm);
     levels_ = structureLevels(s, std::span(samples_.kappa).first(count), samples_.lengthMm, closed);
   }

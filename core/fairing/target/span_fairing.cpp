@@ -185,6 +185,7 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
       continue;
     }
     std::vector<double> fitted;
+    fitted.reserve(x.size());
     for (const double one : x) fitted.push_back(powers(c, one, false));
     profile.valid = true;
     profile.isMonotone = isMonotonePolynomial(c);

@@ -67,11 +67,13 @@ Sextet termsAt(double u, double v) { return (Sextet() << 1.0, u, v, u * u, u * v
 /// The quadratic that most of the cells agree on (Cauchy weights, begun at their median).
 std::array<double, 6> fitRatio(const std::vector<CellColour>& cells, std::size_t channel) {
   std::vector<double> values;
+  values.reserve(cells.size());
   for (const CellColour& cell : cells) values.push_back(cell.ratio[channel]);
   Sextet fitted = Sextet::Zero();
   fitted[0] = upperMedian(values);
   for (int round = 0; round < kFitRounds; ++round) {
     std::vector<double> residuals;
+    residuals.reserve(cells.size());
     for (const CellColour& cell : cells) residuals.push_back(cell.ratio[channel] - fitted.dot(termsAt(cell.u, cell.v)));
     const double spread = std::max(kLeastSpread, robustSigma(std::vector<double>(residuals)));
     SmallLeastSquares<6> fit;

@@ -118,6 +118,7 @@ double stepAcross(const EdgeProfile& profile) {
 
 double medianStepAcross(const std::vector<EdgeProfile>& profiles) {
   std::vector<double> steps;
+  steps.reserve(profiles.size());
   for (const EdgeProfile& profile : profiles) steps.push_back(stepAcross(profile));
   return steps.empty() ? 0.0 : upperMedian(steps);
 }

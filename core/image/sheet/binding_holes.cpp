@@ -66,6 +66,7 @@ std::vector<Hole> darkPieces(const cv::Mat1b& dark, bool acrossPage, bool isFar)
 /// Those that are about as long as most. How much of them lies on the page varies.
 void keepEqual(std::vector<Hole>& holes) {
   std::vector<double> lengths;
+  lengths.reserve(holes.size());
   for (const Hole& hole : holes) lengths.push_back(hole.length);
   const double length = upperMedian(lengths);
   std::erase_if(holes, [&](const Hole& h) {

@@ -36,7 +36,8 @@ constexpr double kGrainMean = 510.0, kGrainSigma = 147.8;  // of four bytes adde
 
 GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const RunContext& context) {
   std::optional<GreyImage> even = pagesOnOneLevel(page, sheet.inside, sheet.cellPx, context);
-  return paintedOver(even ? std::move(*even) : page, sheet.inside, sheet.cellPx, context);
+  if (!even) return paintedOver(page, sheet.inside, sheet.cellPx, context);
+  return paintedOver(std::move(*even), sheet.inside, sheet.cellPx, context);
 }
 
 GreyImage paintedOver(GreyImage out, const BitImage& inside, int cellPx, const RunContext& context) {

@@ -189,6 +189,7 @@ std::vector<Vec2> cornersOf(const cv::Mat1b& sheet, double cellPx) {
   const cv::Point a = four[1] - four[0], b = four[3] - four[0];
   if (a.x * b.y - a.y * b.x < 0) std::reverse(four.begin() + 1, four.end());
   std::vector<Vec2> corners;
+  corners.reserve(four.size());
   for (const cv::Point& p : four) corners.emplace_back((p.x + 0.5) * cellPx, (p.y + 0.5) * cellPx);
   return corners;
 }

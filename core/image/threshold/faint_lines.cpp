@@ -60,8 +60,8 @@ BitImage widePlaces(const FaintMasks& masks, int pixelsPerPx, const RunContext& 
   const std::int64_t area = masks.ink.count();
   const std::int64_t border = std::max<std::int64_t>(1, area - shrunken(masks.ink, 1, context).count());
   const double strokePx = 2.0 * static_cast<double>(area) / static_cast<double>(border);
-  const int steps =
-      std::clamp(static_cast<int>(0.5 * strokePx + 0.5), pixelsPerPx * kFewestThinSteps, pixelsPerPx * kMostThinSteps);
+  const int steps = std::clamp(static_cast<int>(std::lround(0.5 * strokePx)), pixelsPerPx * kFewestThinSteps,
+                               pixelsPerPx * kMostThinSteps);
   const BitImage closed = grown(masks.faint, 1, context);
   return grown(shrunken(closed, steps + 1, context), steps + 3, context);
 }

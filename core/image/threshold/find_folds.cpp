@@ -99,6 +99,7 @@ class FoldMaker {
     fold.stations = std::max(2, static_cast<int>((course_.to - course_.from) / kSpacingPx) + 1);
     const std::vector<std::vector<StripPixel>> pixels = stripPixels(fold, fit);
     std::vector<std::vector<float>> profiles;
+    profiles.reserve(fold.stations);
     for (int k = 0; k < fold.stations; ++k) profiles.push_back(edgeProfile(pixels, k, fold));
     const int taps = fold.taps();
     fillGaps(profiles);
@@ -124,6 +125,7 @@ class FoldMaker {
   /// Pixels themselves, not samples between them: a sharp fold would be drawn out by interpolation.
   std::vector<std::vector<StripPixel>> stripPixels(const PaperFold& fold, const FoldStepFit& fit) const {
     std::vector<float> bright;
+    bright.reserve(strip_.rows);
     for (int i = 0; i < strip_.rows; ++i)
       bright.push_back(static_cast<float>(strip_.mean(i, fold.reach, fold.reach + kFoldPaperPx)));
     std::vector<std::vector<StripPixel>> pixels(fold.stations);

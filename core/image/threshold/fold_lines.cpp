@@ -78,6 +78,7 @@ class Accumulator {
         columns_(2 * half_ + 1),
         counts_(std::ptrdiff_t{kAngles} * columns_, 0) {
     std::vector<Vec2> normals;
+    normals.reserve(kAngles);
     for (int a = 0; a < kAngles; ++a) normals.emplace_back(std::cos(angleOf(a)), std::sin(angleOf(a)));
     for (const Voter& v : voters) {
       const double angle = std::atan2(v.direction.y(), v.direction.x());

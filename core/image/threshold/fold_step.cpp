@@ -137,13 +137,14 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
     }
   }
   if (most < kLeastPart * rows || best.middle < std::max(kLeastFoldStep, noise)) return std::nullopt;
+  const int part = rows / kParts;
   int ends[2] = {0, 0};
   for (int i = 0; i < rows; ++i) {
     best.shows.push_back(isNear(best, i) ? 1 : 0);
-    if (i < rows / kParts) ends[0] += best.shows.back();
-    if (i >= rows - rows / kParts) ends[1] += best.shows.back();
+    if (i < part) ends[0] += best.shows.back();
+    if (i >= rows - part) ends[1] += best.shows.back();
   }
-  if (std::min(ends[0], ends[1]) < kLeastAtEnds * (rows / kParts)) return std::nullopt;
+  if (std::min(ends[0], ends[1]) < kLeastAtEnds * part) return std::nullopt;
   return best;
 }
 
@@ -154,7 +155,8 @@ std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
   if (!profile) return std::nullopt;
   // The paper's own slope across: equal on both sides of the step.
   const auto at = [&](int d) { return static_cast<double>((*profile)[d + reach]); };
-  const double slope = 0.5 * ((at(reach) - at(reach / 2)) + (at(-reach / 2) - at(-reach))) / (reach - reach / 2);
+  const int half = reach / 2;
+  const double slope = 0.5 * ((at(reach) - at(half)) + (at(-half) - at(-reach))) / (reach - half);
   const double dark = at(-reach) + slope * reach, bright = at(reach) - slope * reach, step = bright - dark;
   if (step <= 0.0) return std::nullopt;
   // What is left of the step beyond the noise of the medians, a little smoothed.

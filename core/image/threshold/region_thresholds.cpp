@@ -304,8 +304,9 @@ AgainstPaper thresholdsByFolds(const GreyImage& image, const Plane& grey, const 
 /// With the user's own values where set, and the acting contrast everywhere.
 RegionThresholds withOwnLevels(const GreyImage& image, const ThresholdParams& params, RegionThresholds out) {
   for (int region = 0; region < kRegions; ++region) {
-    const double x = (region % kRegionsPerSide + 0.5) * image.width / kRegionsPerSide;
-    const double y = (region / kRegionsPerSide + 0.5) * image.height / kRegionsPerSide;
+    const int column = region % kRegionsPerSide, row = region / kRegionsPerSide;
+    const double x = (column + 0.5) * image.width / kRegionsPerSide;
+    const double y = (row + 0.5) * image.height / kRegionsPerSide;
     const double paper = out.paper.at(x, y);
     if (!out.paper.isEmpty()) out.automatic[region] = std::clamp(paper + out.contrast[region], 0.0, 255.0);
     out.level[region] = out.automatic[region];

@@ -124,7 +124,7 @@ cv::Mat1b linesOnTones(const PencilPage& page, const cv::Mat1b& shaded, const Ru
   const SeenLines seen = seenLines(page, kLongMean, shaded, context);
   if (context.isCancelled()) return cv::Mat1b::zeros(shaded.size());
   const cv::Mat1b weak = seen.beyond(kWeakLine, page.darkness);
-  const cv::Mat1b lines = piecesWith(weak, seen.beyond(kSureLine, page.darkness), kLongToneLine * page.widthPx);
+  cv::Mat1b lines = piecesWith(weak, seen.beyond(kSureLine, page.darkness), kLongToneLine * page.widthPx);
   // Long means fade towards corners and ends, where shorter ones still see a line.
   const cv::Mat1b near = grownMask(lines, ceiled(kOnwards * page.widthPx));
   const SeenLines close = seenLines(page, kShortMean, near, context);

@@ -80,7 +80,7 @@ class BareBorders {
         const double slope =
             std::hypot(0.5 * (cover(v, u + 1) - cover(v, u - 1)), 0.5 * (cover(v + 1, u) - cover(v - 1, u)));
         const double depth = areas_.lineDarkness / 255.0 * std::min(1.0, slope * sigma_ * kSlopePerBlur);
-        page.row(y)[x] = static_cast<std::uint16_t>(page.row(y)[x] * (1.0 - depth) + 0.5);
+        page.row(y)[x] = static_cast<std::uint16_t>(std::lround(page.row(y)[x] * (1.0 - depth)));
       }
   }
 
@@ -116,7 +116,7 @@ std::uint16_t brightestAt(const ToneAreas& areas, const Place& place) {
   const double share = areas.filled ? place.of(*areas.filled) / 255.0 : 0.0;
   if (!(share > 0.0)) return 65535;
   const double paper = GreyImage::kGreyUnit * place.of(areas.paper);
-  return static_cast<std::uint16_t>(paper * (1.0 - share * areas.lineDarkness / 255.0) + 0.5);
+  return static_cast<std::uint16_t>(std::lround(paper * (1.0 - share * areas.lineDarkness / 255.0)));
 }
 
 /// By what the depth below the ground is multiplied. @param ground 0..1 of the paper.

@@ -190,7 +190,7 @@ Json traceModesToJson(const Recipe& recipe) {
 }
 
 Json cornerToJson(const CornerMark& mark) {
-  const Json at = {mark.positionPx.x(), mark.positionPx.y()};
+  Json at = {mark.positionPx.x(), mark.positionPx.y()};
   if (!(mark.roundMm > 0.0)) return at;
   Json json{{"at", at}, {"round", mark.roundMm}};
   if (mark.roundBy == RoundingSize::Radius) json["by"] = "radius";

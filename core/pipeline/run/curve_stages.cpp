@@ -34,7 +34,8 @@ std::vector<Vec2> breakpointsOf(const std::vector<std::size_t>& points, const Re
 
 /// A piece with its stations in the model frame: what every method takes.
 ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, const PageFrame& frame) {
-  ConstructPiece made{inFrame(piece, [&](const Vec2& p) { return frame.pointToModel(p); })};
+  ConstructPiece made{
+      inFrame(static_cast<const PieceLine&>(piece), [&](const Vec2& p) { return frame.pointToModel(p); })};
   for (const Station& s : segments.stations) made.stations.push_back(stationToModel(s, frame));
   return made;
 }

@@ -83,6 +83,7 @@ class PlaceOwners {
       if (place.distance <= kSamePlaceReachPx) ++claim.near;
     }
     std::vector<NumberClaim> list;
+    list.reserve(found.size());
     for (const auto& [pair, claim] : found) list.push_back(claim);
     return list;
   }

@@ -182,6 +182,7 @@ void leadOverPaper(std::vector<Contour>& lines, const BitImage& ink, double long
     });
   }
   std::vector<std::optional<double>> ways;
+  ways.reserve(ends.size());
   for (int i = 0; i < std::ssize(ends); ++i) ways.push_back(wayOf(ends, i));
   for (int i = 0; i < std::ssize(ends); ++i)
     if (ways[i]) leadStraightOn(lines[ends[i].line], ends[i], *ways[i]);

@@ -45,7 +45,8 @@ class PairingSearch {
   }
 
   double costOf(const EndPairs& pairs) const {
-    double sum = openCost_ * static_cast<double>(used_.size() / 2 - pairs.size());
+    const std::size_t open = used_.size() / 2 - pairs.size();
+    double sum = openCost_ * static_cast<double>(open);
     for (const auto& [a, b] : pairs) sum += cost_[a][b];
     return sum;
   }

@@ -150,11 +150,9 @@ std::vector<Tangle> TangleFinder::clusters() const {
     if (std::ssize(tangle.nodes) < kTangleNodes || std::ssize(tangle.nodes) > kMostNodes) continue;
     for (const int node : tangle.nodes) {
       for (const int end : graph_.node(node).ends) {
-        if (isStub(end)) {
-          tangle.inner.push_back(end / 2);
-        } else if (!isInner[end / 2]) {
+        if (!isStub(end) && !isInner[end / 2]) {
           tangle.outer.push_back(end);
-        } else if (end % 2 == 0) {
+        } else if (isStub(end) || end % 2 == 0) {
           tangle.inner.push_back(end / 2);
         }
       }

@@ -58,6 +58,7 @@ struct LineFilter {
 
 std::vector<int> offsetsOf(const std::vector<Step>& steps, int side) {
   std::vector<int> offsets;
+  offsets.reserve(steps.size());
   for (const Step& s : steps) offsets.push_back(s.y * side + s.x);
   return offsets;
 }
