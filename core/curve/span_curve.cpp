@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/base/hot_loop.h"
 #include "core/curve/foot_step.h"
@@ -123,37 +125,60 @@ Jet jetAt(const Vec2* c, std::size_t p, double tau, double inverseWidth) {
   return jet;
 }
 
+/// A place moved along a curve by a part of its span. The remainder of a move over a knot is rescaled to the next
+/// span's width; beyond an open end it is the end.
+SpanPlace movedAlong(const SpanBasis& basis, const SpanPlace& place, double move) {
+  SpanPlace next{place.span, place.tau + move};
+  while (next.tau < 0.0 || next.tau > 1.0) {
+    const bool back = next.tau < 0.0;
+    int span = next.span + (back ? -1 : 1);
+    if (span < 0 || span >= basis.spanCount()) {
+      if (!basis.isPeriodic()) return {next.span, back ? 0.0 : 1.0};
+      span = back ? basis.spanCount() - 1 : 0;
+    }
+    const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
+    next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
+  }
+  return next;
+}
+
+/// @param isDownhill a move that would lead farther off is shortened.
+/// @return whether the search came to an end, and where; downhill the nearest place.
 template <int kDegree>
-SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
+std::pair<bool, SpanPlace> searchFoot(const SpanCurve& curve, const Vec2& point, SpanPlace start, bool isDownhill) {
+  constexpr double kShorter = 0.25;  // of a move that leads farther off
+  constexpr double kNear = 1e-4;     // of a span: a move so small converges, and rounding hides whether it leads nearer
   const SpanBasis& basis = curve.basis();
-  SpanPlace place = start;
   const std::size_t p = kDegree == Eigen::Dynamic ? basis.degree() : kDegree;
-  for (int step = 0; step < 8; ++step) {
+  const int mostSteps = isDownhill ? 16 : 8;
+  SpanPlace place = start, best = start;
+  double move = 0.0, least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < mostSteps; ++step) {
     const double width = basis.width(place.span);
     const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
-    double move = footStep(jet[0] - point, jet[1], jet[2]) / width;
-    if (!std::isfinite(move)) return place;
-    move = std::clamp(move, -1.0, 1.0);
-    SpanPlace next{place.span, place.tau + move};
-    // The remainder of a move over a knot is rescaled to the next span's width.
-    while (next.tau < 0.0 || next.tau > 1.0) {
-      const bool back = next.tau < 0.0;
-      int span = next.span + (back ? -1 : 1);
-      if (span < 0 || span >= basis.spanCount()) {
-        if (!basis.isPeriodic()) {
-          next.tau = back ? 0.0 : 1.0;
-          break;
-        }
-        span = back ? basis.spanCount() - 1 : 0;
-      }
-      const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
-      next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
+    const double away = isDownhill ? (jet[0] - point).squaredNorm() : 0.0;
+    if (away <= least || std::abs(move) < kNear) {
+      best = place;
+      least = away;
+      move = footStep(jet[0] - point, jet[1], jet[2]) / width;
+      if (!std::isfinite(move)) return {true, place};
+      move = std::clamp(move, -1.0, 1.0);
+    } else {
+      move *= kShorter;
     }
-    const bool settled = std::abs(move) < 1e-10 || (next.span == place.span && std::abs(next.tau - place.tau) < 1e-12);
-    place = next;
-    if (settled) break;
+    place = movedAlong(basis, best, move);
+    if (std::abs(move) < 1e-10 || (place.span == best.span && std::abs(place.tau - best.tau) < 1e-12))
+      return {true, place};
   }
-  return place;
+  return {false, isDownhill ? best : place};
+}
+
+template <int kDegree>
+SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
+  const auto [isFound, foot] = searchFoot<kDegree>(curve, point, start, false);
+  const auto distanceOf = [&](const SpanPlace& place) { return (curve.at(place, 0)[0] - point).squaredNorm(); };
+  if (isFound && distanceOf(foot) <= distanceOf(start)) return foot;
+  return searchFoot<kDegree>(curve, point, start, true).second;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -39,11 +40,27 @@ constexpr double kUnitShare = 0.1, kLeastUnit = 0.05;
 /// No step moves a control point by more than this, in the larger of the least and the estimated move.
 constexpr double kLongestStep = 1.0;
 
-std::vector<SpanPlace> checkPlaces(const SpanBasis& basis, int perSpan) {
+/// Where a span's parameter speed varies, the curvature turns within small parts of it: for each doubling as many
+/// places more, up to kMostTimes.
+int timesThePlaces(const SpanCurve& curve, int span) {
+  constexpr int kLooks = 8, kMostTimes = 4;
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  for (int i = 0; i <= kLooks; ++i) {
+    const double speed = curve.speed({span, static_cast<double>(i) / kLooks});
+    slowest = std::min(slowest, speed);
+    fastest = std::max(fastest, speed);
+  }
+  const double doublings = std::ceil(std::log2(fastest / slowest));
+  return doublings < kMostTimes ? std::max(static_cast<int>(doublings), 1) : kMostTimes;
+}
+
+std::vector<SpanPlace> checkPlaces(const SpanCurve& curve, int leastPerSpan) {
+  const SpanBasis& basis = curve.basis();
   // Below degree 5 the slope of the curvature jumps at knots: both sides count.
   const bool smooth = basis.degree() >= 5;
   std::vector<SpanPlace> places;
   for (int span = 0; span < basis.spanCount(); ++span) {
+    const int perSpan = leastPerSpan * timesThePlaces(curve, span);
     for (int k = 0; k < perSpan; ++k)
       places.push_back({span, static_cast<double>(k) / (smooth ? perSpan : perSpan - 1)});
   }
@@ -64,8 +81,9 @@ MonotoneSearch::MonotoneSearch(const FairingSetup& setup, double leastMoveMm, co
     : setup_(setup),
       leastMoveMm_(leastMoveMm),
       context_(context),
-      places_(checkPlaces(setup.basis, kPlacesPerSpan)),
-      start_(setup.basis, setup.points) {
+      start_(setup.basis, setup.points),
+      counted_(checkPlaces(start_, kPlacesPerSpan * kDenseFactor)),
+      places_(checkPlaces(start_, kPlacesPerSpan)) {
   for (const SpanPlace& place : places_) sketched_.push_back(setup.sketchedPlace(place));
   wave_ = kWaveSpans * setup.start.length / setup.basis.spanCount();
   const State state = evaluate(setup.points, sketched_);
@@ -288,7 +306,8 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
 int MonotoneSearch::countAllExtrema(const std::vector<Vec2>& points) const {
   const SpanCurve curve(setup_.basis, points);
   std::vector<double> kappa;
-  for (const SpanPlace& place : checkPlaces(setup_.basis, kPlacesPerSpan * kDenseFactor)) {
+  kappa.reserve(counted_.size());
+  for (const SpanPlace& place : counted_) {
     if (context_.isCancelled()) return 0;
     kappa.push_back(curvatureJet(curve.at(place, 2)).kappa);
   }

@@ -76,10 +76,11 @@ class MonotoneSearch {
   const FairingSetup& setup_;
   double leastMoveMm_;
   const RunContext& context_;
+  SpanCurve start_;                 ///< The curve to begin with.
+  std::vector<SpanPlace> counted_;  ///< Where extrema are counted.
   // By place. Not one struct a place: programs take all places, evaluate() all feet, structures all lengths and
   // curvatures.
   std::vector<SpanPlace> places_, sketched_;  ///< The places, and about where on the sketch they lie.
-  SpanCurve start_;                           ///< The curve to begin with.
   std::vector<double> s_, kappa_;
   double wave_ = 1.0;  ///< [mm] cut-off of the term against staircases.
   double flat_ = 0.0;  ///< [1/mm] what counts as no change of curvature.

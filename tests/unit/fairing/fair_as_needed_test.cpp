@@ -76,7 +76,8 @@ TEST(FairAsNeeded, KeepsABumpThatThePointsProve) {
   ASSERT_EQ(bumps, 3);
   ASSERT_GT(extremaOf(sketch), 10);
   int tooMany = 0;
-  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+  // With 44 the curvature turns twice within a part of the first span where the curve is slow.
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 44u}) {
     SCOPED_TRACE(seed);
     const FairingLine line = measured(truth, 0.2, seed);
     const auto needed = fair(sketch, false, tolerance(3.0), {}, line);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/curve/span_curve.h"
+
+namespace batten {
+namespace {
+
+constexpr int kControlPoints = 24, kDegree = 5;
+
+std::vector<double> clampedKnots() {
+  std::vector<double> knots(kDegree + 1, 0.0);
+  for (int i = 1; i < kControlPoints - kDegree; ++i) knots.push_back(i);
+  knots.insert(knots.end(), kDegree + 1, kControlPoints - kDegree);
+  return knots;
+}
+
+/// A line whose speed all but vanishes in places, as where fairing has drawn control points together.
+std::vector<Vec2> unevenPoints(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<Vec2> points{Vec2::Zero()};
+  while (std::ssize(points) < kControlPoints) {
+    const double step = std::pow(10.0, -2.5 * uniform(random));
+    points.push_back(points.back() + Vec2(step, 0.3 * step * (uniform(random) - 0.5)));
+  }
+  return points;
+}
+
+TEST(FootPoint, IsNeverFartherThanWhereTheSearchBegan) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int missed = 0;
+  const std::vector<double> knots = clampedKnots();
+  const SpanBasis basis(kDegree, knots, kControlPoints, 0);
+  for (int line = 0; line < 200; ++line) {
+    const SpanCurve curve(basis, unevenPoints(random));
+    for (int k = 0; k < 50; ++k) {
+      const SpanPlace there{static_cast<int>(uniform(random) * basis.spanCount()), uniform(random)};
+      const SpanPlace start = basis.place(basis.parameter(there) + uniform(random) - 0.5);
+      const Vec2 point = curve.at(there, 0)[0] + 0.02 * Vec2(0.0, uniform(random) - 0.5);
+      const SpanPlace foot = footPoint(curve, point, start);
+      const double away = (curve.at(foot, 0)[0] - point).norm();
+      EXPECT_LE(away, (curve.at(start, 0)[0] - point).norm() * (1.0 + 1e-12)) << "line " << line << ", point " << k;
+      // The line goes on to the right all the way: it has no other foot than the nearest point.
+      if (away > 0.0101) ++missed;
+    }
+  }
+  EXPECT_EQ(missed, 0) << "of 10000 points";
+}
+
+TEST(FootPoint, IsFoundAlsoOverManySpans) {
+  std::mt19937 random(12);
+  const std::vector<double> knots = clampedKnots();
+  const SpanBasis basis(kDegree, knots, kControlPoints, 0);
+  std::vector<Vec2> points;
+  for (int i = 0; i < kControlPoints; ++i) points.emplace_back(i, 2.0 * std::sin(0.2 * i));
+  const SpanCurve curve(basis, points);
+  for (int span = 0; span < basis.spanCount(); ++span) {
+    const Vec2 point = curve.at({span, 0.5}, 0)[0];
+    for (int from = std::max(0, span - 3); from <= std::min(basis.spanCount() - 1, span + 3); ++from) {
+      const SpanPlace foot = footPoint(curve, point, {from, 0.3});
+      EXPECT_NEAR(basis.parameter(foot), basis.parameter({span, 0.5}), 1e-7) << "from span " << from;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace batten
