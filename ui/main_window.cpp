@@ -132,7 +132,7 @@ QWidget* MainWindow::makeCentre(QWidget* whole) {
   return p.splitter;
 }
 
-// A widget that comes to another parent is styled anew, with all that it holds: so each has its own from the start.
+// A widget that comes to another parent is styled anew, with all that it holds: so each is made with the one it keeps.
 QWidget* MainWindow::makeInspector(QWidget* whole) {
   Parts& p = *parts_;
   auto* frame = new HairlineFrame(whole);
@@ -142,36 +142,33 @@ QWidget* MainWindow::makeInspector(QWidget* whole) {
   p.inspector->setObjectName(QStringLiteral("inspector"));
   layout->addWidget(p.inspector);
   frame->setFixedWidth(301);
-  QScrollArea* scroll = nullptr;
-  const auto nextPage = [&] {
-    scroll = new QScrollArea(p.inspector);
+  p.settings = new SettingFinder(this);
+  connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
+  // `make` is given the parent of the panel.
+  const auto add = [&](PanelStage stage, const auto& make) {
+    auto* scroll = new QScrollArea(p.inspector);
     scroll->setWidgetResizable(true);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setFocusPolicy(Qt::NoFocus);
     p.inspector->addWidget(scroll);
-    return scroll->viewport();
-  };
-  p.settings = new SettingFinder(this);
-  connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
-  const auto add = [&](PanelStage stage, QWidget* panel) {
+    auto* panel = make(scroll->viewport());
     panel->setObjectName(QStringLiteral("panel.") + key(stage));
     scroll->setWidget(panel);
     p.settings->add(stage, scroll);
     // Keys typed after Enter are the drawing's.
-    for (auto* field : panel->findChildren<NumberField*>())
+    for (auto* field : panel->template findChildren<NumberField*>())
       connect(field, &NumberField::entered, p.canvas, [this] { parts_->canvas->setFocus(Qt::OtherFocusReason); });
+    return panel;
   };
-  add(PanelStage::Scan, p.scanPanel = new ScanPanel(session_, view_, nextPage()));
-  add(PanelStage::Threshold, new ThresholdPanel(session_, view_, nextPage()));
-  add(PanelStage::CleanUp, new CleanUpPanel(session_, nextPage()));
-  add(PanelStage::Edges, new EdgesPanel(session_, view_, nextPage()));
-  add(PanelStage::Corners, new CornersPanel(session_, view_, nextPage()));
-  auto* curves = new CurvesPanel(session_, view_, nextPage());
-  add(PanelStage::Curves, curves);
-  auto* fairing = new FairingPanel(session_, nextPage());
-  add(PanelStage::Fairing, fairing);
-  add(PanelStage::Export, p.exportPanel = new ExportPanel(session_, nextPage()));
+  p.scanPanel = add(PanelStage::Scan, [this](QWidget* in) { return new ScanPanel(session_, view_, in); });
+  add(PanelStage::Threshold, [this](QWidget* in) { return new ThresholdPanel(session_, view_, in); });
+  add(PanelStage::CleanUp, [this](QWidget* in) { return new CleanUpPanel(session_, in); });
+  add(PanelStage::Edges, [this](QWidget* in) { return new EdgesPanel(session_, view_, in); });
+  add(PanelStage::Corners, [this](QWidget* in) { return new CornersPanel(session_, view_, in); });
+  auto* curves = add(PanelStage::Curves, [this](QWidget* in) { return new CurvesPanel(session_, view_, in); });
+  auto* fairing = add(PanelStage::Fairing, [this](QWidget* in) { return new FairingPanel(session_, in); });
+  p.exportPanel = add(PanelStage::Export, [this](QWidget* in) { return new ExportPanel(session_, in); });
   connect(p.scanPanel, &ScanPanel::pageChosen, this, &MainWindow::openPage);
   connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);
   connect(fairing, &FairingPanel::comparisonAsked, this, &MainWindow::showShapes);

@@ -15,7 +15,7 @@ namespace batten {
 struct ContentHash {
   std::array<std::uint8_t, 32> bytes{};
   bool operator==(const ContentHash&) const = default;
-  auto operator<=>(const ContentHash&) const = default;  // NOLINT(modernize-use-nullptr)
+  auto operator<=>(const ContentHash&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm
   /// 64 lower-case hexadecimal digits.
   std::string hex() const;
 };

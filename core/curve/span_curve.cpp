@@ -142,29 +142,33 @@ SpanPlace movedAlong(const SpanBasis& basis, const SpanPlace& place, double move
   return next;
 }
 
+/// Of a span: a move so small converges, and rounding hides whether it leads nearer.
+constexpr double kSurelyNear = 1e-4;
+
 /// @param isDownhill a move that would lead farther off is shortened.
-/// @return whether the search came to an end, and where; downhill the nearest place.
+/// @return whether the search settled, and where it ended; downhill the nearest place.
 template <int kDegree>
 std::pair<bool, SpanPlace> searchFoot(const SpanCurve& curve, const Vec2& point, SpanPlace start, bool isDownhill) {
   constexpr double kShorter = 0.25;  // of a move that leads farther off
-  constexpr double kNear = 1e-4;     // of a span: a move so small converges, and rounding hides whether it leads nearer
   const SpanBasis& basis = curve.basis();
   const std::size_t p = kDegree == Eigen::Dynamic ? basis.degree() : kDegree;
-  const int mostSteps = isDownhill ? 16 : 8;
+  const int mostSteps = isDownhill ? 40 : 8;  // shortened ones too
   SpanPlace place = start, best = start;
   double move = 0.0, least = std::numeric_limits<double>::infinity();
+  bool isShortened = false;
   for (int step = 0; step < mostSteps; ++step) {
     const double width = basis.width(place.span);
     const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
     const double away = isDownhill ? (jet[0] - point).squaredNorm() : 0.0;
-    if (away <= least || std::abs(move) < kNear) {
+    if (away <= least || (!isShortened && std::abs(move) < kSurelyNear)) {
       best = place;
       least = away;
+      isShortened = false;
       move = footStep(jet[0] - point, jet[1], jet[2]) / width;
-      if (!std::isfinite(move)) return {true, place};
       move = std::clamp(move, -1.0, 1.0);
     } else {
       move *= kShorter;
+      isShortened = true;
     }
     place = movedAlong(basis, best, move);
     if (std::abs(move) < 1e-10 || (place.span == best.span && std::abs(place.tau - best.tau) < 1e-12))
@@ -177,7 +181,8 @@ template <int kDegree>
 SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
   const auto [isFound, foot] = searchFoot<kDegree>(curve, point, start, false);
   const auto distanceOf = [&](const SpanPlace& place) { return (curve.at(place, 0)[0] - point).squaredNorm(); };
-  if (isFound && distanceOf(foot) <= distanceOf(start)) return foot;
+  const bool isThere = foot.span == start.span && std::abs(foot.tau - start.tau) < kSurelyNear;
+  if (isFound && (isThere || distanceOf(foot) <= distanceOf(start))) return foot;
   return searchFoot<kDegree>(curve, point, start, true).second;
 }
 

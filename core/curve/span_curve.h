@@ -94,8 +94,8 @@ struct EqualArc {
 std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed, CancelCheck check = {});
 
 /// The foot point of `point` on the curve that Newton's method reaches from `start`; periodic curves run on over the
-/// seam, others stop at their ends. Where it does not settle, or ends farther off, as where the curve is slow or bends
-/// sharply, its steps are shortened so that each leads nearer.
+/// seam, others stop at their ends. Where it does not settle, or ends farther off than it began, as where the curve is
+/// slow or bends sharply, it begins anew with steps shortened so that each leads nearer.
 SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start);
 
 }  // namespace batten

@@ -16,10 +16,10 @@
 
 namespace batten::test {
 
-/// Turns the event loop until `done` or the (generous) limit; says whether it was done. Between events it sleeps: what it
-/// waits for needs the processors.
+/// Turns the event loop until `done` or the (generous) limit; says whether it was done. Between events it sleeps: what
+/// it waits for needs the processors.
 inline bool waitUntil(const std::function<bool()>& done, int limitMs = 60000) {
-  constexpr int kLookAgainMs = 2;  // where nothing happens
+  constexpr int kLookAgainMs = 2, kFollowUpMs = 20;
   QElapsedTimer timer;
   timer.start();
   QTimer again;
@@ -28,6 +28,7 @@ inline bool waitUntil(const std::function<bool()>& done, int limitMs = 60000) {
     if (timer.elapsed() > limitMs) return false;
     QCoreApplication::processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents);
   }
+  QCoreApplication::processEvents(QEventLoop::AllEvents, kFollowUpMs);  // and what it set off
   return true;
 }
 

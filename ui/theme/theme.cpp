@@ -97,7 +97,10 @@ const Theme& themeOf(const QPalette& palette) {
 
 void applyTheme(ThemeChoice choice) {
   static const bool systemIsDark = QApplication::palette().color(QPalette::Window).lightness() < 128;
+  static std::optional<bool> isDarkNow;
   const bool dark = choice == ThemeChoice::Dark || (choice == ThemeChoice::System && systemIsDark);
+  if (isDarkNow == dark) return;  // or every widget would be styled anew
+  isDarkNow = dark;
   const Theme& theme = dark ? darkTheme() : lightTheme();
   if (QApplication::style()->name().compare(QLatin1String("fusion"), Qt::CaseInsensitive) != 0 ||
       qApp->styleSheet().isEmpty())
@@ -108,11 +111,9 @@ void applyTheme(ThemeChoice choice) {
     return lines;
   }();
   Q_UNUSED(tips);
-  const QString sheet = sheetOf(theme);
-  if (qApp->styleSheet() == sheet) return;  // or every widget would be styled anew
   QApplication::setFont(uiFont());
   QApplication::setPalette(paletteOf(theme));
-  qApp->setStyleSheet(sheet);
+  qApp->setStyleSheet(sheetOf(theme));
 }
 
 QFont uiFont(int pixelSize, QFont::Weight weight) {

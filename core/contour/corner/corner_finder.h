@@ -17,7 +17,7 @@ namespace batten {
 /// A point of one of the contours of a set.
 struct ContourPlace {
   int contour = 0, index = 0;
-  auto operator<=>(const ContourPlace&) const = default;  // NOLINT(modernize-use-nullptr)
+  auto operator<=>(const ContourPlace&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm
 };
 
 /// Finds the corner, or else the point of a line, that a mark stands for. Results for points of a line are kept, so

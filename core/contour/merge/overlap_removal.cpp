@@ -31,14 +31,14 @@ constexpr double kBesideSlack = 0.1;    // part of a stretch that may be farther
 // A point of a piece.
 struct PiecePlace {
   int piece = 0, index = 0;
-  auto operator<=>(const PiecePlace&) const = default;  // NOLINT(modernize-use-nullptr)
+  auto operator<=>(const PiecePlace&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm
 };
 
 // A point that another lies on or beside: of a piece, or of the line itself, which is none yet.
 struct CoverPlace {
   std::optional<int> piece;
   int index = 0;
-  auto operator<=>(const CoverPlace&) const = default;  // NOLINT(modernize-use-nullptr)
+  auto operator<=>(const CoverPlace&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm
 };
 
 // How one point lies to the lines before it.

@@ -50,7 +50,7 @@ struct DirectedLine {
 // A point of one of the lines.
 struct LinePlace {
   int line = 0, index = 0;
-  auto operator<=>(const LinePlace&) const = default;  // NOLINT(modernize-use-nullptr)
+  auto operator<=>(const LinePlace&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm
 };
 
 // The nearest line beside a place.

@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-/// Constraints act at so many places a span; the result is checked at four times as many.
+/// Constraints act at so many places a span at least; the result is checked at four times as many.
 constexpr int kPlacesPerSpan = 8, kDenseFactor = 4;
 /// Cut-off wave in mean spans of the term against staircases.
 constexpr double kWaveSpans = 2.0;
@@ -40,9 +40,9 @@ constexpr double kUnitShare = 0.1, kLeastUnit = 0.05;
 /// No step moves a control point by more than this, in the larger of the least and the estimated move.
 constexpr double kLongestStep = 1.0;
 
-/// Where a span's parameter speed varies, the curvature turns within small parts of it: for each doubling as many
-/// places more, up to kMostTimes.
-int timesThePlaces(const SpanCurve& curve, int span) {
+/// By what the places of a span are multiplied. Where its parameter speed varies, the curvature turns within small
+/// parts of it: once the speed has more than doubled twice as many, and once more as many for each further doubling.
+int placeFactor(const SpanCurve& curve, int span) {
   constexpr int kLooks = 8, kMostTimes = 4;
   double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
   for (int i = 0; i <= kLooks; ++i) {
@@ -50,8 +50,9 @@ int timesThePlaces(const SpanCurve& curve, int span) {
     slowest = std::min(slowest, speed);
     fastest = std::max(fastest, speed);
   }
-  const double doublings = std::ceil(std::log2(fastest / slowest));
-  return doublings < kMostTimes ? std::max(static_cast<int>(doublings), 1) : kMostTimes;
+  int times = 1;
+  while (times < kMostTimes && fastest > std::ldexp(slowest, times)) ++times;
+  return times;
 }
 
 std::vector<SpanPlace> checkPlaces(const SpanCurve& curve, int leastPerSpan) {
@@ -60,7 +61,7 @@ std::vector<SpanPlace> checkPlaces(const SpanCurve& curve, int leastPerSpan) {
   const bool smooth = basis.degree() >= 5;
   std::vector<SpanPlace> places;
   for (int span = 0; span < basis.spanCount(); ++span) {
-    const int perSpan = leastPerSpan * timesThePlaces(curve, span);
+    const int perSpan = leastPerSpan * placeFactor(curve, span);
     for (int k = 0; k < perSpan; ++k)
       places.push_back({span, static_cast<double>(k) / (smooth ? perSpan : perSpan - 1)});
   }
@@ -150,6 +151,7 @@ std::vector<MonotoneSearch::Window> MonotoneSearch::windows(const CurvatureStruc
         after = j + 1 < extrema ? structure.extrema[j + 1].sample : count;
     if (setup_.closed && j == 0) before = structure.extrema.back().sample - count;
     if (setup_.closed && j + 1 == extrema) after = structure.extrema.front().sample + count;
+    // By number: where places are dense, the curvature turns within a shorter way.
     const int left = std::max((here - before) / 4, here - before > 3 ? 1 : 0);
     const int right = std::max((after - here) / 4, after - here > 3 ? 1 : 0);
     const int half = std::min(left, right);

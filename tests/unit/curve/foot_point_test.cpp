@@ -45,8 +45,8 @@ TEST(FootPoint, IsNeverFartherThanWhereTheSearchBegan) {
       const Vec2 point = curve.at(there, 0)[0] + 0.02 * Vec2(0.0, uniform(random) - 0.5);
       const SpanPlace foot = footPoint(curve, point, start);
       const double away = (curve.at(foot, 0)[0] - point).norm();
-      EXPECT_LE(away, (curve.at(start, 0)[0] - point).norm() * (1.0 + 1e-12)) << "line " << line << ", point " << k;
-      // The line goes on to the right all the way: it has no other foot than the nearest point.
+      EXPECT_LE(away, (curve.at(start, 0)[0] - point).norm() * (1.0 + 1e-9)) << "line " << line << ", point " << k;
+      // 0.01 off the line at most, which goes on to the right all the way: no foot is much farther.
       if (away > 0.0101) ++missed;
     }
   }
