@@ -54,17 +54,18 @@ void MainWindow::fitLower() {
   p.lower->setVisible(isWanted);
   // Half of the window is the drawing's, a little less where the axes of the plot need it; the tiles take what the
   // plot leaves of the rest.
-  int room = p.splitter->height() - height() / 2;
+  const int shared = p.splitter->height() - p.splitter->handleWidth();
+  int room = shared - height() / 2;
   if (hasPlots) {
-    const int most = p.splitter->height() - static_cast<int>(std::ceil(kLeastDrawingShare * height()));
+    const int most = shared - static_cast<int>(std::ceil(kLeastDrawingShare * height()));
     room = std::max(room, std::min(most, p.strip->flatHeight() + p.plots->goodHeight()));
   }
   p.strip->fitInto(room - (hasPlots ? p.plots->goodHeight() : 0), hasPlots);
   if (!isWanted) return;
   const int least = p.strip->height() + (hasPlots ? p.plots->minimumSizeHint().height() : 0);
-  const int most = std::max(least, p.splitter->height() - kLeastDrawing);
+  const int most = std::max(least, shared - kLeastDrawing);
   const int lower = hasPlots ? std::clamp(p.lowerPx.value_or(std::min(kUsualLower, room)), least, most) : least;
-  p.splitter->setSizes({std::max(1, p.splitter->height() - lower), lower});
+  p.splitter->setSizes({std::max(1, shared - lower), lower});
 }
 
 }  // namespace batten
