@@ -279,6 +279,15 @@ double SpanCurve::speed(const SpanPlace& place) const {
   return sum.norm() / basis_->width(place.span);
 }
 
+SpanCurve::SpeedRange SpanCurve::speedRange(int span, int parts) const {
+  SpeedRange range{std::numeric_limits<double>::infinity(), 0.0};
+  for (int i = 0; i <= parts; ++i) {
+    const double here = speed({span, static_cast<double>(i) / parts});
+    range = {std::min(range.least, here), std::max(range.most, here)};
+  }
+  return range;
+}
+
 double SpanCurve::bendBound(int span) const {
   const std::size_t p = basis_->degree(), first = span * (p + 1);
   double bound = 0.0;

@@ -70,6 +70,11 @@ class SpanCurve {
   /// Derivatives up to `order` (0..4); those above are zero.
   Jet at(const SpanPlace& place, int order) const;
   double speed(const SpanPlace& place) const;
+  struct SpeedRange {
+    double least, most;
+  };
+  /// Of the speeds at `parts` + 1 equally spaced places of a span.
+  SpeedRange speedRange(int span, int parts) const;
   /// Those of the powers of the position 0..1 within the span, degree + 1 of them.
   const Vec2* coefficients(int span) const {
     return coefficients_.data() + std::ptrdiff_t{span} * (basis_->degree() + 1);

@@ -50,28 +50,27 @@ double largestInSpan(const SpanCurve& from, const SpanCurve& to, int span, int c
   return largest;
 }
 
+/// In so many parts of a span the curve turns little.
+double partsOfLittleTurn(const SpanCurve& from, int span) {
+  const double slowest = from.speedRange(span, kChecksPerSpan).least;
+  return from.bendBound(span) / (kMostTurn * slowest * from.basis().width(span));
+}
+
+int placesOf(double parts, int least) {
+  const double count = std::ceil(parts);
+  return count < kMostChecks ? std::max(static_cast<int>(count), least) : kMostChecks;
+}
+
 /// How closely a span must be looked at. Between places 1/n apart the difference of the curves bends away by no more
 /// than its second derivative over 8 n^2; but where a curve turns about between two places, its distance may come and
 /// go there.
 int checksFor(const SpanCurve& from, const SpanCurve& to, int span, double largest) {
-  double slowest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= kChecksPerSpan; ++i) {
-    slowest = std::min(slowest, from.speed({span, static_cast<double>(i) / kChecksPerSpan}));
-  }
   const double apart = std::sqrt(from.bendBound(to, span) / (8.0 * kUnseenShare * largest));
-  const double turned = from.bendBound(span) / (kMostTurn * slowest * from.basis().width(span));
-  const double count = std::ceil(std::max({apart, turned, 0.0}));
-  return count < kMostChecks ? std::max(static_cast<int>(count), kChecksPerSpan) : kMostChecks;
+  return placesOf(std::max({apart, partsOfLittleTurn(from, span), 0.0}), kChecksPerSpan);
 }
 
 /// So many places of a span that the curve turns little from one to the next.
-int turnsFor(const SpanCurve& from, int span, int least) {
-  double slowest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= kChecksPerSpan; ++i)
-    slowest = std::min(slowest, from.speed({span, static_cast<double>(i) / kChecksPerSpan}));
-  const double turned = std::ceil(from.bendBound(span) / (kMostTurn * slowest * from.basis().width(span)));
-  return turned < kMostChecks ? std::max(static_cast<int>(turned), least) : kMostChecks;
-}
+int turnsFor(const SpanCurve& from, int span, int least) { return placesOf(partsOfLittleTurn(from, span), least); }
 
 /// The span at whose middle two curves over one basis are farthest apart.
 int farthestSpan(const SpanCurve& a, const SpanCurve& b) {

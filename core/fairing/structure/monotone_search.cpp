@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
@@ -44,14 +43,9 @@ constexpr double kLongestStep = 1.0;
 /// parts of it: once the speed has more than doubled twice as many, and once more as many for each further doubling.
 int placeFactor(const SpanCurve& curve, int span) {
   constexpr int kLooks = 8, kMostTimes = 4;
-  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
-  for (int i = 0; i <= kLooks; ++i) {
-    const double speed = curve.speed({span, static_cast<double>(i) / kLooks});
-    slowest = std::min(slowest, speed);
-    fastest = std::max(fastest, speed);
-  }
+  const SpanCurve::SpeedRange speed = curve.speedRange(span, kLooks);
   int times = 1;
-  while (times < kMostTimes && fastest > std::ldexp(slowest, times)) ++times;
+  while (times < kMostTimes && speed.most > std::ldexp(speed.least, times)) ++times;
   return times;
 }
 
