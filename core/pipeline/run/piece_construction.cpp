@@ -10,10 +10,17 @@
 #include "core/pipeline/run/curve_stages.h"
 
 namespace batten {
+namespace {
+
+bool hasLines(const PipelineOutput& out) {
+  return out.contours && out.pieces && out.segments && out.segments->pieces.size() == out.pieces->pieces.size();
+}
+
+}  // namespace
 
 Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& recipe, int piece,
                                    const RunContext& context) {
-  if (!out.pieces || !out.segments || !out.contours || piece < 0 || piece >= std::ssize(out.pieces->pieces))
+  if (!hasLines(out) || piece < 0 || piece >= std::ssize(out.pieces->pieces))
     return fail(ErrorCode::NoCurve, "There is no such line.");
   try {
     const std::size_t at = piece;
@@ -29,9 +36,9 @@ Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& reci
 
 Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const Recipe& recipe, int contour,
                                                const RunContext& context) {
-  if (lineInput(out, contour).pieces.empty()) return fail(ErrorCode::NoCurve, "There is no such line.");
+  const PieceRange range = hasLines(out) ? rangeOf(*out.pieces, contour) : PieceRange{};
+  if (range.first == range.last) return fail(ErrorCode::NoCurve, "There is no such line.");
   try {
-    const PieceRange range = rangeOf(*out.pieces, contour);
     ConstructedSet outcome = constructFromPoints(out, recipe, range, context);
     if (context.isCancelled()) return cancelled();
     std::vector<TracedCurve> curves(range.last - range.first);
