@@ -13,6 +13,7 @@
 #include "core/curve/sample_tree.h"
 #include "core/curve/span_curve.h"
 #include "core/curve/width_fit.h"
+#include "tests/support/clamped_knots.h"
 
 namespace batten {
 namespace {
@@ -21,12 +22,9 @@ constexpr int kWavePoints = 400;
 
 NurbsCurve longWave() {
   std::vector<Vec2> points;
-  std::vector<double> knots(6, 0.0);
   for (int i = 0; i < kWavePoints; ++i)
     points.emplace_back(4.0 * i, 6.0 * std::sin(0.8 * i) + 2.0 * std::sin(0.31 * i));
-  for (int i = 1; i < kWavePoints - 5; ++i) knots.push_back(i);
-  knots.insert(knots.end(), 6, kWavePoints - 5.0);
-  auto made = NurbsCurve::make(5, std::move(knots), std::move(points));
+  auto made = NurbsCurve::make(5, test::clampedUnitKnots(5, kWavePoints), std::move(points));
   EXPECT_TRUE(made);
   return std::move(*made);
 }

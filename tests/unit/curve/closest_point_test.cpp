@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/curve/closest_point.h"
+#include "tests/support/clamped_knots.h"
 #include "tests/support/growth.h"
 
 namespace batten {
@@ -17,11 +18,8 @@ NurbsCurve tangled(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const int count = 8 + static_cast<int>(random() % 5U);
   std::vector<Vec2> points;
-  std::vector<double> knots(6, 0.0);
   for (int i = 0; i < count; ++i) points.emplace_back(i + 6.0 * uniform(random), uniform(random));
-  for (int i = 1; i < count - 5; ++i) knots.push_back(i);
-  knots.insert(knots.end(), 6, count - 5);
-  return NurbsCurve::make(5, knots, points).value();
+  return NurbsCurve::make(5, test::clampedUnitKnots(5, count), points).value();
 }
 
 double bruteForce(const NurbsCurve& curve, const Vec2& p) {
@@ -71,10 +69,7 @@ NurbsCurve spiral(int turns, std::vector<Vec2>& beside) {
     angle += kStep / radius;
   }
   const int count = static_cast<int>(points.size());
-  std::vector<double> knots(4, 0.0);
-  for (int i = 1; i < count - 3; ++i) knots.push_back(i);
-  knots.insert(knots.end(), 4, count - 3);
-  return NurbsCurve::make(3, knots, points).value();
+  return NurbsCurve::make(3, test::clampedUnitKnots(3, count), points).value();
 }
 
 TEST(Deviation, OfACurveThatCutsACornerIsFoundBetweenTheSamples) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/curve/curvature.h"
+#include "tests/support/clamped_knots.h"
 
 namespace batten {
 namespace {
@@ -17,11 +18,8 @@ TEST(CurvatureCounts, AreThoseOfThePlacesFound) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int round = 0; round < 20; ++round) {
     std::vector<Vec2> points;
-    std::vector<double> knots(6, 0.0);
     for (int i = 0; i < 14; ++i) points.emplace_back(10.0 * i + 3.0 * any(random), 20.0 * any(random));
-    for (int i = 1; i < 9; ++i) knots.push_back(i);
-    knots.insert(knots.end(), 6, 9.0);
-    const auto curve = NurbsCurve::make(5, knots, points);
+    const auto curve = NurbsCurve::make(5, test::clampedUnitKnots(5, 14), points);
     ASSERT_TRUE(curve);
     for (const double prominence : {1e-4, 1e-2}) {
       const CurvatureCounts counts = curvatureCounts(*curve, prominence, false);

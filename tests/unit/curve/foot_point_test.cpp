@@ -7,18 +7,12 @@
 #include <vector>
 
 #include "core/curve/span_curve.h"
+#include "tests/support/clamped_knots.h"
 
 namespace batten {
 namespace {
 
 constexpr int kControlPoints = 24, kDegree = 5;
-
-std::vector<double> clampedKnots() {
-  std::vector<double> knots(kDegree + 1, 0.0);
-  for (int i = 1; i < kControlPoints - kDegree; ++i) knots.push_back(i);
-  knots.insert(knots.end(), kDegree + 1, kControlPoints - kDegree);
-  return knots;
-}
 
 /// A line whose speed all but vanishes in places, as where fairing has drawn control points together.
 std::vector<Vec2> unevenPoints(std::mt19937& random) {
@@ -35,7 +29,7 @@ TEST(FootPoint, IsNeverFartherThanWhereTheSearchBegan) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   int missed = 0;
-  const std::vector<double> knots = clampedKnots();
+  const std::vector<double> knots = test::clampedUnitKnots(kDegree, kControlPoints);
   const SpanBasis basis(kDegree, knots, kControlPoints, 0);
   for (int line = 0; line < 200; ++line) {
     const SpanCurve curve(basis, unevenPoints(random));
@@ -55,7 +49,7 @@ TEST(FootPoint, IsNeverFartherThanWhereTheSearchBegan) {
 
 TEST(FootPoint, IsFoundAlsoOverManySpans) {
   std::mt19937 random(12);
-  const std::vector<double> knots = clampedKnots();
+  const std::vector<double> knots = test::clampedUnitKnots(kDegree, kControlPoints);
   const SpanBasis basis(kDegree, knots, kControlPoints, 0);
   std::vector<Vec2> points;
   for (int i = 0; i < kControlPoints; ++i) points.emplace_back(i, 2.0 * std::sin(0.2 * i));

@@ -9,17 +9,15 @@
 #include "core/curve/arc_length.h"
 #include "core/document/report_pages/curve_figures.h"
 #include "core/fairing/fairing.h"
+#include "tests/support/clamped_knots.h"
 
 namespace batten {
 namespace {
 
 /// A clamped quintic with even knots through a polygon.
 NurbsCurve quintic(std::vector<Vec2> points) {
-  std::vector<double> knots(6, 0.0);
-  const auto spans = static_cast<int>(points.size()) - 5;
-  for (int i = 1; i < spans; ++i) knots.push_back(i);
-  knots.insert(knots.end(), 6, spans);
-  return NurbsCurve::make(5, std::move(knots), std::move(points)).value();
+  const int count = static_cast<int>(points.size());
+  return NurbsCurve::make(5, test::clampedUnitKnots(5, count), std::move(points)).value();
 }
 
 /// A wave that is not quite fair.

@@ -19,6 +19,7 @@
 #include "core/fairing/structure/structure_candidates.h"
 #include "core/fairing/structure/tolerance_fairing.h"
 #include "core/fairing/target/low_pass.h"
+#include "tests/support/clamped_knots.h"
 
 namespace batten {
 namespace {
@@ -27,11 +28,8 @@ constexpr int kPoints = 120;
 
 NurbsCurve shakyWave() {
   std::vector<Vec2> points;
-  std::vector<double> knots(6, 0.0);
   for (int i = 0; i < kPoints; ++i) points.emplace_back(4.0 * i, 6.0 * std::sin(0.3 * i) + 0.2 * std::sin(1.9 * i));
-  for (int i = 1; i < kPoints - 5; ++i) knots.push_back(i);
-  knots.insert(knots.end(), 6, kPoints - 5.0);
-  auto made = NurbsCurve::make(5, std::move(knots), std::move(points));
+  auto made = NurbsCurve::make(5, test::clampedUnitKnots(5, kPoints), std::move(points));
   EXPECT_TRUE(made);
   return std::move(*made);
 }

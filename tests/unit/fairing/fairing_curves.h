@@ -8,16 +8,14 @@
 #include <vector>
 
 #include "core/curve/nurbs_curve.h"
+#include "tests/support/clamped_knots.h"
 
 namespace batten::test {
 
 /// Clamped uniform knots for `count` control points over 0..1.
 inline std::vector<double> clampedKnots(int degree, int count) {
-  std::vector<double> knots;
-  const int spans = count - degree;
-  for (int i = 0; i <= degree; ++i) knots.push_back(0.0);
-  for (int i = 1; i < spans; ++i) knots.push_back(static_cast<double>(i) / spans);
-  for (int i = 0; i <= degree; ++i) knots.push_back(1.0);
+  std::vector<double> knots = clampedUnitKnots(degree, count);
+  for (double& knot : knots) knot /= count - degree;
   return knots;
 }
 
