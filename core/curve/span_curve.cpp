@@ -39,14 +39,16 @@ class PartLength {
   double whole() const { return at(1.0); }
   /// The place 0..1 in the part at which its length has reached `wanted`, by safeguarded Newton.
   double placeAt(double wanted, double whole) const {
+    constexpr double kSettled = 1e-9, kHalved = 1e-15;  // after a step of Newton's so small the next is rounding
     double low = 0.0, high = 1.0, x = whole > 0.0 ? std::clamp(wanted / whole, 0.0, 1.0) : 0.0;
     for (int step = 0; step < 60; ++step) {
       const double miss = at(x) - wanted;
       (miss > 0.0 ? high : low) = x;
       const double v = slopeAt(x);
       double next = v > 0.0 ? x - miss / v : -1.0;
-      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-      const bool settled = std::abs(next - x) < 1e-15;
+      const bool isHalved = !(next >= low && next <= high);
+      if (isHalved) next = 0.5 * (low + high);
+      const bool settled = std::abs(next - x) < (isHalved ? kHalved : kSettled);
       x = next;
       if (settled) break;
     }
@@ -145,24 +147,38 @@ SpanPlace movedAlong(const SpanBasis& basis, const SpanPlace& place, double move
 /// Of a span: a move so small converges, and rounding hides whether it leads nearer.
 constexpr double kSurelyNear = 1e-4;
 
+/// Where a search for a foot ended. Distances are squared.
+struct FootSearch {
+  bool isSettled = false;
+  SpanPlace place;
+  double begin = 0.0, end = 0.0;  ///< Where the search began, and at the last place it looked at.
+};
+
 /// @param isDownhill a move that would lead farther off is shortened.
-/// @return whether the search settled, and where it ended; downhill the nearest place.
+/// @param enough a place so near, squared, is not improved.
+/// @return downhill, unless it settled, the nearest place.
 template <int kDegree>
-std::pair<bool, SpanPlace> searchFoot(const SpanCurve& curve, const Vec2& point, SpanPlace start, bool isDownhill) {
+FootSearch searchFoot(const SpanCurve& curve, const Vec2& point, SpanPlace start, double enough, bool isDownhill) {
   constexpr double kShorter = 0.25;  // of a move that leads farther off
   const SpanBasis& basis = curve.basis();
   const std::size_t p = kDegree == Eigen::Dynamic ? basis.degree() : kDegree;
   const int mostSteps = isDownhill ? 40 : 8;  // shortened ones too
-  SpanPlace place = start, best = start;
+  FootSearch search{.place = start};
+  SpanPlace best = start;
   double move = 0.0, least = std::numeric_limits<double>::infinity();
   bool isShortened = false;
   for (int step = 0; step < mostSteps; ++step) {
-    const double width = basis.width(place.span);
-    const auto jet = taylorAt<2>(curve.coefficients(place.span), p, place.tau, 1.0 / width);
-    const double away = isDownhill ? (jet[0] - point).squaredNorm() : 0.0;
-    if (away <= least || (!isShortened && std::abs(move) < kSurelyNear)) {
-      best = place;
-      least = away;
+    const double width = basis.width(search.place.span);
+    const auto jet = taylorAt<2>(curve.coefficients(search.place.span), p, search.place.tau, 1.0 / width);
+    search.end = (jet[0] - point).squaredNorm();
+    if (step == 0) search.begin = search.end;
+    if (search.end <= enough) {
+      search.isSettled = true;
+      return search;
+    }
+    if (!isDownhill || search.end <= least || (!isShortened && std::abs(move) < kSurelyNear)) {
+      best = search.place;
+      least = search.end;
       isShortened = false;
       move = footStep(jet[0] - point, jet[1], jet[2]) / width;
       move = std::clamp(move, -1.0, 1.0);
@@ -170,20 +186,22 @@ std::pair<bool, SpanPlace> searchFoot(const SpanCurve& curve, const Vec2& point,
       move *= kShorter;
       isShortened = true;
     }
-    place = movedAlong(basis, best, move);
-    if (std::abs(move) < 1e-10 || (place.span == best.span && std::abs(place.tau - best.tau) < 1e-12))
-      return {true, place};
+    search.place = movedAlong(basis, best, move);
+    search.isSettled =
+        std::abs(move) < 1e-10 || (search.place.span == best.span && std::abs(search.place.tau - best.tau) < 1e-12);
+    if (search.isSettled) return search;
   }
-  return {false, isDownhill ? best : place};
+  if (isDownhill) search.place = best;
+  return search;
 }
 
 template <int kDegree>
-SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
-  const auto [isFound, foot] = searchFoot<kDegree>(curve, point, start, false);
-  const auto distanceOf = [&](const SpanPlace& place) { return (curve.at(place, 0)[0] - point).squaredNorm(); };
+SpanPlace footPointOf(const SpanCurve& curve, const Vec2& point, SpanPlace start, double enough) {
+  const FootSearch search = searchFoot<kDegree>(curve, point, start, enough, false);
+  const SpanPlace& foot = search.place;
   const bool isThere = foot.span == start.span && std::abs(foot.tau - start.tau) < kSurelyNear;
-  if (isFound && (isThere || distanceOf(foot) <= distanceOf(start))) return foot;
-  return searchFoot<kDegree>(curve, point, start, true).second;
+  if (search.isSettled && (isThere || search.end <= search.begin)) return foot;
+  return searchFoot<kDegree>(curve, point, start, enough, true).place;
 }
 
 }  // namespace
@@ -198,10 +216,11 @@ SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int w
     first_.push_back(k - degree);
     // Cox-de Boor on polynomials in tau = (t - a) / h; n[j][i] = coefficient of tau^i of the j-th function alive in the
     // span.
-    std::vector<std::vector<double>> n(size, std::vector<double>(size, 0.0));
+    using Functions = std::array<std::array<double, kMaxDegree + 1>, kMaxDegree + 1>;
+    Functions n{};
     n[0][0] = 1.0;
     for (std::size_t m = 1; m <= p; ++m) {
-      std::vector<std::vector<double>> next(size, std::vector<double>(size, 0.0));
+      Functions next{};
       for (std::size_t j = 0; j < m; ++j) {
         const double left = knots[k - m + 1 + j], right = knots[k + 1 + j];
         const double scale = 1.0 / (right - left);
@@ -213,7 +232,7 @@ SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int w
           next[j][i + 1] -= v * h;
         }
       }
-      n = std::move(next);
+      n = next;
     }
     for (std::size_t i = 0; i < size; ++i) {
       for (std::size_t j = 0; j < size; ++j) coefficients_.push_back(n[j][i]);
@@ -331,10 +350,11 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
   return result;
 }
 
-SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
+SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start, double enough) {
   constexpr int kQuintic = 5;  // the usual case, with loops of known lengths
-  return curve.basis().degree() == kQuintic ? footPointOf<kQuintic>(curve, point, start)
-                                            : footPointOf<Eigen::Dynamic>(curve, point, start);
+  const double squared = enough * enough;
+  return curve.basis().degree() == kQuintic ? footPointOf<kQuintic>(curve, point, start, squared)
+                                            : footPointOf<Eigen::Dynamic>(curve, point, start, squared);
 }
 
 }  // namespace batten

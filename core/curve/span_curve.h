@@ -100,7 +100,8 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
 
 /// The foot point of `point` on the curve that Newton's method reaches from `start`; periodic curves run on over the
 /// seam, others stop at their ends. Where it does not settle, or ends farther off than it began, as where the curve is
-/// slow or bends sharply, it begins anew with steps shortened so that each leads nearer.
-SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start);
+/// slow or bends sharply, it begins anew with steps shortened so that each leads nearer. The first place that is no
+/// farther than `enough` ends the search.
+SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start, double enough = 0.0);
 
 }  // namespace batten

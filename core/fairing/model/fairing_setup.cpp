@@ -8,15 +8,14 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/model/sketch_deviation.h"
 
 namespace batten {
 namespace {
 
-constexpr int kSamplesPerSpan = 4;                     // where the objective is taken
-constexpr int kChecksPerSpan = 12, kMostChecks = 400;  // at least and at most, where speed and deviation are checked
+constexpr int kSamplesPerSpan = 4;  // where the objective is taken
 /// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
 constexpr double kMeasured = 0.999;
-constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
 /// A move that is too long is shortened to this part of what is allowed: the deviation is all but proportional to it,
 /// and rounding must not make another round of it. Never to less than a hundredth at once.
 constexpr double kShrinkRoom = 0.9995, kMostShrinking = 0.01;
@@ -25,108 +24,6 @@ constexpr int kMostShrinkings = 60;  // limits the work where nothing comes with
 constexpr double kSamePeriodic = 1e-8;
 /// What may lie between the places where a distance is measured.
 constexpr double kUnseenSeam = 1.01;
-/// The same of a curve over fewer knots, whose places are not those of the sketched one.
-constexpr double kUnseenOverFewerKnots = 1.015;
-constexpr double kMostTurn = 0.5;  // [rad] of the curve from place to place
-
-/// Largest distance of `count` + 1 equally spaced points of a span of `from` from their feet on `to`, a curve of
-/// similar course; peaks between them by a parabola. `hint` says where on `to` a foot is looked for.
-template <class Hint>
-double largestInSpan(const SpanCurve& from, const SpanCurve& to, int span, int count, const Hint& hint) {
-  double largest = 0.0, before = 0.0, here = 0.0;
-  for (int i = 0; i <= count; ++i) {
-    const SpanPlace place{span, static_cast<double>(i) / count};
-    const Vec2 point = from.at(place, 0)[0];
-    const double next = (to.at(footPoint(to, point, hint(place)), 0)[0] - point).norm();
-    if (!std::isfinite(next)) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, next);
-    const double bend = before - 2.0 * here + next;
-    if (i >= 2 && here >= before && here >= next && bend < 0.0) {
-      largest = std::max(largest, here - (before - next) * (before - next) / (8.0 * bend));
-    }
-    before = here;
-    here = next;
-  }
-  return largest;
-}
-
-/// In so many parts of a span the curve turns little.
-double partsOfLittleTurn(const SpanCurve& from, int span) {
-  const double slowest = from.speedRange(span, kChecksPerSpan).least;
-  return from.bendBound(span) / (kMostTurn * slowest * from.basis().width(span));
-}
-
-int placesOf(double parts, int least) {
-  const double count = std::ceil(parts);
-  return count < kMostChecks ? std::max(static_cast<int>(count), least) : kMostChecks;
-}
-
-/// How closely a span must be looked at. Between places 1/n apart the difference of the curves bends away by no more
-/// than its second derivative over 8 n^2; but where a curve turns about between two places, its distance may come and
-/// go there.
-int checksFor(const SpanCurve& from, const SpanCurve& to, int span, double largest) {
-  const double apart = std::sqrt(from.bendBound(to, span) / (8.0 * kUnseenShare * largest));
-  return placesOf(std::max({apart, partsOfLittleTurn(from, span), 0.0}), kChecksPerSpan);
-}
-
-/// So many places of a span that the curve turns little from one to the next.
-int turnsFor(const SpanCurve& from, int span, int least) { return placesOf(partsOfLittleTurn(from, span), least); }
-
-/// The span at whose middle two curves over one basis are farthest apart.
-int farthestSpan(const SpanCurve& a, const SpanCurve& b) {
-  double most = -1.0;
-  int farthest = 0;
-  for (int span = 0; span < a.basis().spanCount(); ++span) {
-    const double apart = (a.at({span, 0.5}, 0)[0] - b.at({span, 0.5}, 0)[0]).squaredNorm();
-    if (apart > most) most = apart, farthest = span;
-  }
-  return farthest;
-}
-
-/// Of two curves over one basis; no more than that it is more than `enough`, where it is.
-double largestDistance(const SpanCurve& from, const SpanCurve& to, double enough, CancelCheck check) {
-  const auto same = [](const SpanPlace& place) { return place; };
-  double largest = 0.0;
-  const int spans = from.basis().spanCount();
-  const auto isMore = [&] { return largest > enough && std::isfinite(largest); };
-  if (std::isfinite(enough) && !check.isCancelled())
-    largest = largestInSpan(from, to, farthestSpan(from, to), kChecksPerSpan, same);
-  for (int span = 0; span < spans && !isMore() && !check.isCancelled(); ++span)
-    largest = std::max(largest, largestInSpan(from, to, span, kChecksPerSpan, same));
-  if (!std::isfinite(largest)) return std::numeric_limits<double>::max();
-  for (int span = 0; span < spans && largest > 0.0 && !isMore() && !check.isCancelled(); ++span) {
-    const int checks = checksFor(from, to, span, largest);
-    if (checks > kChecksPerSpan) largest = std::max(largest, largestInSpan(from, to, span, checks, same));
-  }
-  return std::isfinite(largest) ? largest : std::numeric_limits<double>::max();
-}
-
-/// Of a curve over fewer knots and the sketched one.
-double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays, double enough) {
-  const int spans = setup.basis.spanCount(), sketched = setup.reference.basis().spanCount();
-  const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
-  double largest = 0.0;
-  const auto isMore = [&] { return kUnseenOverFewerKnots * largest > enough && std::isfinite(largest); };
-  for (int span = 0; span < spans && !isMore() && !setup.check.isCancelled(); ++span) {
-    largest = std::max(largest, largestInSpan(curve, setup.reference, span, turnsFor(curve, span, checks),
-                                              [&](const SpanPlace& place) { return setup.sketchedPlace(place); }));
-  }
-  const auto shareOf = [&](const SpanPlace& place) {
-    return setup.sketch->sampleAt(place) / (setup.closed ? setup.sampleCount() : setup.sampleCount() - 1);
-  };
-  const auto placeAt = [&](double share) {
-    const double u = setup.original.start() + share * (setup.original.end() - setup.original.start());
-    int span = 0;
-    while (span + 1 < spans && setup.basis.begin(span + 1) <= u) ++span;
-    return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
-  };
-  for (int span = 0; bothWays && span < sketched && !isMore() && !setup.check.isCancelled(); ++span) {
-    largest =
-        std::max(largest, largestInSpan(setup.reference, curve, span, turnsFor(setup.reference, span, kChecksPerSpan),
-                                        [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
-  }
-  return std::isfinite(largest) ? kUnseenOverFewerKnots * largest : std::numeric_limits<double>::max();
-}
 
 /// How far a periodic form is from the curve that it was made of; 0 where they differ by rounding only.
 double distanceFrom(const NurbsCurve& curve, const PeriodicForm& form, CancelCheck check) {
@@ -252,14 +149,6 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
   PeriodicForm form = setup.periodic;
   form.points = points;
   return fromPeriodic(form, setup.original);
-}
-
-double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays, double enoughMm) {
-  const SpanCurve curve(setup.basis, points);
-  if (setup.sketch) return largestDistanceOverFewerKnots(setup, curve, bothWays, enoughMm);
-  const double there = largestDistance(curve, setup.reference, enoughMm, setup.check);
-  if (!bothWays || there > enoughMm) return there;
-  return std::max(there, largestDistance(setup.reference, curve, enoughMm, setup.check));
 }
 
 FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check) {

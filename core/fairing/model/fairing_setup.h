@@ -64,13 +64,6 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
 /// The faired curve over the knots of the sketched one.
 Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points);
 
-/// Largest distance of the curve from the sketched one: foot points at 12 places a span or, where the two swing
-/// apart quickly, so many that no more than 1 % can hide between them; over fewer knots, at 12 places a sketched span.
-/// `bothWays` also measures the sketched curve's distance from the curve. @return where it is more than `enoughMm`
-/// maybe less than all of it, but more than that.
-double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false,
-                        double enoughMm = std::numeric_limits<double>::infinity());
-
 /// The curve as it was: what is taken of the tolerance, and the seam, leave nothing of it.
 FairedCurve withoutTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params, CancelCheck check);
 

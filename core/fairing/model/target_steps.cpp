@@ -7,6 +7,7 @@
 
 #include "core/curve/curvature.h"
 #include "core/curve/extremum_indices.h"
+#include "core/fairing/model/sketch_deviation.h"
 #include "core/solve/levenberg_marquardt.h"
 
 namespace batten {
@@ -77,7 +78,11 @@ bool TargetStep::isWithin(double mm) const {
   if (deviationMm_) return *deviationMm_ <= mm;
   if (mm == std::numeric_limits<double>::infinity()) return true;
   if (leastMm_ > mm) return false;
-  if (kSurelyWithin * largestMove(*setup, points) <= mm) return true;
+  if (mostMm_ <= mm) return true;
+  if (kSurelyWithin * largestMove(*setup, points) <= mm || isClearlyWithin(*setup, points, mm)) {
+    mostMm_ = mm;
+    return true;
+  }
   const double deviation = largestDeviation(*setup, points, true, mm);
   if (deviation > mm) {
     leastMm_ = deviation;

@@ -42,7 +42,8 @@ struct TargetStep {
 
  private:
   mutable std::optional<double> deviationMm_;
-  mutable double leastMm_ = 0.0;  ///< Part of the deviation, where all of it is not known.
+  /// What is known of the deviation, where all of it is not.
+  mutable double leastMm_ = 0.0, mostMm_ = std::numeric_limits<double>::infinity();
   mutable std::optional<int> extrema_;
 };
 

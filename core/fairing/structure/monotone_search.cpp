@@ -8,6 +8,7 @@
 
 #include "core/curve/extremum_indices.h"
 #include "core/fairing/model/fairing_state.h"
+#include "core/fairing/model/sketch_deviation.h"
 #include "core/fairing/structure/monotone_program.h"
 
 namespace batten {

@@ -8,6 +8,7 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/model/coarse_setups.h"
 #include "core/fairing/model/fairing_state.h"
+#include "core/fairing/model/sketch_deviation.h"
 
 namespace batten {
 namespace {

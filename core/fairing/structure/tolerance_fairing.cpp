@@ -9,6 +9,7 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/model/minimise.h"
+#include "core/fairing/model/sketch_deviation.h"
 #include "core/fairing/structure/structure_candidates.h"
 
 namespace batten {

@@ -241,7 +241,7 @@ class ShapeModification {
       const double weight = near ? weightBetween(*wide, *near, toleranceMm) : kSearchWeightStep * wide->weight;
       const TargetStep* step = course.followed->between(near ? *near : *wide, weight);
       if (!step) break;
-      if (step->isWithin(kToleranceRoom * toleranceMm)) {
+      if (step->deviationMm() <= kToleranceRoom * toleranceMm) {  // asked for by the next weight
         found.push_back(step);
         near = step;
       } else {

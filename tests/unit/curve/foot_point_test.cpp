@@ -47,6 +47,26 @@ TEST(FootPoint, IsNeverFartherThanWhereTheSearchBegan) {
   EXPECT_EQ(missed, 0) << "of 10000 points";
 }
 
+TEST(FootPoint, ThatIsNearEnoughEndsTheSearch) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const std::vector<double> knots = test::clampedUnitKnots(kDegree, kControlPoints);
+  const SpanBasis basis(kDegree, knots, kControlPoints, 0);
+  const SpanCurve curve(basis, unevenPoints(random));
+  for (int k = 0; k < 500; ++k) {
+    const SpanPlace there{static_cast<int>(uniform(random) * basis.spanCount()), uniform(random)};
+    const SpanPlace start = basis.place(basis.parameter(there) + uniform(random) - 0.5);
+    const Vec2 point = curve.at(there, 0)[0] + 0.02 * Vec2(0.0, uniform(random) - 0.5);
+    const auto distanceOf = [&](const SpanPlace& place) { return (curve.at(place, 0)[0] - point).norm(); };
+    const double least = distanceOf(footPoint(curve, point, start)), enough = 0.1 * uniform(random);
+    const double found = distanceOf(footPoint(curve, point, start, enough));
+    EXPECT_LE(found, std::max(enough, least) * (1.0 + 1e-9)) << "point " << k;
+    if (distanceOf(start) <= enough) {
+      EXPECT_EQ(found, distanceOf(start)) << "point " << k;
+    }
+  }
+}
+
 TEST(FootPoint, IsFoundAlsoOverManySpans) {
   std::mt19937 random(12);
   const std::vector<double> knots = test::clampedUnitKnots(kDegree, kControlPoints);

@@ -14,6 +14,7 @@
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/model/fairing_state.h"
 #include "core/fairing/model/line_blocks.h"
+#include "core/fairing/model/sketch_deviation.h"
 #include "core/fairing/structure/fair_as_needed.h"
 #include "core/fairing/structure/monotone_search.h"
 #include "core/fairing/structure/structure_candidates.h"

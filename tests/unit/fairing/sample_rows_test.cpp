@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/model/sketch_deviation.h"
 #include "core/fairing/model/target_steps.h"
 #include "tests/unit/fairing/fairing_curves.h"
 

@@ -9,6 +9,7 @@
 #include "core/fairing/model/curvature_rows.h"
 #include "core/fairing/model/fairing_model.h"
 #include "core/fairing/model/minimise.h"
+#include "core/fairing/model/sketch_deviation.h"
 #include "core/fairing/model/target_steps.h"
 #include "core/fairing/target/shape_modification.h"
 #include "tests/support/known_answers.h"

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The deviation that fairing measures against many closest points of either curve.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/curve/closest_point.h"
+#include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/model/sketch_deviation.h"
+#include "tests/unit/fairing/fairing_curves.h"
+
+namespace batten {
+namespace {
+
+constexpr int kPoints = 40, kCurves = 200;
+
+double farthestOf(const NurbsCurve& from, const NurbsCurve& to) {
+  constexpr int kSamples = 4000;
+  const ClosestPointFinder finder(to);
+  double farthest = 0.0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double u = from.start() + (from.end() - from.start()) * i / kSamples;
+    farthest = std::max(farthest, finder.closestTo(from.point(u)).distance);
+  }
+  return farthest;
+}
+
+/// Control points moved together over a few spans or all, along the line too.
+std::vector<Vec2> moved(const std::vector<Vec2>& points, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<Vec2> result = points;
+  const double size = std::pow(10.0, -3.0 + 3.0 * uniform(random)), width = 1.0 + 12.0 * uniform(random);
+  for (int bump = 0; bump < 4; ++bump) {
+    const double centre = uniform(random) * (kPoints - 1), along = size * (3.0 * uniform(random) - 1.5);
+    const double across = size * (2.0 * uniform(random) - 1.0);
+    for (int i = 1; i + 1 < kPoints; ++i) {
+      const double away = (i - centre) / width;
+      result[i] += std::exp(-away * away) * Vec2(along, across);
+    }
+  }
+  return result;
+}
+
+TEST(SketchDeviation, IsThatOfManyClosestPoints) {
+  std::mt19937 random(5);
+  for (int k = 0; k < kCurves; ++k) {
+    const NurbsCurve sketched = test::noisy(test::wave(280.0, 30.0, kPoints), 0.1, k);
+    const auto setup = makeSetup(sketched, false, {});
+    ASSERT_TRUE(setup);
+    const std::vector<Vec2> points = moved((*setup)->points, random);
+    const auto curve = toCurve(**setup, points);
+    ASSERT_TRUE(curve);
+    const double there = farthestOf(*curve, sketched), both = std::max(there, farthestOf(sketched, *curve));
+    EXPECT_NEAR(largestDeviation(**setup, points), there, 0.01 * there) << "curve " << k;
+    EXPECT_NEAR(largestDeviation(**setup, points, true), both, 0.01 * both) << "curve " << k;
+    for (const double share : {0.3, 0.9, 0.99, 1.0})
+      EXPECT_FALSE(isClearlyWithin(**setup, points, share * both)) << "curve " << k << ", " << share;
+    for (const double share : {1.04, 1.2, 3.0, 20.0})
+      EXPECT_TRUE(isClearlyWithin(**setup, points, share * both)) << "curve " << k << ", " << share;
+    const double enough = 0.5 * both;
+    const double part = largestDeviation(**setup, points, true, enough);
+    EXPECT_GT(part, enough) << "curve " << k;
+    EXPECT_LE(part, 1.01 * both) << "curve " << k;
+  }
+}
+
+}  // namespace
+}  // namespace batten
