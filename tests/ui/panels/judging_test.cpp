@@ -22,6 +22,7 @@
 #include "ui/panels/stages/curves/pin_panel.h"
 #include "ui/panels/stages/fairing_figures.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/curves/extremum_marks.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
@@ -97,6 +98,18 @@ QImage lineAndRipplesPage() {
   painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap));
   painter.drawLine(QPointF(60, 360), QPointF(640, 372));
   return page;
+}
+
+TEST_F(Judging, TheFiguresOfFairingStandBelowTheNameOfTheirCurve) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::mixedPage()));
+  window_->setStage(PanelStage::Fairing);
+  click("fairing.scope.all");
+  ASSERT_GT(std::ssize(session().curves()), 1);
+  for (const int curve : {0, 1}) {
+    session().selectCurve(curve);
+    QCoreApplication::processEvents();
+    EXPECT_EQ(find<QWidget>("fairing.figures")->accessibleName(), curveName(session(), curve));
+  }
 }
 
 TEST_F(Judging, InCurvesTheCombIsThatOfTheConstructedCurve) {

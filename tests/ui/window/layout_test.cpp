@@ -50,6 +50,19 @@ TEST_F(Layout, InALowWindowTheDrawingComesFirst) {
   EXPECT_TRUE(waitUntil([&] { return plots->isVisible() && plots->height() == roomy; }, 5000)) << plots->height();
 }
 
+// Also with a title bar taken off.
+TEST_F(Layout, InALowWindowTheButtonThatWritesTheFileIsSeenWhole) {
+  openPage(test::ellipsePage());
+  window_->setStage(PanelStage::Export);
+  auto* button = find<QAbstractButton>("export.run");
+  for (const QSize size : {QSize(1366, 720), QSize(1366, 768)}) {
+    window_->resize(size);
+    ASSERT_TRUE(waitUntil([&] { return window_->size() == size; }, 5000));
+    EXPECT_TRUE(waitUntil([&] { return button->visibleRegion().boundingRect() == button->rect(); }, 5000))
+        << size.height();
+  }
+}
+
 // From a small laptop with the title and task bars taken off to a large screen, in the sizes nobody has chosen.
 TEST_F(Layout, TheDrawingHasHalfOfTheWindowAndThePlotCanBeRead) {
   openPage(test::ellipsePage());

@@ -7,8 +7,10 @@
 #include <QLabel>
 #include <QLayout>
 #include <QListWidget>
+#include <QTableWidget>
 #include <QUndoStack>
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <string>
@@ -283,6 +285,19 @@ TEST_F(Steady, TheDarkThemeHasADarkDeskAndTheSamePage) {
   EXPECT_GT(qGray(light.pixel(desk)), 180);
   EXPECT_EQ(dark.pixel(page), light.pixel(page)) << "what was drawn keeps its look";
   window_->setThemeChoice(ThemeChoice::Light);
+}
+
+TEST_F(Steady, TheTableOfThresholdsTakesTheColoursOfANewTheme) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage({400, 400})));
+  window_->setStage(PanelStage::Threshold);
+  auto* table = find<QTableWidget>("threshold.table");
+  for (const ThemeChoice choice : {ThemeChoice::Dark, ThemeChoice::Light}) {
+    window_->setThemeChoice(choice);
+    QCoreApplication::processEvents();
+    const int ink = qGray(table->item(3, 3)->foreground().color().rgb());
+    const int ground = qGray(table->palette().color(QPalette::Base).rgb());
+    EXPECT_GT(std::abs(ink - ground), 120) << "a grey level of " << ink << " on one of " << ground;
+  }
 }
 
 TEST_F(Steady, TabWalksThePanelFirstAndTheTopBarLast) {

@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QKeyEvent>
+#include <QPainterPath>
 #include <QPen>
 #include <algorithm>
 #include <cmath>
@@ -229,17 +230,13 @@ class ThresholdTool final : public CanvasTool {
       if (!roomy && !isOwn && r != hovered_) continue;
       if (!isOwn && !found) continue;
       font.setBold(isOwn);
-      painter.setFont(font);
       const bool isCertain = isOwn || (found && found->measured[r]);
       const QString number = QString::number(scale.shown(level(r)), 'f', 0);
-      // On a light ground of its own: there may be ink below.
-      const QRectF text(rectOf(r).topLeft() + QPointF(5.0, 3.0), QSizeF(painter.fontMetrics().size(0, number)));
-      painter.setPen(Qt::NoPen);
-      painter.setBrush(QColor(255, 255, 255, 225));
-      painter.drawRoundedRect(text.adjusted(-2.0, -0.5, 2.0, 0.5), 2.0, 2.0);
-      painter.setBrush(Qt::NoBrush);
-      painter.setPen(isOwn ? colors::accent() : isCertain ? QColor(30, 30, 30) : QColor(96, 96, 96));
-      painter.drawText(text, Qt::AlignCenter, number);
+      // In a light halo, as there may be ink below; a box would hide more of it.
+      QPainterPath text;
+      text.addText(rectOf(r).topLeft() + QPointF(5.0, 3.0 + QFontMetricsF(font).ascent()), font, number);
+      painter.strokePath(text, QPen(QColor(255, 255, 255, 225), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+      painter.fillPath(text, isOwn ? colors::accent() : isCertain ? QColor(30, 30, 30) : QColor(96, 96, 96));
     }
     if (!hovered_) return;
     const int h = *hovered_;

@@ -144,8 +144,10 @@ void FigureTable::paintEvent(QPaintEvent*) {
   if (shownColumns > 0) {
     painter.setPen(theme.mute);
     if (!title_.isEmpty()) painter.setFont(captionFont());
-    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft,
-                     title_.isEmpty() ? first_ : title_);
+    const QRect room(0, y, columnRect(shownColumns - 1, y, std::max(2, shownColumns)).left(), kRowHeight);
+    painter.drawText(
+        room, Qt::AlignVCenter | Qt::AlignLeft,
+        painter.fontMetrics().elidedText(title_.isEmpty() ? first_ : title_, Qt::ElideRight, room.width()));
     painter.setFont(uiFont(12));
     for (int c = 0; c < shownColumns; ++c)
       painter.drawText(columnRect(shownColumns - 1 - c, y, std::max(2, shownColumns)),

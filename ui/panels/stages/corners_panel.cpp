@@ -2,6 +2,7 @@
 #include "ui/panels/stages/corners_panel.h"
 
 #include <QCoreApplication>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -161,6 +162,12 @@ void CornersPanel::buildSuggestions() {
   });
   connect(suggested_, &QListWidget::currentRowChanged, this, [this](int current) { take_->setEnabled(current >= 0); });
   suggest();
+}
+
+void CornersPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  // Marks without a line hold the colour of the theme they were listed in.
+  if (event->type() == QEvent::PaletteChange) refreshMarks();
 }
 
 void CornersPanel::showEvent(QShowEvent* event) {

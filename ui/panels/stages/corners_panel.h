@@ -29,6 +29,7 @@ class CornersPanel : public QWidget {
   CornersPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
 
  protected:
+  void changeEvent(QEvent*) override;
   void showEvent(QShowEvent*) override;
 
  private:

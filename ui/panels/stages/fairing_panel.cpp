@@ -20,6 +20,7 @@
 #include "ui/panels/stages/fairing_figures.h"
 #include "ui/panels/stages/fairing_links.h"
 #include "ui/panels/stages/profile_shelf.h"
+#include "ui/session/curves/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"
 #include "ui/session/edits/piece_choice.h"
 #include "ui/session/runs/tolerance_offer.h"
@@ -210,7 +211,6 @@ void FairingPanel::buildProfiles() {
 
 void FairingPanel::buildFigures() {
   figures_->setObjectName(QStringLiteral("fairing.figures"));
-  figures_->setTitle(tr("Before and after"));
   figures_->setHeader({}, {tr("sketched"), tr("faired")});
   column()->addWidget(figures_);
   ends_->setObjectName(QStringLiteral("fairing.ends"));
@@ -333,6 +333,8 @@ void FairingPanel::refresh() {
 void FairingPanel::refreshFigures() {
   const TracedCurve* curve = session_.selected();
   const FairingNote said = curve ? fairingNote(*curve) : FairingNote{};
+  // Whatever the settings above apply to, the figures are those of one curve.
+  figures_->setTitle(curve ? curveName(session_, *session_.selectedCurve()) : tr("Before and after"));
   figures_->setRows(curve ? fairingRows(session_, *curve) : noFairingRows(session_));
   const FairingMode mode = shown(session_.recipe()).mode;
   note_->setText(mode == FairingMode::None && said.text.isEmpty()

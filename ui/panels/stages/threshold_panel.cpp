@@ -2,6 +2,7 @@
 #include "ui/panels/stages/threshold_panel.h"
 
 #include <QCheckBox>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -203,6 +204,12 @@ void ThresholdPanel::refresh() {
   note_->setVisible(!note_->text().isEmpty());
   refreshRegion();
   refreshTable();
+}
+
+void ThresholdPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  // The numbers hold the colours of the theme they were written in.
+  if (event->type() == QEvent::PaletteChange) refreshTable();
 }
 
 void ThresholdPanel::showEvent(QShowEvent* event) {

@@ -30,6 +30,7 @@ class ThresholdPanel : public QWidget {
   ThresholdPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
 
  protected:
+  void changeEvent(QEvent*) override;
   void showEvent(QShowEvent*) override;
 
  private:

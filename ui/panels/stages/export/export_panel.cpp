@@ -138,6 +138,7 @@ void ExportPanel::buildForm() {
   layout->addWidget(size_);
   export_->setProperty("primary", true);
   layout->addWidget(export_);
+  preview_->keepInSight(export_);
   progress_->setObjectName(QStringLiteral("export.progress"));
   progress_->setAccessibleName(tr("Progress of the export"));
   progress_->setRange(0, 100);

@@ -2,6 +2,7 @@
 #include "ui/panels/stages/export/export_preview.h"
 
 #include <QApplication>
+#include <QLayout>
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
@@ -21,6 +22,7 @@ namespace {
 constexpr double kMarginPx = 12.0, kArrowPx = 6.0, kStartPx = 2.4, kHitPx = 6.0;
 constexpr double kLeastMarkedPx = 5.0 * kArrowPx;  ///< Diagonal of a curve that is marked.
 constexpr int kPointsPerPiece = 48;                // Of a polygon for the curve.
+constexpr int kLeastHeight = 72, kBelowPx = 8;     // [px] of the preview, and below what stays in sight
 constexpr int kMostMarks = 80;                     ///< Arrows of more curves would hide them.
 
 /// Of a chain in its order of travel.
@@ -97,6 +99,31 @@ QPointF ExportPreview::toWidget(QPointF mm) const {
   const double scale = std::min((width() - 2 * kMarginPx) / std::max(box.width(), 1e-9),
                                 (height() - 2 * kMarginPx) / std::max(box.height(), 1e-9));
   return rect().toRectF().center() + scale * (mm - box.center());
+}
+
+void ExportPreview::keepInSight(QWidget* below) {
+  below_ = below;
+  parentWidget()->installEventFilter(this);
+}
+
+bool ExportPreview::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) fitHeight();
+  return QWidget::eventFilter(watched, event);
+}
+
+void ExportPreview::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  // What is seen of the panel; only now is the panel where it stays.
+  parentWidget()->parentWidget()->installEventFilter(this);
+  fitHeight();
+}
+
+void ExportPreview::fitHeight() {
+  QWidget* panel = parentWidget();
+  if (!below_ || !isVisible()) return;
+  panel->layout()->activate();
+  const int rest = below_->geometry().bottom() + 1 + kBelowPx - height();
+  setFixedHeight(std::clamp(panel->parentWidget()->height() - rest, kLeastHeight, sizeHint().height()));
 }
 
 void ExportPreview::paintEvent(QPaintEvent*) {

@@ -40,6 +40,8 @@ class ExportPreview : public QWidget {
   /// Shows what a request would write, soon; a newer one replaces it.
   void show(const ExportRequest&);
   void clear();
+  /// In a panel too low for all it holds, the preview gives way so that this part of it, below, is in sight.
+  void keepInSight(QWidget* below);
   const PreviewContent& content() const { return content_; }
   QSize sizeHint() const override { return {240, 150}; }
   QPointF toWidget(QPointF mm) const;
@@ -51,6 +53,8 @@ class ExportPreview : public QWidget {
   void dragAsked(std::optional<int> number);
 
  protected:
+  bool eventFilter(QObject* watched, QEvent*) override;
+  void showEvent(QShowEvent*) override;
   void paintEvent(QPaintEvent*) override;
   void mousePressEvent(QMouseEvent*) override;
   void mouseMoveEvent(QMouseEvent*) override;
@@ -58,7 +62,9 @@ class ExportPreview : public QWidget {
 
  private:
   std::optional<int> curveAt(QPointF widget) const;
+  void fitHeight();
 
+  QWidget* below_ = nullptr;
   PreviewContent content_;
   std::optional<QPointF> pressedAt_;
   Inbox inbox_;
