@@ -55,17 +55,20 @@ class FarthestSearch {
     double distance = 0.0;  ///< Of the foot, or no less than that.
     bool isFoot = false;
   };
+  double distanceTo(const SpanPlace& place, const Vec2& point) const { return (to_.at(place, 0)[0] - point).norm(); }
   /// Finds the foot of a place, or that it is no farther than `enough`.
   void findNearer(int i, double enough) {
     if (places_[i].isFoot) return;
     const SpanPlace place{span_, static_cast<double>(i) / count_}, near = hint_(place);
     const double width = to_.basis().width(near.span);
-    // The foot is likely to be as far ahead of the hint, in the parameter, as the foot before was.
-    const SpanPlace start{near.span, std::clamp(near.tau + ahead_ / width, 0.0, 1.0)};
+    // The foot is likely to be as far ahead of the hint, in the parameter, as the foot before was; unless that is
+    // another branch.
+    const SpanPlace ahead{near.span, std::clamp(near.tau + ahead_ / width, 0.0, 1.0)};
     const Vec2 point = from_.at(place, 0)[0];
-    const SpanPlace foot = footPoint(to_, point, start, enough);
+    const bool isAhead = ahead_ != 0.0 && distanceTo(ahead, point) <= distanceTo(near, point);
+    const SpanPlace foot = footPoint(to_, point, isAhead ? ahead : near, enough);
+    const double distance = distanceTo(foot, point);
     ahead_ = foot.span == near.span ? (foot.tau - near.tau) * width : 0.0;
-    const double distance = (to_.at(foot, 0)[0] - point).norm();
     places_[i] = {distance, !(distance <= enough)};
   }
   double peakAt(int i) {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
 #include "core/curve/closest_point.h"
+#include "core/fairing/model/coarse_setups.h"
 #include "core/fairing/model/fairing_setup.h"
 #include "core/fairing/model/sketch_deviation.h"
 #include "tests/unit/fairing/fairing_curves.h"
@@ -18,7 +20,7 @@ namespace {
 constexpr int kPoints = 40, kCurves = 200;
 
 double farthestOf(const NurbsCurve& from, const NurbsCurve& to) {
-  constexpr int kSamples = 4000;
+  constexpr int kSamples = 2000;
   const ClosestPointFinder finder(to);
   double farthest = 0.0;
   for (int i = 0; i <= kSamples; ++i) {
@@ -64,6 +66,59 @@ TEST(SketchDeviation, IsThatOfManyClosestPoints) {
     const double part = largestDeviation(**setup, points, true, enough);
     EXPECT_GT(part, enough) << "curve " << k;
     EXPECT_LE(part, 1.01 * both) << "curve " << k;
+  }
+}
+
+/// Control points moved along the line by up to about `slide`, so that feet lie ahead of where they are looked for or
+/// behind it, and a little in any direction.
+std::vector<Vec2> slid(const std::vector<Vec2>& points, double slide, std::mt19937& random) {
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::vector<Vec2> result = points;
+  const double most = slide * normal(random);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    result[i] += Vec2(most * std::sin(2.0 * std::numbers::pi * share), 0.5 * normal(random));
+  }
+  return result;
+}
+
+// Over fewer knots a place of one curve says only about where its foot is on the other.
+TEST(SketchDeviation, OverFewerKnotsIsThatOfManyClosestPoints) {
+  std::mt19937 random(6);
+  int looked = 0;
+  for (int k = 0; k < kCurves / 4; ++k) {
+    const NurbsCurve sketched = test::noisy(test::wave(200.0, 10.0 + k, kPoints), 0.2, k);
+    const auto sketch = makeSetup(sketched, false, {});
+    ASSERT_TRUE(sketch);
+    for (const auto& coarse : coarseSetups(*sketch)) {
+      const std::vector<Vec2> points = slid(coarse->points, 3.0, random);
+      const auto curve = toCurve(*coarse, points);
+      ASSERT_TRUE(curve);
+      const double both = std::max(farthestOf(*curve, sketched), farthestOf(sketched, *curve));
+      EXPECT_NEAR(largestDeviation(*coarse, points, true) / both, 1.01, 0.015) << "curve " << k;
+      EXPECT_FALSE(isClearlyWithin(*coarse, points, both)) << "curve " << k;
+      EXPECT_TRUE(isClearlyWithin(*coarse, points, 1.06 * both)) << "curve " << k;
+      ++looked;
+    }
+  }
+  EXPECT_GT(looked, kCurves / 4);
+}
+
+// Where feet lie so far along the line that some are missed, what was found at the places before still leads to none
+// that is plainly on another branch.
+TEST(SketchDeviation, IsNotThatOfAnotherBranch) {
+  std::mt19937 random(7);
+  for (int k = 0; k < kCurves; k += 2) {
+    const NurbsCurve sketched = test::noisy(test::wave(200.0, 10.0 + 0.3 * k, kPoints), 0.2, k);
+    const auto sketch = makeSetup(sketched, false, {});
+    ASSERT_TRUE(sketch);
+    for (const auto& coarse : coarseSetups(*sketch)) {
+      const std::vector<Vec2> points = slid(coarse->points, 10.0, random);
+      const auto curve = toCurve(*coarse, points);
+      ASSERT_TRUE(curve);
+      const double both = std::max(farthestOf(*curve, sketched), farthestOf(sketched, *curve));
+      EXPECT_LT(largestDeviation(*coarse, points, true), 3.0 * both) << "curve " << k;
+    }
   }
 }
 
