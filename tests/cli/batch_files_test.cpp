@@ -226,6 +226,7 @@ TEST_F(BatchFiles, EveryPageOfAFileIsTracedAndShown) {
       run("batch " + file("in") + " --to " + file("out") + " --dpi 254 --formats svg --sheet " + file("s.html"));
   ASSERT_EQ(done.code, 0) << done.err << done.out;
   EXPECT_EQ(linesOf(done.out).size(), 3u);
+  EXPECT_EQ(done.out.find("Use --page"), std::string::npos) << "all pages are traced: " << done.out;
   EXPECT_NE(readFile(file("out/two-p1.svg")), readFile(file("out/two-p2.svg")));
   EXPECT_TRUE(fs::exists(file("out/one.svg")));
   const std::string html = readFile(file("s.html"));

@@ -78,6 +78,7 @@ std::optional<std::string> takeEntry(const std::string& key, const Json& value, 
     const auto number = value.is_number_integer() ? integerFromText(value.dump()) : std::nullopt;
     if (!number || *number < 1) return "\"page\" takes the number of a page of the scan, from 1, or \"all\"";
     page.page = *number;
+    page.isPageNamed = true;
   } else {
     return "there is no " + quotedText(key) + ": a line has scan, outputs, recipe, set, dpi and page";
   }
@@ -145,6 +146,7 @@ std::vector<BatchPage> everyPageOf(const BatchPage& page) {
   std::vector<BatchPage> pages(countPages(page.scan), page);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     pages[i].page = static_cast<int>(i) + 1;
+    pages[i].isPageNamed = pages.size() > 1;
     for (std::string& output : pages[i].outputs) output = withPage(output, pages[i].page);
   }
   return pages;
@@ -317,7 +319,7 @@ std::string manifestLine(const BatchPage& page) {
   if (!page.recipe.empty()) json["recipe"] = nameText(page.recipe);
   if (!page.settings.empty()) json["set"] = settings;
   if (page.dpi) json["dpi"] = *page.dpi;
-  if (page.page != 1) json["page"] = page.page;
+  if (page.isPageNamed) json["page"] = page.page;
   return jsonLine(json);
 }
 
@@ -377,7 +379,7 @@ std::vector<std::string> traceWords(const BatchPage& page, int threads) {
   if (!page.recipe.empty()) words.insert(words.end(), {"--recipe", page.recipe});
   for (const std::string& setting : page.settings) words.insert(words.end(), {"--set", setting});
   if (page.dpi) words.insert(words.end(), {"--dpi", numberToText(*page.dpi)});
-  if (page.page != 1) words.insert(words.end(), {"--page", std::to_string(page.page)});
+  if (page.isPageNamed) words.insert(words.end(), {"--page", std::to_string(page.page)});
   words.insert(words.end(), {"--threads", std::to_string(threads)});
   return words;
 }

@@ -19,8 +19,9 @@ struct BatchPage {
   std::string recipe;                 ///< Empty: none.
   std::vector<std::string> settings;  ///< "stage.parameter=value"
   std::optional<double> dpi;
-  int page = 1;  ///< Of the scan's file, from 1.
-  int line = 0;  ///< In the manifest, counted from 1.
+  int page = 1;              ///< Of the scan's file, from 1.
+  bool isPageNamed = false;  ///< By the manifest, or as one of all; else it is the first one, for want of a number.
+  int line = 0;              ///< In the manifest, counted from 1.
 };
 
 /// What all pages have in common where they say nothing else.
