@@ -34,9 +34,11 @@ bool isTarget(const PlotSeries& series) {
 }  // namespace
 
 void TargetLabels::show(const PlotData& data) {
-  for (const QPointer<QCPItemText>& text : texts_)
-    if (text) plot_->removeItem(text);
-  texts_.clear();
+  for (const Label& label : labels_) {
+    if (label.text) plot_->removeItem(label.text);
+    if (label.leader) plot_->removeItem(label.leader);
+  }
+  labels_.clear();
   lines_.clear();
   curves_.clear();
   const Theme& theme = themeOf(plot_->palette());
@@ -44,7 +46,11 @@ void TargetLabels::show(const PlotData& data) {
     if ((series.role == PlotRole::Sketched || series.role == PlotRole::Faired) && series.points.size() > 1)
       curves_.push_back(series);
     if (!isTarget(series) || !series.degree || series.points.size() < 2) continue;
+    auto* leader = new QCPItemLine(plot_);  // below the number
     auto* text = new QCPItemText(plot_);
+    leader->setObjectName(QStringLiteral("plot.target.%1.leader").arg(*series.degree));
+    leader->setPen(QPen(penOf(series.role, theme, series.degree).color(), 1));
+    leader->setSelectable(false);
     text->setText(QString::number(*series.degree));
     text->setObjectName(QStringLiteral("plot.target.%1").arg(*series.degree));
     text->setFont(uiFont(11, series.role == PlotRole::Target ? QFont::Normal : QFont::Bold));
@@ -55,7 +61,7 @@ void TargetLabels::show(const PlotData& data) {
     text->setPositionAlignment(Qt::AlignCenter);
     text->setSelectable(false);
     lines_.push_back(series);
-    texts_.emplace_back(text);
+    labels_.push_back({text, leader});
   }
   place();
 }
@@ -82,7 +88,7 @@ void TargetLabels::placeOne(std::size_t line, std::vector<QPointF>& taken) {
   // line, or else beside it, but never on a curve.
   const int first = (static_cast<int>(line) * kSlots / static_cast<int>(lines_.size()) + kSlots / 12) % kSlots;
   double best = 0.0;
-  std::optional<QPointF> found;
+  std::optional<QPointF> found, onLine;
   for (const double beside : kBesidePx) {
     if (found) break;
     for (int k = 0; k < kSlots && best < 1.0; ++k) {
@@ -100,18 +106,26 @@ void TargetLabels::placeOne(std::size_t line, std::vector<QPointF>& taken) {
       if (found && clear <= best) continue;
       best = clear;
       found = at;
+      onLine = at - QPointF(0.0, beside);
     }
   }
-  texts_[line]->setVisible(found.has_value());
+  const Label& label = labels_[line];
+  label.text->setVisible(found.has_value());
+  label.leader->setVisible(found && *found != *onLine);
   if (!found) return;
-  texts_[line]->position->setCoords(plot_->xAxis->pixelToCoord(found->x()), plot_->yAxis->pixelToCoord(found->y()));
+  const auto moveTo = [this](QCPItemPosition* position, const QPointF& px) {
+    position->setCoords(plot_->xAxis->pixelToCoord(px.x()), plot_->yAxis->pixelToCoord(px.y()));
+  };
+  moveTo(label.text->position, *found);
+  moveTo(label.leader->start, *found);
+  moveTo(label.leader->end, *onLine);
   taken.push_back(*found);
 }
 
 void TargetLabels::place() {
   std::vector<QPointF> taken;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (texts_[i]) placeOne(i, taken);
+    if (labels_[i].text && labels_[i].leader) placeOne(i, taken);
   }
 }
 

@@ -218,6 +218,7 @@ TEST_F(Layout, TheLinesOfTheSixTargetsCarryTheirNumbers) {
     EXPECT_EQ(text != nullptr, isValid) << degree;
     if (text) {
       EXPECT_EQ(text->property("text").toString(), QString::number(degree));
+      EXPECT_NE(window_->findChild<QObject*>(QStringLiteral("plot.target.%1.leader").arg(degree)), nullptr);
     }
   }
   EXPECT_GT(valid, 3);

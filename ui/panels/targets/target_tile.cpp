@@ -275,7 +275,7 @@ QRectF TargetTile::innerBox() const {
 
 TargetTile::Figures TargetTile::roomFor() const {
   if (!outcomes_ || !problem().isEmpty()) return Figures::All;
-  constexpr double kApartPx = 8.0;  // between two figures
+  constexpr double kApartPx = 5.0;  // between two figures
   const FigureTexts texts = figureTexts();
   const QFontMetricsF metrics(uiFont(11));
   const auto width = [&](const QString& text) { return metrics.horizontalAdvance(text); };

@@ -23,7 +23,8 @@
 namespace batten {
 namespace {
 
-constexpr int kMethodRow = 28;  // [px] height
+constexpr int kMethodRow = 28;     // [px] height
+constexpr int kCaptionMargin = 6;  // [px] above the text of a caption()
 /// Widths of the three columns of figures, from the right.
 constexpr int kColumns[] = {34, 40, 62};
 
@@ -46,7 +47,9 @@ class MethodHead : public QWidget {
     QPainter painter(this);
     painter.setFont(uiFont(11));
     painter.setPen(themeOf(palette()).mute);
-    paintColumns(painter, rect(), {MethodTable::tr("rms"), MethodTable::tr("points"), MethodTable::tr("extr.")});
+    // On the line of the caption beside it, which has its margin above.
+    paintColumns(painter, QRectF(rect()).adjusted(0, kCaptionMargin, 0, 0),
+                 {MethodTable::tr("rms"), MethodTable::tr("points"), MethodTable::tr("extr.")});
   }
 };
 
