@@ -38,7 +38,8 @@ TEST(Platform, ABufferKeepsWhatIsWrittenToIt) {
   constexpr std::size_t kMegabyte = std::size_t{1} << 20;
   for (const std::size_t bytes :
        {std::size_t{0}, std::size_t{1}, std::size_t{4097}, 4 * kMegabyte - 1, 4 * kMegabyte, 9 * kMegabyte + 3}) {
-    const std::vector<unsigned char> ones(bytes, 1), twos(bytes, 2);
+    // One more than is compared: an empty vector has no data, and memcmp() takes no null pointer.
+    const std::vector<unsigned char> ones(bytes + 1, 1), twos(bytes + 1, 2);
     void *const first = allocateBuffer(bytes), *const second = allocateBuffer(bytes);
     ASSERT_NE(first, nullptr);
     ASSERT_NE(second, nullptr);
