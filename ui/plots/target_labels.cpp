@@ -88,7 +88,8 @@ void TargetLabels::placeOne(std::size_t line, std::vector<QPointF>& taken) {
   // line, or else beside it, but never on a curve.
   const int first = (static_cast<int>(line) * kSlots / static_cast<int>(lines_.size()) + kSlots / 12) % kSlots;
   double best = 0.0;
-  std::optional<QPointF> found, onLine;
+  std::optional<QPointF> found;
+  double foundBeside = 0.0;
   for (const double beside : kBesidePx) {
     if (found) break;
     for (int k = 0; k < kSlots && best < 1.0; ++k) {
@@ -106,19 +107,19 @@ void TargetLabels::placeOne(std::size_t line, std::vector<QPointF>& taken) {
       if (found && clear <= best) continue;
       best = clear;
       found = at;
-      onLine = at - QPointF(0.0, beside);
+      foundBeside = beside;
     }
   }
   const Label& label = labels_[line];
   label.text->setVisible(found.has_value());
-  label.leader->setVisible(found && *found != *onLine);
+  label.leader->setVisible(found && foundBeside != 0.0);
   if (!found) return;
   const auto moveTo = [this](QCPItemPosition* position, const QPointF& px) {
     position->setCoords(plot_->xAxis->pixelToCoord(px.x()), plot_->yAxis->pixelToCoord(px.y()));
   };
   moveTo(label.text->position, *found);
   moveTo(label.leader->start, *found);
-  moveTo(label.leader->end, *onLine);
+  moveTo(label.leader->end, *found - QPointF(0.0, foundBeside));
   taken.push_back(*found);
 }
 

@@ -153,10 +153,7 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
     return setup.sketch->sampleAt(place) / (setup.closed ? setup.sampleCount() : setup.sampleCount() - 1);
   };
   const auto placeAt = [&](double share) {
-    const double u = setup.original.start() + share * (setup.original.end() - setup.original.start());
-    int span = 0;
-    while (span + 1 < spans && setup.basis.begin(span + 1) <= u) ++span;
-    return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
+    return setup.basis.place(setup.original.start() + share * (setup.original.end() - setup.original.start()));
   };
   FarthestSearch back(setup.reference, curve, there.largest(),
                       [&](const SpanPlace& place) { return placeAt(shareOf(place)); });

@@ -82,24 +82,33 @@ std::vector<Vec2> slid(const std::vector<Vec2>& points, double slide, std::mt199
   return result;
 }
 
+/// Does something with every start over fewer knots of a noisy wave, its points slid, and with the true deviation.
+template <class Check>
+void eachOverFewerKnots(double height, int seed, double slide, std::mt19937& random, const Check& check) {
+  const NurbsCurve sketched = test::noisy(test::wave(200.0, height, kPoints), 0.2, seed);
+  const auto sketch = makeSetup(sketched, false, {});
+  ASSERT_TRUE(sketch);
+  for (const auto& coarse : coarseSetups(*sketch)) {
+    const std::vector<Vec2> points = slid(coarse->points, slide, random);
+    const auto curve = toCurve(*coarse, points);
+    ASSERT_TRUE(curve);
+    check(*coarse, points, std::max(farthestOf(*curve, sketched), farthestOf(sketched, *curve)));
+  }
+}
+
 // Over fewer knots a place of one curve says only about where its foot is on the other.
 TEST(SketchDeviation, OverFewerKnotsIsThatOfManyClosestPoints) {
   std::mt19937 random(6);
   int looked = 0;
   for (int k = 0; k < kCurves / 4; ++k) {
-    const NurbsCurve sketched = test::noisy(test::wave(200.0, 10.0 + k, kPoints), 0.2, k);
-    const auto sketch = makeSetup(sketched, false, {});
-    ASSERT_TRUE(sketch);
-    for (const auto& coarse : coarseSetups(*sketch)) {
-      const std::vector<Vec2> points = slid(coarse->points, 3.0, random);
-      const auto curve = toCurve(*coarse, points);
-      ASSERT_TRUE(curve);
-      const double both = std::max(farthestOf(*curve, sketched), farthestOf(sketched, *curve));
-      EXPECT_NEAR(largestDeviation(*coarse, points, true) / both, 1.01, 0.015) << "curve " << k;
-      EXPECT_FALSE(isClearlyWithin(*coarse, points, both)) << "curve " << k;
-      EXPECT_TRUE(isClearlyWithin(*coarse, points, 1.06 * both)) << "curve " << k;
-      ++looked;
-    }
+    SCOPED_TRACE(k);
+    eachOverFewerKnots(10.0 + k, k, 3.0, random,
+                       [&](const FairingSetup& setup, const std::vector<Vec2>& points, double both) {
+                         EXPECT_NEAR(largestDeviation(setup, points, true) / both, 1.01, 0.015);
+                         EXPECT_FALSE(isClearlyWithin(setup, points, both));
+                         EXPECT_TRUE(isClearlyWithin(setup, points, 1.06 * both));
+                         ++looked;
+                       });
   }
   EXPECT_GT(looked, kCurves / 4);
 }
@@ -109,16 +118,11 @@ TEST(SketchDeviation, OverFewerKnotsIsThatOfManyClosestPoints) {
 TEST(SketchDeviation, IsNotThatOfAnotherBranch) {
   std::mt19937 random(7);
   for (int k = 0; k < kCurves; k += 2) {
-    const NurbsCurve sketched = test::noisy(test::wave(200.0, 10.0 + 0.3 * k, kPoints), 0.2, k);
-    const auto sketch = makeSetup(sketched, false, {});
-    ASSERT_TRUE(sketch);
-    for (const auto& coarse : coarseSetups(*sketch)) {
-      const std::vector<Vec2> points = slid(coarse->points, 10.0, random);
-      const auto curve = toCurve(*coarse, points);
-      ASSERT_TRUE(curve);
-      const double both = std::max(farthestOf(*curve, sketched), farthestOf(sketched, *curve));
-      EXPECT_LT(largestDeviation(*coarse, points, true), 3.0 * both) << "curve " << k;
-    }
+    SCOPED_TRACE(k);
+    eachOverFewerKnots(10.0 + 0.3 * k, k, 10.0, random,
+                       [](const FairingSetup& setup, const std::vector<Vec2>& points, double both) {
+                         EXPECT_LT(largestDeviation(setup, points, true), 3.0 * both);
+                       });
   }
 }
 

@@ -63,7 +63,7 @@ QLabel* caption(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text.toUpper(), parent);
   label->setFont(captionFont());
   label->setForegroundRole(QPalette::PlaceholderText);
-  label->setContentsMargins(0, 6, 0, 0);
+  label->setContentsMargins(0, kCaptionMargin, 0, 0);
   label->setAccessibleName(text);
   return label;
 }

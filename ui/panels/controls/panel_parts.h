@@ -19,6 +19,7 @@ namespace batten {
 /// Small pieces that all panels are put together from.
 
 QLabel* heading(const QString& text, QWidget* parent);  ///< "Fairing": bold, 13 px.
+inline constexpr int kCaptionMargin = 6;                // [px] above the text of a caption()
 QLabel* caption(const QString& text, QWidget* parent);  ///< "BEFORE AND AFTER": small, grey, spaced.
 /// A caption with what is done to all below it at its right, where it takes no line of its own.
 QLayout* captionRow(const QString& text, const std::vector<QPushButton*>& links, QWidget* parent);

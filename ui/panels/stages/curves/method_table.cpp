@@ -23,8 +23,7 @@
 namespace batten {
 namespace {
 
-constexpr int kMethodRow = 28;     // [px] height
-constexpr int kCaptionMargin = 6;  // [px] above the text of a caption()
+constexpr int kMethodRow = 28;  // [px] height
 /// Widths of the three columns of figures, from the right.
 constexpr int kColumns[] = {34, 40, 62};
 

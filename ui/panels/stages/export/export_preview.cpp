@@ -114,16 +114,16 @@ bool ExportPreview::eventFilter(QObject* watched, QEvent* event) {
 void ExportPreview::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   // What is seen of the panel; only now is the panel where it stays.
-  parentWidget()->parentWidget()->installEventFilter(this);
+  if (QWidget* view = parentWidget()->parentWidget()) view->installEventFilter(this);
   fitHeight();
 }
 
 void ExportPreview::fitHeight() {
-  QWidget* panel = parentWidget();
-  if (!below_ || !isVisible()) return;
+  QWidget *panel = parentWidget(), *view = panel->parentWidget();
+  if (!below_ || !view || !isVisible()) return;
   panel->layout()->activate();
   const int rest = below_->geometry().bottom() + 1 + kBelowPx - height();
-  setFixedHeight(std::clamp(panel->parentWidget()->height() - rest, kLeastHeight, sizeHint().height()));
+  setFixedHeight(std::clamp(view->height() - rest, kLeastHeight, sizeHint().height()));
 }
 
 void ExportPreview::paintEvent(QPaintEvent*) {
