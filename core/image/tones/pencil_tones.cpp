@@ -24,6 +24,7 @@ constexpr double kLeastDark = 0.375;  // of the darkness of lines, in the mean: 
 constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step within a brush; shades fade farther
 // Of the border of a filled area: it ends sharply; of its darkness: standard deviation without what is narrow.
 constexpr double kFilledShare = 0.75, kMostUnevenFill = 0.4;
+constexpr double kTornGrain = 3.0;  // of a filled area beyond its rim, by that of paper: strokes show, or paper does
 constexpr double kLeastBesideTone = 0.15;  // of the length of its border: lines on a tone and beside it
 constexpr double kBesideTone = 2.0;        // [widths] from a tone: lines along its border
 constexpr double kBesideLines = 1.0;       // [widths] from a line: beyond its blurred border
@@ -87,10 +88,14 @@ cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Ma
   return labelled(labels, isSolid);
 }
 
-/// Areas that somebody filled, with hatching or smudging: beside lines as dark as these in the mean and even without
-/// what is narrow, and they end sharply nearly all around. 255 up to where they are half as dark.
+/// Areas that somebody filled: beside lines as dark as these in the mean and even without what is narrow, and they end
+/// sharply nearly all around. 255 up to where they are half as dark.
+struct FilledAreas {
+  cv::Mat1b all;
+  cv::Mat1b torn;  ///< Of these the ones of hatching or smudging: less even inside than paper is.
+};
 /// @param unlined not 0 beyond the blurred borders of lines.
-cv::Mat1b filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& unlined) {
+FilledAreas filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& unlined) {
   cv::Mat1f depth, deepest;
   page.ground.convertTo(depth, CV_32F, -1.0, 255.0);
   cv::dilate(depth, deepest, disc(page.brush));
@@ -106,15 +111,21 @@ cv::Mat1b filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv:
   const std::vector<double> ends = sums(border & (deepest >= kLeastDark * page.darkness), one);
   const std::vector<double> darkness = sums(bare, 255.0 - page.level);
   const std::vector<double> depths = sums(inner, depth), squares = sums(inner, depth.mul(depth));
-  std::vector<std::uint8_t> isFilled(count, 0);
+  const cv::Mat1f grain = cv::abs(page.level - blurredTone(page.level, page.widthPx));
+  const std::vector<double> grains = sums(inner, grain);
+  const double grainOfPaper = cv::mean(grain, (grownMask(shaded, page.brush) == 0) & unlined)[0];
+  std::vector<std::uint8_t> isFilled(count, 0), isTorn(count, 0);
   for (int k = 1; k < count; ++k) {
     const bool isWide = sizes[k] >= std::pow(kLeastShownWidths * page.widthPx, 2);
     const bool isDark = darkness[k] >= kMostOfLines * page.darkness * sizes[k];
     // The mean square is that of the mean and the variance.
     const bool isEven = squares[k] * inners[k] <= (1.0 + kMostUnevenFill * kMostUnevenFill) * depths[k] * depths[k];
-    if (isWide && isDark && isEven && ends[k] >= kFilledShare * borders[k]) isFilled[k] = 255;
+    if (!isWide || !isDark || !isEven || ends[k] < kFilledShare * borders[k]) continue;
+    isFilled[k] = 255;
+    if (grains[k] > kTornGrain * grainOfPaper * inners[k]) isTorn[k] = 255;
   }
-  return labelled(labels, isFilled) & (depth >= 0.5 * kMostOfLines * page.darkness);
+  const cv::Mat1b dark = depth >= 0.5 * kMostOfLines * page.darkness;
+  return {labelled(labels, isFilled) & dark, labelled(labels, isTorn) & dark};
 }
 
 /// For each tone the length of the lines on it and beside it. [px]
@@ -203,15 +214,15 @@ std::optional<ToneAreas> findPencilTones(const ToneCopy& copy, const RunContext&
   if (context.isCancelled() || cv::countNonZero(lines) == 0) return std::nullopt;
   const cv::Mat1b lineLevel = levelOfLines(*look, lines);
   const cv::Mat1b unlined = grownMask(lines, static_cast<int>(std::ceil(kBesideLines * look->widthPx))) == 0;
-  const cv::Mat1b filled = filledAreas(*look, shaded, unlined);
-  const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel) | filled;
+  const FilledAreas filled = filledAreas(*look, shaded, unlined);
+  const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel) | filled.all;
   const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines, unlined);
-  if (context.isCancelled() || cv::countNonZero(tones | filled) == 0) return std::nullopt;
+  if (context.isCancelled() || cv::countNonZero(tones | filled.torn) == 0) return std::nullopt;
   ToneAreas areas = areasOf(*look, tones, solids, lines, lineLevel);
   areas.pixelsPerPx = copy.pixelsPerPx;
   areas.lineWidthPx = look->widthPx * copy.pixelsPerPx;
   areas.lineDarkness = look->darkness;
-  if (cv::countNonZero(filled) > 0) areas.filled = bytesOf(filled);
+  if (cv::countNonZero(filled.torn) > 0) areas.filled = bytesOf(filled.torn);
   return areas;
 }
 

@@ -132,6 +132,14 @@ TEST(PencilTones, InkOfOneDarknessHasNone) {
   EXPECT_FALSE(tonesOn(test::scanOfLines(filled, kBoxWidth, kBoxHeight, 1).grey, {})) << "filled";
 }
 
+// Shows no paper inside, but has many darknesses: the paper is darker from left to right and is not seen below it.
+TEST(PencilTones, AFaintSilhouetteOnDarkPaperHasNone) {
+  constexpr int kWidth = 2480, kHeight = 3508;
+  const std::vector<float> cover =
+      test::fillCoverage(test::truthShape("crown", kWidth, kHeight).outline(), kWidth, kHeight);
+  EXPECT_FALSE(tonesOn(test::renderPage(cover, kWidth, kHeight, test::darkPage(1)).grey, {}));
+}
+
 // Without a shaded face; shaded so faintly that no threshold takes it for ink.
 TEST(PencilTones, PencilLinesAloneHaveNone) {
   EXPECT_FALSE(tonesOn(boxPage(0.0, 0.0, 0.28, 0.8, 1), {}));
