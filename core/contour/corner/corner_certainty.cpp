@@ -18,9 +18,10 @@ constexpr double kWidthLimit = 1.5;         // of the usual width: at a junction
 constexpr double kSharpRadius = 1.5;        // units
 constexpr double kSharpSketchRadius = 2.0;  // of lines of a pencil or merged from several: a sketching hand turns
 constexpr double kSharpSlackPx = 0.4;       // a vertex is known to that
-constexpr double kFarthestVertex = 2.3;     // units from the line, even for acute tips
-constexpr double kPointsPerPx = 4.0;        // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
-constexpr double kPointStepPx = 1.0;        // located points lie as far apart: a rounding may begin behind one
+constexpr double kFarthestVertex = 2.3;     // units from the line; farther only where blur leaves nothing of a tip:
+constexpr double kLostWidthPx = 2.4, kFarthestLostPx = 12.0;  // from side to side; from the line
+constexpr double kPointsPerPx = 4.0;  // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
+constexpr double kPointStepPx = 1.0;  // located points lie as far apart: a rounding may begin behind one
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
 constexpr double kLeastSide = 2.5, kLeastSideToEnd = 3.0;                    // units: ends have hooks of their own
 constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;                      // a gentler one may be a bend of the line
@@ -48,6 +49,13 @@ constexpr double kSteepness = 4.0, kOddsAtLimit = 19.0;  // 19 to 1 where the wo
 double seenSide(double free, double turn, const std::optional<double>& next, double width) {
   const auto blended = [&](double angle) { return 0.5 * width * std::tan(0.5 * std::min(angle, kMostBlendedTurn)); };
   return free - blended(turn) - (next ? blended(std::abs(*next)) : 0.5 * width);
+}
+
+/// [px] How far the vertex may lie from the line. @param angle by which the line is seen to turn
+double farthestVertex(const Contour& contour, double angle, double unit) {
+  if (contour.kind != ContourKind::Outline) return kFarthestVertex * unit;
+  const double lost = 0.5 * kLostWidthPx * std::tan(0.5 * angle);  // the sides open by pi - angle
+  return std::max(kFarthestVertex * unit, std::min(lost, kFarthestLostPx));
 }
 
 }  // namespace
@@ -155,7 +163,7 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
     // The guesses that stand for a lost tip say less than how far the sides were seen to go.
     if (isTipLost) rounded = std::min(rounded, unseenRadius(e, tip.index) / (sharp * unit));
     demand(rounded, 1.0);
-    demand(tip.distance, kFarthestVertex * unit);
+    demand(tip.distance, farthestVertex(contour_, std::min({angle, near, far}), unit));
   } else {
     demand(kLeastUnlocatedTurn, near);
     demand(std::abs(far - near), kUnlocatedShare * near);

@@ -84,6 +84,39 @@ TEST(AutomaticCorners, OfSmallZigzagsAreFound) {
   EXPECT_LE(all, 1.02 * drawn);
 }
 
+constexpr double kTipY = 80.0, kTipHeight = 420.0;
+
+/// A filled wedge that opens by so much. @param radius [px] of its rounded tip; 0: it is sharp.
+Scan wedgePage(double openingDeg, double radius, double blur, std::uint32_t seed) {
+  const double half = 0.5 * openingDeg * std::numbers::pi / 180.0, middle = 0.5 * kSquareWidth;
+  std::vector<Vec2> outline;
+  const Vec2 centre(middle, kTipY + radius / std::sin(half));
+  for (int i = 0; i <= 40; ++i) {
+    const double turned = (0.5 * std::numbers::pi - half) * (i / 20.0 - 1.0);
+    outline.push_back(centre + radius * Vec2(std::sin(turned), -std::cos(turned)));
+  }
+  const double width = kTipHeight * std::tan(half);
+  outline.emplace_back(middle + width, kTipY + kTipHeight);
+  outline.emplace_back(middle - width, kTipY + kTipHeight);
+  test::PageStyle style = test::scannedPage(seed);
+  style.blurPx = blur;
+  return test::renderPage(test::fillCoverage(outline, kSquareWidth, kSquareHeight), kSquareWidth, kSquareHeight, style);
+}
+
+// Of a tip that opens by 12 degrees blur leaves no ink on 10 px.
+TEST(AutomaticCorners, OfAcuteTipsAreFoundAndOfRoundedOnesThereAreNone) {
+  const Vec2 tip(0.5 * kSquareWidth, kTipY);
+  for (const double opening : {12.0, 14.0, 25.0}) {
+    for (const double blur : {0.6, 0.9}) {
+      for (const std::uint32_t seed : {1U, 2U}) {
+        SCOPED_TRACE(testing::Message() << opening << " degrees, blur " << blur << ", seed " << seed);
+        EXPECT_TRUE(hasCornerAt(cornersWith(wedgePage(opening, 0.0, blur, seed), {}), tip, 1.5));
+        EXPECT_FALSE(hasCornerAt(cornersWith(wedgePage(opening, 8.0, blur, seed), {}), tip, 100.0));
+      }
+    }
+  }
+}
+
 TEST(AutomaticCorners, OfSmallSmoothLinesThereAreNone) {
   for (const double width : {3.0, 4.5}) {
     for (const test::Smooth kind : {test::Smooth::Circle, test::Smooth::Ellipse, test::Smooth::Wave}) {
