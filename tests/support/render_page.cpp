@@ -67,6 +67,8 @@ void blur(std::vector<float>& image, int width, int height, double sigma) {
   blurRows(image, width, height, kernel, true);
 }
 
+}  // namespace
+
 void throughJpeg(GreyImage& grey, int quality) {
   std::vector<unsigned char> page(grey.pixels.size());
   for (std::size_t i = 0; i < page.size(); ++i) page[i] = static_cast<unsigned char>(grey.pixels[i] / 257);
@@ -83,8 +85,6 @@ void throughJpeg(GreyImage& grey, int quality) {
   if (!isDone) throw std::runtime_error("the page does not go through JPEG");
   for (std::size_t i = 0; i < page.size(); ++i) grey.pixels[i] = static_cast<std::uint16_t>(page[i] * 257);
 }
-
-}  // namespace
 
 PageStyle cleanPage() { return {}; }
 PageStyle scannedPage(std::uint32_t seed) { return {255, 140, 30, 0, 0.8, 6, 4, seed, 0}; }

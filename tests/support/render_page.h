@@ -29,6 +29,9 @@ PageStyle darkPage(std::uint32_t seed);     ///< Background falling to 40, line 
 PageStyle varyingPage(std::uint32_t seed);
 PageStyle gradatedPage(std::uint32_t seed);  ///< Blur 1.2, noise 5, gradation: the accuracy cases of the foundation.
 
+/// What is left of a picture of 8 bits. @param quality 1..100
+void throughJpeg(GreyImage&, int quality);
+
 /// Exact area coverage (0..1) of the filled outline, pixel by pixel.
 std::vector<float> fillCoverage(const std::vector<Vec2>& outline, int width, int height);
 /// Coverage of a stroke of this width along the outline (round caps and joins).

@@ -289,19 +289,31 @@ std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImag
   return findPaperSheet(sheetCellsOf(grey, colour, context), context);
 }
 
-PaperSheet sheetWithinRim(int widthPx, int heightPx) {
+PaperSheet sheetWithinRim(int widthPx, int heightPx, const PictureBox& part) {
   PaperSheet sheet;
   sheet.cellPx = std::max(2, (std::max(widthPx, heightPx) + kSheetCells - 1) / kSheetCells);
-  const int columns = std::max(1, widthPx / sheet.cellPx), rows = std::max(1, heightPx / sheet.cellPx);
-  const double rimPx = kSheetRimShare * std::hypot(widthPx, heightPx);
-  const int widest = (std::min(columns, rows) - 1) / 2;  // 0: too narrow a strip to have a rim
+  sheet.inside = BitImage(std::max(1, widthPx / sheet.cellPx), std::max(1, heightPx / sheet.cellPx));
+  const auto upwards = [&](int px) { return (px + sheet.cellPx - 1) / sheet.cellPx; };
+  const int left = upwards(part.left), top = upwards(part.top);
+  const int right = std::max(left + 1, std::min((part.left + part.width) / sheet.cellPx, sheet.inside.width));
+  const int bottom = std::max(top + 1, std::min((part.top + part.height) / sheet.cellPx, sheet.inside.height));
+  const double rimPx = kSheetRimShare * std::hypot(part.width, part.height);
+  const int widest = (std::min(right - left, bottom - top) - 1) / 2;  // 0: too narrow a strip to have a rim
   const int rim = std::min(std::max(1, static_cast<int>(std::ceil(rimPx / sheet.cellPx))), widest);
-  sheet.inside = BitImage(columns, rows);
-  for (int j = rim; j < rows - rim; ++j) {
-    for (int i = rim; i < columns - rim; ++i) sheet.inside.set(i, j, true);
+  for (int j = top + rim; j < bottom - rim; ++j) {
+    for (int i = left + rim; i < right - rim; ++i) sheet.inside.set(i, j, true);
   }
-  const double x0 = rim * sheet.cellPx, x1 = (columns - rim) * sheet.cellPx, y1 = (rows - rim) * sheet.cellPx;
-  sheet.outlinePx = {{x0, x0}, {x1, x0}, {x1, y1}, {x0, y1}};
+  sheet.outsideShare =
+      1.0 - static_cast<double>(sheet.inside.count()) / (1.0 * sheet.inside.width * sheet.inside.height);
+  const double x0 = (left + rim) * sheet.cellPx, y0 = (top + rim) * sheet.cellPx;
+  const double x1 = (right - rim) * sheet.cellPx, y1 = (bottom - rim) * sheet.cellPx;
+  sheet.outlinePx = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+  return sheet;
+}
+
+PaperSheet sheetWithinRim(int widthPx, int heightPx) {
+  PaperSheet sheet = sheetWithinRim(widthPx, heightPx, {0, 0, widthPx, heightPx});
+  sheet.outsideShare = 0.0;
   return sheet;
 }
 

@@ -33,7 +33,13 @@ struct PaperSheet {
 std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
 std::optional<PaperSheet> findPaperSheet(const SheetCells&, const RunContext&);
 
-/// The page of a scan whose sheet fills it, without a narrow rim: the sheet's edge and the shadow along it.
+/// Of a picture, in pixels.
+struct PictureBox {
+  int left = 0, top = 0, width = 0, height = 0;
+};
+/// The sheet that fills a part of a picture, without a narrow rim: the sheet's edge and the shadow along it.
+PaperSheet sheetWithinRim(int widthPx, int heightPx, const PictureBox& part);
+/// The same of a scan whose sheet fills it.
 PaperSheet sheetWithinRim(int widthPx, int heightPx);
 
 }  // namespace batten

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/sheet/sheet_and_holes.h"
 
+#include "core/image/sheet/blank_margins.h"
 #include "core/image/sheet/sheet_cells.h"
 
 namespace batten {
@@ -10,6 +11,7 @@ SheetAndHoles findSheetAndHoles(const GreyImage& grey, const ColourImage& colour
   if (context.isCancelled()) return {};
   SheetAndHoles found{.holes = findBindingHoles(cells), .sheet = findPaperSheet(cells, context)};
   if (context.isCancelled()) return {};
+  if (!found.sheet) found.sheet = sheetWithinMargins(grey);
   return found;
 }
 

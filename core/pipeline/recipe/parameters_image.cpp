@@ -249,9 +249,8 @@ void appendPage(std::vector<Parameter>& table) {
   table.push_back(choice<SheetUse>(
       kThresholds,
       {"paper.sheet", "Outside the sheet", "",
-       "Cuts off the surroundings of the sheet in a photograph, where the sheet is detected, and removes the holes of "
-       "a "
-       "spiral binding."},
+       "Cuts off the surroundings of the sheet in a photograph, where the sheet is detected, or a blank page around a "
+       "pasted scan, and removes the holes of a spiral binding."},
       {{"cut-off", "Cut off", SheetUse::CutOff}, {"off", "Keep", SheetUse::Off}},
       [](auto& r) -> auto& { return r.preparation.sheet; }));
   table.push_back(choice<ShadingUse>(

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/sheet/blank_margins.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "core/base/statistics.h"
+
+namespace batten {
+namespace {
+
+constexpr int kBlankUnits = 2 * 257;    // [1/257 grey] by which a margin may differ from its value
+constexpr double kLeastMargin = 0.01;   // of the picture's side: a narrower one is a rim
+constexpr double kLeastLeft = 0.1;      // of the picture
+constexpr int kEdgePx = 12;             // JPEG leaves ripples as far beside an edge
+constexpr int kStraightPx = 1;          // by which the edge may be off its line: scaled, blurred
+constexpr double kLeastStraight = 0.9;  // of its length: a shape that somebody drew ends less straight
+// Of pixels that differ from the one beside them: in what a drawing program fills none do.
+constexpr double kLeastUneven = 0.2;
+constexpr int kRowStep = 7;  // of the rows that are looked at for that
+
+struct Range {
+  int begin = 0, end = 0;
+  int size() const { return end - begin; }
+};
+
+/// The lines of a picture that run along one of its sides, the outermost first.
+struct SideLines {
+  const GreyImage& page;
+  bool down = false, fromEnd = false;  ///< Columns; from the right or from below.
+  int count() const { return down ? page.width : page.height; }
+  int at(int line, int i) const {
+    const int k = fromEnd ? count() - 1 - line : line;
+    return down ? page.row(i)[k] : page.row(k)[i];
+  }
+};
+
+/// How many lines have one value.
+int blankLines(const SideLines& lines, const Range& along, int value) {
+  const auto isBlank = [&](int line) {
+    for (int i = along.begin; i < along.end; ++i)
+      if (std::abs(lines.at(line, i) - value) > kBlankUnits) return false;
+    return true;
+  };
+  int line = 0;
+  while (line < lines.count() && isBlank(line)) ++line;
+  return line;
+}
+
+/// The line at which the picture begins beside a margin. Absent: not at a straight edge.
+std::optional<int> straightEdge(const SideLines& lines, int margin, const Range& along, int value) {
+  const int last = std::min(margin + 2 * kEdgePx, lines.count()) - 1;
+  if (margin < kLeastMargin * lines.count() || along.size() <= 2 * kEdgePx) return std::nullopt;
+  std::vector<int> beyond, edges;
+  for (int i = along.begin + kEdgePx; i < along.end - kEdgePx; ++i)
+    beyond.push_back(std::abs(lines.at(last, i) - value));
+  const int half = std::max(kBlankUnits, upperMedian(beyond) / 2);
+  for (int i = along.begin + kEdgePx; i < along.end - kEdgePx; ++i) {
+    int line = margin;
+    while (line < last && std::abs(lines.at(line, i) - value) <= half) ++line;
+    edges.push_back(line);
+  }
+  const int edge = upperMedian(edges);
+  const auto straight = std::ranges::count_if(edges, [&](int at) { return std::abs(at - edge) <= kStraightPx; });
+  if (edge > margin + kEdgePx || static_cast<double>(straight) < kLeastStraight * std::ssize(edges))
+    return std::nullopt;
+  return edge;
+}
+
+bool isUneven(const GreyImage& page, const Range& columns, const Range& rows) {
+  std::int64_t all = 0, unlike = 0;
+  for (int y = rows.begin; y < rows.end; y += kRowStep) {
+    for (int x = columns.begin + 1; x < columns.end; ++x) unlike += page.row(y)[x] != page.row(y)[x - 1] ? 1 : 0;
+    all += columns.size() - 1;
+  }
+  return static_cast<double>(unlike) >= kLeastUneven * static_cast<double>(all);
+}
+
+}  // namespace
+
+std::optional<PaperSheet> sheetWithinMargins(const GreyImage& page) {
+  if (page.isUniform || page.width < 1 || page.height < 1) return std::nullopt;
+  const int value = page.row(0)[0];
+  const SideLines top{page, false, false}, bottom{page, false, true}, left{page, true, false}, right{page, true, true};
+  const Range wide{0, page.width};
+  Range rows{blankLines(top, wide, value), 0};
+  if (rows.begin == page.height) return std::nullopt;
+  rows.end = page.height - blankLines(bottom, wide, value);
+  Range columns{blankLines(left, rows, value), page.width - blankLines(right, rows, value)};
+  if (columns.size() == page.width && rows.size() == page.height) return std::nullopt;
+  if (1.0 * columns.size() * rows.size() < kLeastLeft * page.width * page.height) return std::nullopt;
+  const auto edgeOf = [&](const SideLines& lines, int margin, const Range& along) {
+    return margin > 0 ? straightEdge(lines, margin, along, value) : std::optional(0);
+  };
+  const auto x0 = edgeOf(left, columns.begin, rows), x1 = edgeOf(right, page.width - columns.end, rows);
+  const auto y0 = edgeOf(top, rows.begin, columns), y1 = edgeOf(bottom, page.height - rows.end, columns);
+  if (!x0 || !x1 || !y0 || !y1) return std::nullopt;
+  columns = {*x0, page.width - *x1}, rows = {*y0, page.height - *y1};
+  if (!isUneven(page, columns, rows)) return std::nullopt;
+  return sheetWithinRim(page.width, page.height, {columns.begin, rows.begin, columns.size(), rows.size()});
+}
+
+}  // namespace batten
