@@ -35,6 +35,12 @@ std::string significantText(double value, int digits) {
   return roundedText(value, std::max(0, digits - 1 - magnitude));
 }
 
+std::string percentText(double share) {
+  constexpr double kOneDecimalBelow = 0.01, kLeastSaid = 0.001;
+  if (share > 0.0 && share < kLeastSaid) return "less than " + roundedText(100.0 * kLeastSaid, 1);
+  return roundedText(100.0 * share, share < kOneDecimalBelow ? 1 : 0);
+}
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};

@@ -156,7 +156,7 @@ void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& con
   if (!page.grey) page.grey = scan.grey;
   page.grey = withoutTones(std::move(*page.grey), *areas, context);
   page.shadedShare = areas->share;
-  page.notes.push_back("Shading on " + roundedText(100.0 * areas->share, areas->share < 0.01 ? 1 : 0) +
+  page.notes.push_back("Shading on " + percentText(areas->share) +
                        " % of the page was left out, so that the lines on it are found; paper.shading=keep traces it.");
 }
 

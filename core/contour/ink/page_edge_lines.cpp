@@ -139,9 +139,9 @@ bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, cons
   if (line.traceMode || extent.most.y() > kNearBorder * page.shorter() ||
       extent.most.x() - extent.least.x() < kLong * along)
     return false;
-  const EdgePiece flat{index, extent, {extent.most.y()}};
+  const EdgePiece piece = edgePieceOf(index, side, line, page);
   for (int k = 0; k < std::ssize(contours); ++k)
-    if (k != index && isBeyond(flat, contours[k], side, page)) return false;
+    if (k != index && isBeyond(piece, contours[k], side, page)) return false;
   return true;
 }
 

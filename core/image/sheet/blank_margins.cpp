@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kBlankUnits = 2 * 257;    // [1/257 grey] by which a margin may differ from its value
 constexpr double kLeastMargin = 0.01;   // of the picture's side: a narrower one is a rim
-constexpr double kLeastLeft = 0.1;      // of the picture
-constexpr int kEdgePx = 12;             // JPEG leaves ripples as far beside an edge
+constexpr double kLeastPasted = 0.1;    // of the picture
+constexpr int kRipplePx = 12;           // JPEG leaves ripples as far beside an edge
 constexpr int kStraightPx = 1;          // by which the edge may be off its line: scaled, blurred
 constexpr double kLeastStraight = 0.9;  // of its length: a shape that somebody drew ends less straight
 // Of pixels that differ from the one beside them: in what a drawing program fills none do.
@@ -51,20 +51,20 @@ int blankLines(const SideLines& lines, const Range& along, int value) {
 
 /// The line at which the picture begins beside a margin. Absent: not at a straight edge.
 std::optional<int> straightEdge(const SideLines& lines, int margin, const Range& along, int value) {
-  const int last = std::min(margin + 2 * kEdgePx, lines.count()) - 1;
-  if (margin < kLeastMargin * lines.count() || along.size() <= 2 * kEdgePx) return std::nullopt;
+  const int last = std::min(margin + 2 * kRipplePx, lines.count()) - 1;
+  if (margin < kLeastMargin * lines.count() || along.size() <= 2 * kRipplePx) return std::nullopt;
   std::vector<int> beyond, edges;
-  for (int i = along.begin + kEdgePx; i < along.end - kEdgePx; ++i)
+  for (int i = along.begin + kRipplePx; i < along.end - kRipplePx; ++i)
     beyond.push_back(std::abs(lines.at(last, i) - value));
   const int half = std::max(kBlankUnits, upperMedian(beyond) / 2);
-  for (int i = along.begin + kEdgePx; i < along.end - kEdgePx; ++i) {
+  for (int i = along.begin + kRipplePx; i < along.end - kRipplePx; ++i) {
     int line = margin;
     while (line < last && std::abs(lines.at(line, i) - value) <= half) ++line;
     edges.push_back(line);
   }
   const int edge = upperMedian(edges);
   const auto straight = std::ranges::count_if(edges, [&](int at) { return std::abs(at - edge) <= kStraightPx; });
-  if (edge > margin + kEdgePx || static_cast<double>(straight) < kLeastStraight * std::ssize(edges))
+  if (edge > margin + kRipplePx || static_cast<double>(straight) < kLeastStraight * std::ssize(edges))
     return std::nullopt;
   return edge;
 }
@@ -90,7 +90,7 @@ std::optional<PaperSheet> sheetWithinMargins(const GreyImage& page) {
   rows.end = page.height - blankLines(bottom, wide, value);
   Range columns{blankLines(left, rows, value), page.width - blankLines(right, rows, value)};
   if (columns.size() == page.width && rows.size() == page.height) return std::nullopt;
-  if (1.0 * columns.size() * rows.size() < kLeastLeft * page.width * page.height) return std::nullopt;
+  if (1.0 * columns.size() * rows.size() < kLeastPasted * page.width * page.height) return std::nullopt;
   const auto edgeOf = [&](const SideLines& lines, int margin, const Range& along) {
     return margin > 0 ? straightEdge(lines, margin, along, value) : std::optional(0);
   };

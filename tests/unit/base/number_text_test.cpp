@@ -44,6 +44,14 @@ TEST(NumberText, KeepsTheDigitsThatCount) {
   EXPECT_EQ(significantText(0.0, 3), "0");
 }
 
+TEST(NumberText, SaysSharesInPercent) {
+  EXPECT_EQ(percentText(0.123), "12");
+  EXPECT_EQ(percentText(1.0), "100");
+  EXPECT_EQ(percentText(0.0064), "0.6");
+  EXPECT_EQ(percentText(0.0004), "less than 0.1");
+  EXPECT_EQ(percentText(0.0), "0");
+}
+
 TEST(NumberText, WritesAndReadsPointsUnderALocaleWithCommas) {
   const test::CommaLocale locale;
   expectCommas();

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "core/base/number_text.h"
 #include "core/image/ruling/ruling_count.h"
 #include "core/pipeline/run/pipeline.h"
 #include "ui/panels/controls/number_field.h"
@@ -208,7 +209,8 @@ void ScanPanel::refreshPaper() {
   QStringList said;
   const auto& page = session_.output().page;
   if (page && page->colouredShare > 0.0)
-    said << tr("Coloured ink was made darker on %1 % of the page.").arg(100.0 * page->colouredShare, 0, 'f', 1);
+    said << tr("Coloured ink was made darker on %1 % of the page.")
+                .arg(QString::fromStdString(percentText(page->colouredShare)));
   // Families of one direction, as lines and their margin, are counted together.
   for (const bool runsDown : {false, true}) {
     const int count = page ? ruledLines(page->rulings, runsDown) : 0;
@@ -220,8 +222,7 @@ void ScanPanel::refreshPaper() {
   }
   if (page && page->bindingHoles > 0) said << tr("%1 binding holes were removed.").arg(page->bindingHoles);
   if (page && page->shadedShare > 0.0)
-    said << tr("Shading on %1 % of the page was left out.")
-                .arg(100.0 * page->shadedShare, 0, 'f', page->shadedShare < 0.01 ? 1 : 0);
+    said << tr("Shading on %1 % of the page was left out.").arg(QString::fromStdString(percentText(page->shadedShare)));
   if (page && page->sheet && !session_.scan()->rectification)
     said << tr("%1 % of the picture is outside the sheet and was cut off.")
                 .arg(100.0 * page->sheet->outsideShare, 0, 'f', 0);

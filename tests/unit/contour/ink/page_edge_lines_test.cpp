@@ -52,6 +52,13 @@ TEST(PageEdgeLines, TheEdgeOfASheetIsDroppedAlongEverySide) {
   EXPECT_EQ(droppedOf({borderLine({100.0, 790.0}, {900.0, 784.0}), kDrawnBend}), 1);
 }
 
+// The edge lies 8 px from the border there, and 22 px at its other end.
+TEST(PageEdgeLines, ASheetThatLiesAskewIsComparedWithItsEdgeBesideTheDrawing) {
+  const Contour askew = borderLine({8.0, 100.0}, {22.0, 700.0});
+  EXPECT_EQ(droppedOf({askew, borderLine({26.0, 120.0}, {200.0, 300.0})}), 1);
+  EXPECT_EQ(droppedOf({askew, borderLine({26.0, 650.0}, {200.0, 300.0})}), 0);
+}
+
 TEST(PageEdgeLines, TheDrawingStaysInOrder) {
   const Contour second = borderLine({200.0, 600.0}, {800.0, 650.0});
   ContourSet set;
