@@ -18,17 +18,38 @@
 namespace batten {
 namespace {
 
-constexpr double kMostGutterShare = 0.04;        // of the diagonal: the gutter of an open book with its shadow
-constexpr double kLeastAlongGutter = 0.3;        // of the longer side of the facing page lies along the gutter
-constexpr double kShadingShare = 0.12;           // of the diagonal: farther from the gutter paper is flat
-constexpr int kGutterStepCells = 10;             // from one value along the gutter to the next
-constexpr int kAlongReach = 2;                   // values to either side that are counted with one
+constexpr double kMostGutterShare = 0.04;  // of the diagonal: the gutter of an open book with its shadow
+constexpr double kLeastAlongGutter = 0.3;  // of the longer side of the facing page lies along the gutter
+// [grey] By which the tint of its paper may differ: light falls on it from another side. Of what is like the other page
+// in size and place, by which it may bounce from the desk.
+constexpr float kMostTint = 14.0f, kMostTintOfPages = 30.0f;
+constexpr float kDarkestPage = static_cast<float>(kDarkestOnSheet);
+constexpr double kLeastAlike = 0.8, kLeastConvex = 0.92;  // of the larger page; of its hull
+constexpr double kShadingShare = 0.12;                    // of the diagonal: farther from the gutter paper is flat
+constexpr int kGutterStepCells = 10;                      // from one value along the gutter to the next
+constexpr int kAlongReach = 2;                            // values to either side that are counted with one
 constexpr double kPaperRankBesideGutter = 0.75;  // of the cells at one distance: at least a quarter is free of ink
 constexpr double kDarkestBesideGutter = 0.6, kDarkestFlat = 0.9;  // of the flat paper: what is darker was drawn
 constexpr double kBrightest = 1.1;                                // of the flat paper: no level is higher
 
 cv::Mat1b grown(const cv::Mat1b& mask, double shareOfDiagonal) {
   return grownMask(mask, static_cast<int>(std::ceil(shareOfDiagonal * std::hypot(mask.cols, mask.rows))));
+}
+
+/// Whether two parts are like the pages of a book: as large, as high as one another across the gutter, and convex.
+/// @param gutter the box of what lies along it.
+bool areAlike(const cv::Mat1b& page, const cv::Mat1b& other, const cv::Rect& gutter) {
+  const double area = cv::countNonZero(page), otherArea = cv::countNonZero(other);
+  if (std::min(area, otherArea) < kLeastAlike * std::max(area, otherArea)) return false;
+  const cv::Rect a = cv::boundingRect(page), b = cv::boundingRect(other), both = a | b;
+  const bool isUpright = gutter.height >= gutter.width;
+  const int shared =
+      isUpright ? std::min(a.br().y, b.br().y) - std::max(a.y, b.y) : std::min(a.br().x, b.br().x) - std::max(a.x, b.x);
+  if (shared < kLeastAlike * (isUpright ? both.height : both.width)) return false;
+  std::vector<cv::Point> places, hull;
+  cv::findNonZero(page, places);
+  cv::convexHull(places, hull);
+  return area >= kLeastConvex * cv::contourArea(hull);
 }
 
 struct TwoPages {
@@ -173,16 +194,17 @@ bool isFacingPage(const cv::Mat1b& page, const cv::Mat1b& sheet, const SheetCell
   const int right = page.cols - 1, bottom = page.rows - 1;
   const auto isAt = [&](int x, int y) { return page(y, x) != 0 ? 1 : 0; };
   if (isAt(0, 0) + isAt(right, 0) + isAt(0, bottom) + isAt(right, bottom) > 1) return false;
-  const cv::Scalar of = cv::mean(cells.colour, page), with = cv::mean(cells.colour, sheet);
-  if (std::min(of[0], with[0]) < kDarkestOnSheet * std::max(of[0], with[0])) return false;
-  for (const int k : {1, 2})
-    if (std::fabs(of[k] - with[k]) > static_cast<double>(kMostSheetStep)) return false;
-  const double grainOf = std::max(cv::mean(cells.rough, page)[0], kLeastGrain);
-  const double grainWith = std::max(cv::mean(cells.rough, sheet)[0], kLeastGrain);
-  if (std::max(grainOf, grainWith) > kSameGrain * std::min(grainOf, grainWith)) return false;
   const cv::Rect along = cv::boundingRect(cv::Mat1b(grown(sheet, kMostGutterShare) & page));
   const cv::Rect box = cv::boundingRect(page);
   if (std::max(along.width, along.height) < kLeastAlongGutter * std::max(box.width, box.height)) return false;
+  const PaperLook of = paperLookOf(page, cells), with = paperLookOf(sheet, cells);
+  if (std::min(of.colour[0], with.colour[0]) < kDarkestPage * std::max(of.colour[0], with.colour[0])) return false;
+  const float most = areAlike(page, sheet, along) ? kMostTintOfPages : kMostTint;
+  for (const int k : {1, 2})
+    if (std::fabs(of.colour[k] - with.colour[k]) > most) return false;
+  const double grainOf = std::max(cv::mean(cells.rough, page)[0], kLeastGrain);
+  const double grainWith = std::max(cv::mean(cells.rough, sheet)[0], kLeastGrain);
+  if (std::max(grainOf, grainWith) > kSameGrain * std::min(grainOf, grainWith)) return false;
   return shaded.isDrawnOn(page);
 }
 

@@ -14,9 +14,9 @@ namespace batten {
 
 inline constexpr double kLeastFacingPage = 0.3;  ///< of the sheet's area
 
-/// The facing page of an open book: paper of the sheet's colour and grain across a narrow gutter, with a drawing on it.
-/// What reaches two corners of the picture is a table; a blank page holds nothing that would be missed. Masks are of
-/// the size of the cells, not 0 inside.
+/// The facing page of an open book: paper of about the sheet's colour and of its grain across a narrow gutter, with a
+/// drawing on it. What reaches two corners of the picture is a table; a blank page holds nothing that would be missed.
+/// Masks are of the size of the cells, not 0 inside.
 bool isFacingPage(const cv::Mat1b& page, const cv::Mat1b& sheet, const SheetCells& cells, const ShadedPaper& shaded);
 
 /// The pages of an open book on one level of brightness: towards the gutter paper bends away and dims, on one page more

@@ -39,11 +39,12 @@ cv::Mat1b drawnCells(const SheetCells& cells) {
   return drawn;
 }
 
-/// What the paper of a sheet is like: the smoother half of its cells, for ink makes cells rough.
-struct PaperLook {
-  cv::Vec3f colour;
-  float rough = 0.0f;
-};
+double shareOf(const cv::Mat1b& drawn, const cv::Mat1b& within) {
+  const int all = cv::countNonZero(within);
+  return all > 0 ? static_cast<double>(cv::countNonZero(drawn & within)) / all : 0.0;
+}
+
+}  // namespace
 
 PaperLook paperLookOf(const cv::Mat1b& sheet, const SheetCells& cells) {
   std::vector<float> roughs;
@@ -64,13 +65,6 @@ PaperLook paperLookOf(const cv::Mat1b& sheet, const SheetCells& cells) {
   }
   return look;
 }
-
-double shareOf(const cv::Mat1b& drawn, const cv::Mat1b& within) {
-  const int all = cv::countNonZero(within);
-  return all > 0 ? static_cast<double>(cv::countNonZero(drawn & within)) / all : 0.0;
-}
-
-}  // namespace
 
 ShadedPaper::ShadedPaper(const cv::Mat1b& sheet, const SheetCells& cells)
     : cells_(cells),

@@ -20,6 +20,13 @@ inline constexpr double kSameGrain = 1.25;      ///< times the roughness of pape
 inline constexpr double kLeastGrain = 1.5;      ///< [grey] less cannot be told from none
 inline constexpr int kSheetEdgeCells = 7;       ///< The sheet's edge and its shadow are of neither side.
 
+/// What paper is like where nothing is drawn: the smoother half of its cells, for ink makes cells rough.
+struct PaperLook {
+  cv::Vec3f colour;  ///< Grey, red less grey, blue less grey.
+  float rough = 0.0f;
+};
+PaperLook paperLookOf(const cv::Mat1b& sheet, const SheetCells& cells);
+
 /// What tells the sheet itself in shade, behind a fold or in a shadow, from a table: it has the sheet's colour and
 /// grain, is not much darker, and either its grain is exactly the same or the drawing goes on upon it. Masks are of
 /// the size of the cells, not 0 inside.

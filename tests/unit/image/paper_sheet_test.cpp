@@ -96,6 +96,41 @@ TEST(PaperSheet, BothPagesOfAnOpenBookAreTheSheet) {
   EXPECT_EQ(darkPixels(page, 385, 415), 0) << "gutter";
 }
 
+/// In light that is warmer left of the gutter.
+Scan tintedLeft(Scan scan) {
+  scan.colour = ColourImage(kPhotoWidth, kPhotoHeight);
+  const auto channel = [](double level) { return static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0)); };
+  for (int y = 0; y < kPhotoHeight; ++y) {
+    for (int x = 0; x < kPhotoWidth; ++x) {
+      const double grey = scan.grey.level(x, y), warm = x < 400 ? 24.0 : 0.0;
+      scan.colour.row(y)[x] = {channel(grey + 0.3 * warm), channel(grey), channel(grey - warm)};
+    }
+  }
+  return scan;
+}
+
+TEST(PaperSheet, APageOfABookMayHaveAnotherTintThanTheOther) {
+  const Scan scan = tintedLeft(photo([](double x, double y) { return openBook(x, y, true); }));
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  const GreyImage page = onlyTheSheet(scan.grey, *sheet, {});
+  const double ring = 2.0 * 3.14159 * 80.0 * 5.0;
+  EXPECT_NEAR(darkPixels(page, 60, 385), ring, 0.05 * ring) << "left page";
+  EXPECT_NEAR(darkPixels(page, 415, 720), ring, 0.05 * ring) << "right page";
+}
+
+// What is no page of the same book: a warm mat with a pattern that lies beside the lower half of a sheet.
+TEST(PaperSheet, AMatOfAnotherTintIsNoFacingPage) {
+  const Scan scan = tintedLeft(photo([](double x, double y) -> PhotoPixel {
+    if (x >= 404.0) return openBook(x, y, true);
+    if (x > 396.0 || x < 60.0 || y < 300.0 || y > 600.0) return {70.0, 2.0};
+    return {std::fabs(std::hypot(x - 230.0, y - 450.0) - 80.0) < 2.5 ? 50.0 : 225.0, 1.5};
+  }));
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  EXPECT_EQ(darkPixels(onlyTheSheet(scan.grey, *sheet, {}), 0, 385), 0);
+}
+
 // Paper bends away towards the gutter: its shading is no ink, a grey shape drawn far from it is.
 TEST(PaperSheet, ShadingTowardsTheGutterIsTakenOut) {
   const Scan scan = photo([](double x, double y) {
