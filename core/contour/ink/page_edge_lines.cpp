@@ -15,12 +15,13 @@ namespace batten {
 namespace {
 
 // All of the shorter side of the page, but for the length, which is of the side that the line runs along.
-constexpr double kNearBorder = 0.03;  // the edge of a sheet that fills the picture
-constexpr double kLong = 0.3;         // shorter ones near the border are drawn
-constexpr double kAlone = 0.015;      // of any other line: a frame, a table or the ground touches something
-constexpr double kInside = 0.12;      // no edge that shows as a step lies farther from the border
-constexpr double kPart = 0.008;       // so near an edge lies what is a part of it
-constexpr double kPiece = 0.03;       // shorter pieces of an edge show no step for certain
+constexpr double kNearBorder = 0.03;   // the edge of a sheet that fills the picture
+constexpr double kLong = 0.3;          // shorter ones near the border are drawn
+constexpr double kAlone = 0.015;       // of any other line: a frame, a table or the ground touches something
+constexpr double kInside = 0.12;       // no edge that shows as a step lies farther from the border
+constexpr double kPart = 0.008;        // so near an edge lies what is a part of it
+constexpr double kRightAcross = 0.95;  // from border to border
+constexpr double kPiece = 0.03;        // shorter pieces of an edge show no step for certain
 
 constexpr double kLeastStep = 0.015;                  // of the brightness: by which one side of an edge is darker
 constexpr double kStepped = 0.6, kAgainst = 0.1;      // of the length of an edge: so, and the other way round
@@ -155,6 +156,14 @@ bool isPartOf(const Contour& edge, const Contour& line, const Page& page) {
   });
 }
 
+/// Whether a line lies on another one made longer.
+bool liesOnLineOf(const Contour& edge, const Contour& line, const Page& page) {
+  const Vec2 from = edge.points.front().at, across = leftNormal((edge.points.back().at - from).normalized());
+  return std::all_of(line.points.begin(), line.points.end(), [&](const ContourPoint& p) {
+    return std::fabs(across.dot(p.at - from)) < kPart * page.shorter();
+  });
+}
+
 /// The lines along one side of a page and which of them are parts of the edge of a sheet.
 class SheetEdge {
  public:
@@ -170,9 +179,7 @@ class SheetEdge {
     }
   }
 
- private:
-  std::vector<bool> none() const { return std::vector<bool>(contours_.size(), false); }
-
+  /// Which lines are these pieces, or parts of the same edge.
   std::vector<bool> linesAlong(const std::vector<EdgePiece>& pieces) const {
     std::vector<bool> parts = none();
     for (int k = 0; k < std::ssize(contours_); ++k) {
@@ -181,12 +188,6 @@ class SheetEdge {
       });
     }
     return parts;
-  }
-
-  bool hasLineBeyond(const EdgePiece& piece, const std::vector<bool>& parts) const {
-    for (int k = 0; k < std::ssize(contours_); ++k)
-      if (!parts[k] && isBeyond(piece, contours_[k], side_, page_)) return true;
-    return false;
   }
 
   /// [px] Along the side, with what overlaps counted once.
@@ -203,10 +204,60 @@ class SheetEdge {
     return length;
   }
 
+ private:
+  std::vector<bool> none() const { return std::vector<bool>(contours_.size(), false); }
+
+  bool hasLineBeyond(const EdgePiece& piece, const std::vector<bool>& parts) const {
+    for (int k = 0; k < std::ssize(contours_); ++k)
+      if (!parts[k] && isBeyond(piece, contours_[k], side_, page_)) return true;
+    return false;
+  }
+
   int side_;
   const std::vector<Contour>& contours_;
   Page page_;
 };
+
+/// Whether anything else comes near a line along one side.
+bool isTouched(const EdgePiece& piece, const std::vector<Contour>& contours, const std::vector<bool>& parts, int side,
+               const Page& page) {
+  const double alone = kAlone * page.shorter();
+  for (int k = 0; k < std::ssize(contours); ++k) {
+    if (parts[k]) continue;
+    for (const ContourPoint& point : contours[k].points) {
+      const Vec2 p = seenFrom(side, point.at, page) - Vec2(piece.extent.least.x(), 0.0);
+      const auto at = static_cast<std::ptrdiff_t>(p.x() / kDepthStepPx);
+      if (p.x() >= 0.0 && at < std::ssize(piece.depths) && std::fabs(p.y() - piece.depths[at]) < alone) return true;
+    }
+  }
+  return false;
+}
+
+/// Finds the gutter of a book along one side, or the edge of a sheet upon another: it runs right across the picture, as
+/// nothing does that was drawn on the paper, whatever is drawn beyond.
+void findGutters(int side, const std::vector<Contour>& contours, const Page& page, std::vector<bool>& isEdge) {
+  const double along = side < 2 ? page.width : page.height;
+  std::vector<EdgePiece> straight;
+  for (int k = 0; k < std::ssize(contours); ++k) {
+    const Extent extent = extentFrom(side, contours[k], page);
+    const Vec2 size = extent.most - extent.least;
+    if (!contours[k].traceMode && extent.most.y() <= kInside * page.shorter() && size.x() >= kPiece * along &&
+        size.x() >= kLeastAlong * size.y() && isStraightEdge(contours[k]))
+      straight.push_back(edgePieceOf(k, side, contours[k], page));
+  }
+  const SheetEdge edge(side, contours, page);
+  for (const EdgePiece& first : straight) {
+    if (first.extent.most.x() - first.extent.least.x() < kLong * along) continue;
+    std::vector<EdgePiece> pieces;
+    std::ranges::copy_if(straight, std::back_inserter(pieces), [&](const EdgePiece& e) {
+      return liesOnLineOf(contours[first.contour], contours[e.contour], page);
+    });
+    const std::vector<bool> parts = edge.linesAlong(pieces);
+    const auto isNear = [&](const EdgePiece& e) { return isTouched(e, contours, parts, side, page); };
+    if (edge.lengthOf(parts) < kRightAcross * along || std::ranges::any_of(pieces, isNear)) continue;
+    for (std::size_t k = 0; k < parts.size(); ++k) isEdge[k] = isEdge[k] || parts[k];
+  }
+}
 
 /// Finds the edges of sheets that are lighter or darker than what lies beyond, along one side.
 void findSteps(int side, const std::vector<Contour>& contours, const GreyImage& grey, std::vector<bool>& isEdge) {
@@ -237,6 +288,7 @@ void dropPageEdgeLines(ContourSet& set, const GreyImage& grey) {
     for (int k = 0; k < std::ssize(set.contours); ++k)
       isEdge[k] = isEdge[k] || isSheetEdge(side, k, set.contours, page);
     findSteps(side, set.contours, grey, isEdge);
+    findGutters(side, set.contours, page, isEdge);
   }
   if (std::find(isEdge.begin(), isEdge.end(), false) == isEdge.end()) return;
   std::vector<Contour> drawn;

@@ -22,7 +22,7 @@ constexpr double kMostGutterShare = 0.04;  // of the diagonal: the gutter of an 
 constexpr double kLeastAlongGutter = 0.3;  // of the longer side of the facing page lies along the gutter
 // [grey] By which the tint of its paper may differ: light falls on it from another side. Of what is like the other page
 // in size and place, by which it may bounce from the desk.
-constexpr float kMostTint = 14.0f, kMostTintOfPages = 30.0f;
+constexpr float kMostPaperTint = 14.0f, kMostTintOfPages = 30.0f;
 constexpr float kDarkestPage = static_cast<float>(kDarkestOnSheet);
 constexpr double kLeastAlike = 0.8, kLeastConvex = 0.92;  // of the larger page; of its hull
 constexpr double kShadingShare = 0.12;                    // of the diagonal: farther from the gutter paper is flat
@@ -199,7 +199,7 @@ bool isFacingPage(const cv::Mat1b& page, const cv::Mat1b& sheet, const SheetCell
   if (std::max(along.width, along.height) < kLeastAlongGutter * std::max(box.width, box.height)) return false;
   const PaperLook of = paperLookOf(page, cells), with = paperLookOf(sheet, cells);
   if (std::min(of.colour[0], with.colour[0]) < kDarkestPage * std::max(of.colour[0], with.colour[0])) return false;
-  const float most = areAlike(page, sheet, along) ? kMostTintOfPages : kMostTint;
+  const float most = areAlike(page, sheet, along) ? kMostTintOfPages : kMostPaperTint;
   for (const int k : {1, 2})
     if (std::fabs(of.colour[k] - with.colour[k]) > most) return false;
   const double grainOf = std::max(cv::mean(cells.rough, page)[0], kLeastGrain);

@@ -114,6 +114,19 @@ TEST(PageEdgeLines, TheEdgeOfASheetFartherInsideIsDroppedWithItsPieces) {
   EXPECT_EQ(droppedOf(kEdgeInPieces), 0) << "a line on paper";
 }
 
+// The other page of the book has a number.
+TEST(PageEdgeLines, TheGutterOfABookIsDroppedWithItsPieces) {
+  const std::vector<Contour> gutter = {borderLine({930.0, 2.0}, {928.0, 380.0}), kDrawnBend,
+                                       borderLine({928.0, 386.0}, {922.0, 798.0}),
+                                       borderLine({970.0, 780.0}, {972.0, 790.0})};
+  EXPECT_EQ(droppedOf(gutter), 2);
+  std::vector<Contour> touched = gutter;
+  touched.push_back(borderLine({500.0, 600.0}, {925.0, 640.0}));
+  EXPECT_EQ(droppedOf(touched), 0) << "something is drawn up to it";
+  EXPECT_EQ(droppedOf({borderLine({930.0, 40.0}, {922.0, 790.0}), kDrawnBend}), 0) << "begins on the paper";
+  EXPECT_EQ(droppedOf({borderLine({850.0, 2.0}, {850.0, 798.0}), kDrawnBend}), 0) << "far from the border";
+}
+
 TEST(PageEdgeLines, WhatIsDrawnAlongAToneStays) {
   std::vector<Contour> lines = kEdgeInPieces;
   lines.push_back(borderLine({300.0, 760.0}, {360.0, 790.0}));
