@@ -14,7 +14,7 @@ std::string numberToText(double value);
 std::string roundedText(double value, int decimals);
 /// The same, rounded to so many digits that count: "0.00123", "9.36", "1200".
 std::string significantText(double value, int digits);
-/// A share 0..1 for a message, in percent: "12", below one percent "0.6", and never "0": "less than 0.1".
+/// A share 0..1 for a message, in percent: "12"; below one percent "0.6"; no share above 0 reads "0": "less than 0.1".
 std::string percentText(double share);
 /// "1 line was", "4 lines were".
 std::string counted(int count, std::string_view one, std::string_view many);

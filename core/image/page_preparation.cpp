@@ -155,7 +155,7 @@ void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& con
   if (!areas || context.isCancelled()) return;
   if (!page.grey) page.grey = scan.grey;
   page.grey = withoutTones(std::move(*page.grey), *areas, context);
-  // Where nothing is clearly shaded, too, the page was changed.
+  // The page was changed even where nothing is clearly shaded: the share must not read 0.
   page.shadedShare = std::max(areas->share, 1.0 / (1.0 * scan.grey.width * scan.grey.height));
   page.notes.push_back("Shading on " + percentText(page.shadedShare) +
                        " % of the page was left out, so that the lines on it are found; paper.shading=keep traces it.");

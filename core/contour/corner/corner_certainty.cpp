@@ -18,8 +18,9 @@ constexpr double kWidthLimit = 1.5;         // of the usual width: at a junction
 constexpr double kSharpRadius = 1.5;        // units
 constexpr double kSharpSketchRadius = 2.0;  // of lines of a pencil or merged from several: a sketching hand turns
 constexpr double kSharpSlackPx = 0.4;       // a vertex is known to that
-constexpr double kFarthestVertex = 2.3;     // units from the line; farther only where blur leaves nothing of a tip:
-constexpr double kLostWidthPx = 2.4, kFarthestLostPx = 12.0;  // from side to side; from the line
+constexpr double kFarthestVertex = 2.3;     // units from the line, even for acute tips
+// Where a tip of a shape is narrower than the first, blur leaves nothing of it; so far from the line at most.
+constexpr double kLostWidthPx = 2.4, kFarthestLostPx = 12.0;
 constexpr double kPointsPerPx = 4.0;  // [1/px] more than any contour has: neighbours lie 0.35 px apart or more
 constexpr double kPointStepPx = 1.0;  // located points lie as far apart: a rounding may begin behind one
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units

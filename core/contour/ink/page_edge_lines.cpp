@@ -20,11 +20,13 @@ constexpr double kLong = 0.3;          // shorter ones near the border are drawn
 constexpr double kAlone = 0.015;       // of any other line: a frame, a table or the ground touches something
 constexpr double kInside = 0.12;       // no edge that shows as a step lies farther from the border
 constexpr double kPart = 0.008;        // so near an edge lies what is a part of it
-constexpr double kRightAcross = 0.95;  // from border to border
+constexpr double kRightAcross = 0.95;  // of a side, but for what parts a line
 constexpr double kPiece = 0.03;        // shorter pieces of an edge show no step for certain
 
 constexpr double kLeastStep = 0.015;                  // of the brightness: by which one side of an edge is darker
 constexpr double kStepped = 0.6, kAgainst = 0.1;      // of the length of an edge: so, and the other way round
+constexpr double kFlatPaper = 0.02;                   // from a gutter: beyond, paper is as bright as the page
+constexpr double kLeastDim = 0.03;                    // of the brightness: by which paper dims towards it
 constexpr double kLeastAlong = 4.0;                   // of what an edge runs inwards
 constexpr double kMostBow = 0.015, kMostBowPx = 2.0;  // of its length: a sheet is cut straight
 constexpr double kGoesOn = 0.6;                       // of its length: so far beyond its ends an edge goes on straight
@@ -118,6 +120,9 @@ EdgePiece edgePieceOf(int contour, int side, const Contour& line, const Page& pa
     double& depth = piece.depths[static_cast<int>((p.x() - piece.extent.least.x()) / kDepthStepPx)];
     depth = std::max(depth, p.y());
   }
+  // Where no point lies within a step it is as deep as the one before.
+  for (std::size_t i = 1; i < piece.depths.size(); ++i)
+    if (!(piece.depths[i] > 0.0)) piece.depths[i] = piece.depths[i - 1];
   return piece;
 }
 
@@ -218,33 +223,70 @@ class SheetEdge {
   Page page_;
 };
 
-/// Whether anything else comes near a line along one side.
+/// Whether anything drawn comes near a line along one side, or stands where it has ended.
 bool isTouched(const EdgePiece& piece, const std::vector<Contour>& contours, const std::vector<bool>& parts, int side,
                const Page& page) {
-  const double alone = kAlone * page.shorter();
+  const double alone = kAlone * page.shorter(), length = piece.extent.most.x() - piece.extent.least.x();
   for (int k = 0; k < std::ssize(contours); ++k) {
     if (parts[k]) continue;
     for (const ContourPoint& point : contours[k].points) {
       const Vec2 p = seenFrom(side, point.at, page) - Vec2(piece.extent.least.x(), 0.0);
-      const auto at = static_cast<std::ptrdiff_t>(p.x() / kDepthStepPx);
-      if (p.x() >= 0.0 && at < std::ssize(piece.depths) && std::fabs(p.y() - piece.depths[at]) < alone) return true;
+      if (p.x() <= -alone || p.x() >= length + alone) continue;
+      const double last = static_cast<double>(piece.depths.size()) - 1.0;
+      const auto at = static_cast<std::ptrdiff_t>(std::clamp(p.x() / kDepthStepPx, 0.0, last));
+      if (std::fabs(p.y() - piece.depths[at]) < alone) return true;
     }
   }
   return false;
 }
 
-/// Finds the gutter of a book along one side, or the edge of a sheet upon another: it runs right across the picture, as
-/// nothing does that was drawn on the paper, whatever is drawn beyond.
-void findGutters(int side, const std::vector<Contour>& contours, const Page& page, std::vector<bool>& isEdge) {
+/// Whether the paper dims towards a line on one of its sides: it bends away into a gutter, or lies in its shadow.
+bool dimsTowards(const Contour& line, const GreyImage& grey) {
+  constexpr int kEvery = 4, kTangent = 4;  // points
+  std::vector<float> widths = strokeWidthsOf(line.points);
+  const double beside = widths.empty() ? 0.0 : kEdgeSideWidths * static_cast<double>(upperMedian(widths));
+  const double far = beside + kFlatPaper * Page(grey).shorter();
+  const auto levelAt = [&](const Vec2& at, const Vec2& across, double from) {
+    double sum = 0.0;
+    for (const double px : kEdgeSidePx) {
+      const Vec2 p = at + (from + px) * across;
+      sum += static_cast<double>(sampleGrey(grey, p.x(), p.y()));
+    }
+    return sum;
+  };
+  int left = 0, right = 0, all = 0;
+  for (int i = kTangent; i + kTangent < std::ssize(line.points); i += kEvery) {
+    const Vec2 along = line.points[i + kTangent].at - line.points[i - kTangent].at;
+    if (!(along.norm() > 0.0)) continue;
+    const Vec2 across = leftNormal(along.normalized()), &at = line.points[i].at;
+    const auto dims = [&](const Vec2& way) {
+      return levelAt(at, way, beside) < (1.0 - kLeastDim) * levelAt(at, way, far);
+    };
+    ++all, left += dims(across) ? 1 : 0, right += dims(-across) ? 1 : 0;
+  }
+  return all > 0 && std::max(left, right) >= kStepped * all;
+}
+
+/// Lines near one side of a page that are as straight as the edge of a sheet.
+std::vector<EdgePiece> straightPieces(int side, const std::vector<Contour>& contours, const Page& page) {
   const double along = side < 2 ? page.width : page.height;
-  std::vector<EdgePiece> straight;
+  std::vector<EdgePiece> pieces;
   for (int k = 0; k < std::ssize(contours); ++k) {
     const Extent extent = extentFrom(side, contours[k], page);
     const Vec2 size = extent.most - extent.least;
     if (!contours[k].traceMode && extent.most.y() <= kInside * page.shorter() && size.x() >= kPiece * along &&
         size.x() >= kLeastAlong * size.y() && isStraightEdge(contours[k]))
-      straight.push_back(edgePieceOf(k, side, contours[k], page));
+      pieces.push_back(edgePieceOf(k, side, contours[k], page));
   }
+  return pieces;
+}
+
+/// Finds the gutter of a book along one side, or the edge of a sheet upon another: paper dims towards it, and it runs
+/// right across the picture, whatever is drawn beyond. What was drawn does so rarely.
+void findGutters(int side, const std::vector<Contour>& contours, const GreyImage& grey, std::vector<bool>& isEdge) {
+  const Page page(grey);
+  const double along = side < 2 ? page.width : page.height, alone = kAlone * page.shorter();
+  const std::vector<EdgePiece> straight = straightPieces(side, contours, page);
   const SheetEdge edge(side, contours, page);
   for (const EdgePiece& first : straight) {
     if (first.extent.most.x() - first.extent.least.x() < kLong * along) continue;
@@ -252,26 +294,26 @@ void findGutters(int side, const std::vector<Contour>& contours, const Page& pag
     std::ranges::copy_if(straight, std::back_inserter(pieces), [&](const EdgePiece& e) {
       return liesOnLineOf(contours[first.contour], contours[e.contour], page);
     });
-    const std::vector<bool> parts = edge.linesAlong(pieces);
-    const auto isNear = [&](const EdgePiece& e) { return isTouched(e, contours, parts, side, page); };
-    if (edge.lengthOf(parts) < kRightAcross * along || std::ranges::any_of(pieces, isNear)) continue;
-    for (std::size_t k = 0; k < parts.size(); ++k) isEdge[k] = isEdge[k] || parts[k];
+    double begin = along, end = 0.0;
+    for (const EdgePiece& e : pieces)
+      begin = std::min(begin, e.extent.least.x()), end = std::max(end, e.extent.most.x());
+    std::vector<bool> parts = edge.linesAlong(pieces);
+    if (begin > alone || end < along - alone || edge.lengthOf(parts) < kRightAcross * along) continue;
+    if (!dimsTowards(contours[first.contour], grey)) continue;
+    std::vector<bool> known = parts;
+    for (std::size_t k = 0; k < known.size(); ++k) known[k] = parts[k] || isEdge[k];
+    const auto isNear = [&](const EdgePiece& e) { return isTouched(e, contours, known, side, page); };
+    if (std::ranges::none_of(pieces, isNear)) isEdge = known;
   }
 }
 
 /// Finds the edges of sheets that are lighter or darker than what lies beyond, along one side.
 void findSteps(int side, const std::vector<Contour>& contours, const GreyImage& grey, std::vector<bool>& isEdge) {
   const Page page(grey);
-  const double along = side < 2 ? page.width : page.height;
   std::vector<EdgePiece> brighter, darker;
-  for (int k = 0; k < std::ssize(contours); ++k) {
-    const Extent extent = extentFrom(side, contours[k], page);
-    const Vec2 size = extent.most - extent.least;
-    if (contours[k].traceMode || extent.most.y() > kInside * page.shorter() || size.x() < kPiece * along ||
-        size.x() < kLeastAlong * size.y() || !isStraightEdge(contours[k]))
-      continue;
-    const int step = stepAlong(contours[k], side, grey);
-    if (step != 0) (step > 0 ? brighter : darker).push_back(edgePieceOf(k, side, contours[k], page));
+  for (EdgePiece& piece : straightPieces(side, contours, page)) {
+    const int step = stepAlong(contours[piece.contour], side, grey);
+    if (step != 0) (step > 0 ? brighter : darker).push_back(std::move(piece));
   }
   for (std::vector<EdgePiece>* pieces : {&brighter, &darker}) {
     const std::vector<bool> parts = SheetEdge(side, contours, page).partsOf(std::move(*pieces));
@@ -288,8 +330,8 @@ void dropPageEdgeLines(ContourSet& set, const GreyImage& grey) {
     for (int k = 0; k < std::ssize(set.contours); ++k)
       isEdge[k] = isEdge[k] || isSheetEdge(side, k, set.contours, page);
     findSteps(side, set.contours, grey, isEdge);
-    findGutters(side, set.contours, page, isEdge);
   }
+  for (int side = 0; side < 4; ++side) findGutters(side, set.contours, grey, isEdge);
   if (std::find(isEdge.begin(), isEdge.end(), false) == isEdge.end()) return;
   std::vector<Contour> drawn;
   for (std::size_t k = 0; k < isEdge.size(); ++k)

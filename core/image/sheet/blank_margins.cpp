@@ -17,9 +17,9 @@ constexpr double kLeastPasted = 0.1;    // of the picture
 constexpr int kRipplePx = 12;           // JPEG leaves ripples as far beside an edge
 constexpr int kStraightPx = 1;          // by which the edge may be off its line: scaled, blurred
 constexpr double kLeastStraight = 0.9;  // of its length: a shape that somebody drew ends less straight
-// Of pixels that differ from the one beside them: in what a drawing program fills none do.
-constexpr double kLeastUneven = 0.2;
-constexpr int kRowStep = 7;  // of the rows that are looked at for that
+constexpr double kLeastUneven = 0.2;    // of pixels differ from the one beside them: programs fill with equal ones
+constexpr double kMostBlank = 0.25;     // of the pixels inside: more, and a frame was drawn on the page
+constexpr int kRowStep = 7;             // of the rows that are looked at for that
 
 struct Range {
   int begin = 0, end = 0;
@@ -56,7 +56,9 @@ std::optional<int> straightEdge(const SideLines& lines, int margin, const Range&
   std::vector<int> beyond, edges;
   for (int i = along.begin + kRipplePx; i < along.end - kRipplePx; ++i)
     beyond.push_back(std::abs(lines.at(last, i) - value));
-  const int half = std::max(kBlankUnits, upperMedian(beyond) / 2);
+  const int apart = upperMedian(beyond);
+  if (apart <= kBlankUnits) return std::nullopt;  // paper as on the page: a frame that was drawn
+  const int half = std::max(kBlankUnits, apart / 2);
   for (int i = along.begin + kRipplePx; i < along.end - kRipplePx; ++i) {
     int line = margin;
     while (line < last && std::abs(lines.at(line, i) - value) <= half) ++line;
@@ -69,13 +71,18 @@ std::optional<int> straightEdge(const SideLines& lines, int margin, const Range&
   return edge;
 }
 
-bool isUneven(const GreyImage& page, const Range& columns, const Range& rows) {
-  std::int64_t all = 0, unlike = 0;
+/// Whether a part is scanned paper: hardly anywhere of the page's value, and with grain.
+bool isScanned(const GreyImage& page, const Range& columns, const Range& rows, int value) {
+  std::int64_t all = 0, unlike = 0, blank = 0;
   for (int y = rows.begin; y < rows.end; y += kRowStep) {
-    for (int x = columns.begin + 1; x < columns.end; ++x) unlike += page.row(y)[x] != page.row(y)[x - 1] ? 1 : 0;
+    for (int x = columns.begin + 1; x < columns.end; ++x) {
+      unlike += page.row(y)[x] != page.row(y)[x - 1] ? 1 : 0;
+      blank += std::abs(page.row(y)[x] - value) <= kBlankUnits ? 1 : 0;
+    }
     all += columns.size() - 1;
   }
-  return static_cast<double>(unlike) >= kLeastUneven * static_cast<double>(all);
+  return static_cast<double>(unlike) >= kLeastUneven * static_cast<double>(all) &&
+         static_cast<double>(blank) <= kMostBlank * static_cast<double>(all);
 }
 
 }  // namespace
@@ -90,6 +97,7 @@ std::optional<PaperSheet> sheetWithinMargins(const GreyImage& page) {
   rows.end = page.height - blankLines(bottom, wide, value);
   Range columns{blankLines(left, rows, value), page.width - blankLines(right, rows, value)};
   if (columns.size() == page.width && rows.size() == page.height) return std::nullopt;
+  if (std::min(columns.size(), rows.size()) <= 4 * kRipplePx) return std::nullopt;
   if (1.0 * columns.size() * rows.size() < kLeastPasted * page.width * page.height) return std::nullopt;
   const auto edgeOf = [&](const SideLines& lines, int margin, const Range& along) {
     return margin > 0 ? straightEdge(lines, margin, along, value) : std::optional(0);
@@ -98,8 +106,11 @@ std::optional<PaperSheet> sheetWithinMargins(const GreyImage& page) {
   const auto y0 = edgeOf(top, rows.begin, columns), y1 = edgeOf(bottom, page.height - rows.end, columns);
   if (!x0 || !x1 || !y0 || !y1) return std::nullopt;
   columns = {*x0, page.width - *x1}, rows = {*y0, page.height - *y1};
-  if (!isUneven(page, columns, rows)) return std::nullopt;
-  return sheetWithinRim(page.width, page.height, {columns.begin, rows.begin, columns.size(), rows.size()});
+  if (!isScanned(page, columns, rows, value)) return std::nullopt;
+  PaperSheet sheet = sheetWithinRim(page.width, page.height, {columns.begin, rows.begin, columns.size(), rows.size()});
+  const double cells = 1.0 * sheet.inside.width * sheet.inside.height;
+  sheet.outsideShare = 1.0 - static_cast<double>(sheet.inside.count()) / cells;
+  return sheet;
 }
 
 }  // namespace batten

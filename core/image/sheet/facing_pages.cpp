@@ -20,10 +20,9 @@ namespace {
 
 constexpr double kMostGutterShare = 0.04;  // of the diagonal: the gutter of an open book with its shadow
 constexpr double kLeastAlongGutter = 0.3;  // of the longer side of the facing page lies along the gutter
-// [grey] By which the tint of its paper may differ: light falls on it from another side. Of what is like the other page
-// in size and place, by which it may bounce from the desk.
+// [grey] By which the tint of its paper may differ, as light falls on it from another side; of what is like the other
+// page in size and place, as light from the desk may tint one page.
 constexpr float kMostPaperTint = 14.0f, kMostTintOfPages = 30.0f;
-constexpr float kDarkestPage = static_cast<float>(kDarkestOnSheet);
 constexpr double kLeastAlike = 0.8, kLeastConvex = 0.92;  // of the larger page; of its hull
 constexpr double kShadingShare = 0.12;                    // of the diagonal: farther from the gutter paper is flat
 constexpr int kGutterStepCells = 10;                      // from one value along the gutter to the next
@@ -36,7 +35,7 @@ cv::Mat1b grown(const cv::Mat1b& mask, double shareOfDiagonal) {
   return grownMask(mask, static_cast<int>(std::ceil(shareOfDiagonal * std::hypot(mask.cols, mask.rows))));
 }
 
-/// Whether two parts are like the pages of a book: as large, as high as one another across the gutter, and convex.
+/// Whether a part is like the other page of a book: as large, as high beside the gutter, and convex.
 /// @param gutter the box of what lies along it.
 bool areAlike(const cv::Mat1b& page, const cv::Mat1b& other, const cv::Rect& gutter) {
   const double area = cv::countNonZero(page), otherArea = cv::countNonZero(other);
@@ -198,7 +197,8 @@ bool isFacingPage(const cv::Mat1b& page, const cv::Mat1b& sheet, const SheetCell
   const cv::Rect box = cv::boundingRect(page);
   if (std::max(along.width, along.height) < kLeastAlongGutter * std::max(box.width, box.height)) return false;
   const PaperLook of = paperLookOf(page, cells), with = paperLookOf(sheet, cells);
-  if (std::min(of.colour[0], with.colour[0]) < kDarkestPage * std::max(of.colour[0], with.colour[0])) return false;
+  const auto [darker, brighter] = std::minmax(of.colour[0], with.colour[0]);
+  if (static_cast<double>(darker) < kDarkestOnSheet * static_cast<double>(brighter)) return false;
   const float most = areAlike(page, sheet, along) ? kMostTintOfPages : kMostPaperTint;
   for (const int k : {1, 2})
     if (std::fabs(of.colour[k] - with.colour[k]) > most) return false;

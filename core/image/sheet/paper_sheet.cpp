@@ -294,7 +294,8 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx, const PictureBox& part) {
   sheet.cellPx = std::max(2, (std::max(widthPx, heightPx) + kSheetCells - 1) / kSheetCells);
   sheet.inside = BitImage(std::max(1, widthPx / sheet.cellPx), std::max(1, heightPx / sheet.cellPx));
   const auto upwards = [&](int px) { return (px + sheet.cellPx - 1) / sheet.cellPx; };
-  const int left = upwards(part.left), top = upwards(part.top);
+  const int left = std::min(upwards(part.left), sheet.inside.width - 1);
+  const int top = std::min(upwards(part.top), sheet.inside.height - 1);
   const int right = std::max(left + 1, std::min((part.left + part.width) / sheet.cellPx, sheet.inside.width));
   const int bottom = std::max(top + 1, std::min((part.top + part.height) / sheet.cellPx, sheet.inside.height));
   const double rimPx = kSheetRimShare * std::hypot(part.width, part.height);
@@ -303,8 +304,6 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx, const PictureBox& part) {
   for (int j = top + rim; j < bottom - rim; ++j) {
     for (int i = left + rim; i < right - rim; ++i) sheet.inside.set(i, j, true);
   }
-  sheet.outsideShare =
-      1.0 - static_cast<double>(sheet.inside.count()) / (1.0 * sheet.inside.width * sheet.inside.height);
   const double x0 = (left + rim) * sheet.cellPx, y0 = (top + rim) * sheet.cellPx;
   const double x1 = (right - rim) * sheet.cellPx, y1 = (bottom - rim) * sheet.cellPx;
   sheet.outlinePx = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
@@ -312,9 +311,7 @@ PaperSheet sheetWithinRim(int widthPx, int heightPx, const PictureBox& part) {
 }
 
 PaperSheet sheetWithinRim(int widthPx, int heightPx) {
-  PaperSheet sheet = sheetWithinRim(widthPx, heightPx, {0, 0, widthPx, heightPx});
-  sheet.outsideShare = 0.0;
-  return sheet;
+  return sheetWithinRim(widthPx, heightPx, {0, 0, widthPx, heightPx});
 }
 
 }  // namespace batten

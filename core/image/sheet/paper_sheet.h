@@ -37,7 +37,8 @@ std::optional<PaperSheet> findPaperSheet(const SheetCells&, const RunContext&);
 struct PictureBox {
   int left = 0, top = 0, width = 0, height = 0;
 };
-/// The sheet that fills a part of a picture, without a narrow rim: the sheet's edge and the shadow along it.
+/// The sheet that fills a part of a picture, without a narrow rim: the sheet's edge and the shadow along it. Its
+/// outsideShare is 0, its corners are not known. @pre the part lies inside the picture
 PaperSheet sheetWithinRim(int widthPx, int heightPx, const PictureBox& part);
 /// The same of a scan whose sheet fills it.
 PaperSheet sheetWithinRim(int widthPx, int heightPx);

@@ -24,7 +24,9 @@ constexpr double kLeastDark = 0.375;  // of the darkness of lines, in the mean: 
 constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step within a brush; shades fade farther
 // Of the border of a filled area: it ends sharply; of its darkness: standard deviation without what is narrow.
 constexpr double kFilledShare = 0.75, kMostUnevenFill = 0.4;
-constexpr double kTornGrain = 3.0;  // of a filled area beyond its rim, by that of paper: strokes show, or paper does
+// Mean grain inside the rim of a filled area, by that of bare paper, which is no less than the second [of 255] (paper
+// that the scanner has turned white has none): strokes show, or paper does.
+constexpr double kTornGrain = 3.0, kLeastPaperGrain = 0.5;
 constexpr double kLeastBesideTone = 0.15;  // of the length of its border: lines on a tone and beside it
 constexpr double kBesideTone = 2.0;        // [widths] from a tone: lines along its border
 constexpr double kBesideLines = 1.0;       // [widths] from a line: beyond its blurred border
@@ -113,7 +115,8 @@ FilledAreas filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const c
   const std::vector<double> depths = sums(inner, depth), squares = sums(inner, depth.mul(depth));
   const cv::Mat1f grain = cv::abs(page.level - blurredTone(page.level, page.widthPx));
   const std::vector<double> grains = sums(inner, grain);
-  const double grainOfPaper = cv::mean(grain, (grownMask(shaded, page.brush) == 0) & unlined)[0];
+  const double grainOfPaper =
+      std::max(kLeastPaperGrain, cv::mean(grain, (grownMask(shaded, page.brush) == 0) & unlined)[0]);
   std::vector<std::uint8_t> isFilled(count, 0), isTorn(count, 0);
   for (int k = 1; k < count; ++k) {
     const bool isWide = sizes[k] >= std::pow(kLeastShownWidths * page.widthPx, 2);

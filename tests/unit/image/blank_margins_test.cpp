@@ -88,6 +88,16 @@ TEST(BlankMargins, AreNoneAroundADrawing) {
        [](int x, int y) {
          return isInBox(kPasted, x, y) && !isInBox({104, 64, 412, 322}, x, y) ? 20.0 : 255.0;
        }},
+      {"a frame around the page's own noise",
+       [&](int x, int y) {
+         if (!isInBox(kPasted, x, y)) return 255.0;
+         return !isInBox({104, 64, 412, 322}, x, y) ? 20.0 : 255.0 - 0.5 * std::fabs(grain(random));
+       }},
+      {"a frame with hatching",
+       [](int x, int y) {
+         if (!isInBox(kPasted, x, y)) return 255.0;
+         return !isInBox({104, 64, 412, 322}, x, y) || (x + y) % 6 < 2 ? 20.0 : 255.0;
+       }},
       {"a filled rectangle", [](int x, int y) { return isInBox(kPasted, x, y) ? 180.0 : 255.0; }},
       {"a rectangle shaded by hand",
        [&](int x, int y) {
@@ -108,11 +118,24 @@ TEST(BlankMargins, AreNoneAroundADrawing) {
 TEST(BlankMargins, TinyAndUniformPicturesHaveNone) {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 50), std::pair(50, 1), std::pair(3, 3)})
     EXPECT_FALSE(sheetWithinMargins(GreyImage(width, height))) << width << " x " << height;
+  for (const bool isTall : {false, true}) {
+    // A strip of grain at the far end of white.
+    GreyImage strip(isTall ? 109 : 4000, isTall ? 4000 : 109);
+    for (int i = 0; i < 4000; ++i)
+      for (int k = 98; k < 109; ++k)
+        strip.row(isTall ? i : k)[isTall ? k : i] = static_cast<std::uint16_t>(257 * (200 + (i * 7 + k * 3) % 11));
+    EXPECT_FALSE(sheetWithinMargins(strip));
+  }
   EXPECT_FALSE(sheetWithinMargins(GreyImage::uniform(400, 300, 65535)));
   EXPECT_FALSE(sheetWithinMargins(GreyImage()));
 }
 
 // As the default recipe does it: the page around becomes paper.
+TEST(BlankMargins, APartAtTheFarCornerOfAPictureHasARim) {
+  const PaperSheet sheet = sheetWithinRim(4000, 109, {3990, 98, 10, 11});
+  EXPECT_LE(sheet.inside.count(), 1);
+}
+
 TEST(BlankMargins, AreCutOffThePage) {
   Scan scan;
   scan.grey = pastedScan(kPasted, 255.0, 232.0);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -114,17 +115,34 @@ TEST(PageEdgeLines, TheEdgeOfASheetFartherInsideIsDroppedWithItsPieces) {
   EXPECT_EQ(droppedOf(kEdgeInPieces), 0) << "a line on paper";
 }
 
+/// Paper of 230 that dims towards x = 926.
+GreyImage bookWithGutter() {
+  GreyImage page = whole(230.0);
+  for (int y = 0; y < kWholeHeight; ++y) {
+    for (int x = 0; x < kWholeWidth; ++x) {
+      const double level = 230.0 - 60.0 * std::exp(-std::fabs(x - 926.0) / 8.0);
+      page.row(y)[x] = static_cast<std::uint16_t>(257.0 * level);
+    }
+  }
+  return page;
+}
+
 // The other page of the book has a number.
 TEST(PageEdgeLines, TheGutterOfABookIsDroppedWithItsPieces) {
+  const GreyImage page = bookWithGutter();
   const std::vector<Contour> gutter = {borderLine({930.0, 2.0}, {928.0, 380.0}), kDrawnBend,
                                        borderLine({928.0, 386.0}, {922.0, 798.0}),
                                        borderLine({970.0, 780.0}, {972.0, 790.0})};
-  EXPECT_EQ(droppedOf(gutter), 2);
+  EXPECT_EQ(droppedOf(gutter, page), 2);
+  EXPECT_EQ(droppedOf(gutter), 0) << "a line on flat paper";
   std::vector<Contour> touched = gutter;
   touched.push_back(borderLine({500.0, 600.0}, {925.0, 640.0}));
-  EXPECT_EQ(droppedOf(touched), 0) << "something is drawn up to it";
-  EXPECT_EQ(droppedOf({borderLine({930.0, 40.0}, {922.0, 790.0}), kDrawnBend}), 0) << "begins on the paper";
-  EXPECT_EQ(droppedOf({borderLine({850.0, 2.0}, {850.0, 798.0}), kDrawnBend}), 0) << "far from the border";
+  EXPECT_EQ(droppedOf(touched, page), 0) << "something is drawn up to it";
+  touched = gutter;
+  touched.push_back(borderLine({905.0, 383.0}, {918.0, 383.0}));
+  EXPECT_EQ(droppedOf(touched, page), 0) << "something stands in the gap";
+  EXPECT_EQ(droppedOf({borderLine({930.0, 30.0}, {922.0, 796.0}), kDrawnBend}, page), 0) << "begins on the paper";
+  EXPECT_EQ(droppedOf({borderLine({850.0, 2.0}, {850.0, 798.0}), kDrawnBend}, page), 0) << "far from the border";
 }
 
 TEST(PageEdgeLines, WhatIsDrawnAlongAToneStays) {
