@@ -49,6 +49,19 @@ int blankLines(const SideLines& lines, const Range& along, int value) {
   return line;
 }
 
+/// The columns that have another value somewhere in these rows. Row by row: a page lies so in memory.
+Range columnsWithin(const GreyImage& page, const Range& rows, int value) {
+  Range columns{page.width, 0};
+  for (int y = rows.begin; y < rows.end; ++y) {
+    const std::uint16_t* row = page.row(y);
+    int first = 0, last = page.width;
+    while (first < columns.begin && std::abs(row[first] - value) <= kBlankUnits) ++first;
+    while (last > columns.end && std::abs(row[last - 1] - value) <= kBlankUnits) --last;
+    columns = {first, last};
+  }
+  return columns;
+}
+
 /// The line at which the picture begins beside a margin. Absent: not at a straight edge.
 std::optional<int> straightEdge(const SideLines& lines, int margin, const Range& along, int value) {
   const int last = std::min(margin + 2 * kRipplePx, lines.count()) - 1;
@@ -95,7 +108,7 @@ std::optional<PaperSheet> sheetWithinMargins(const GreyImage& page) {
   Range rows{blankLines(top, wide, value), 0};
   if (rows.begin == page.height) return std::nullopt;
   rows.end = page.height - blankLines(bottom, wide, value);
-  Range columns{blankLines(left, rows, value), page.width - blankLines(right, rows, value)};
+  Range columns = columnsWithin(page, rows, value);
   if (columns.size() == page.width && rows.size() == page.height) return std::nullopt;
   if (std::min(columns.size(), rows.size()) <= 4 * kRipplePx) return std::nullopt;
   if (1.0 * columns.size() * rows.size() < kLeastPasted * page.width * page.height) return std::nullopt;
