@@ -29,10 +29,10 @@ struct CornerEvidence {
 /// rounding of radius r, r (sec(angle / 2) - 1), r being 1.5 units; or, where the tip of a shape was filtered away, no
 /// larger rounding has room between what was seen of its sides. The vertex lies within 2.3 units of the line, that of
 /// an acute tip as far as the shape is too narrow for its ink to be seen, and within 12 px. The corner has sides of 2.5
-/// units and more, and they bend
-/// far less than it turns: chords over 3 and 6 units agree. Where the line turns back again within 8 units it may be a
-/// dent, unless it turns by 70 degrees; the middle of a pen's stroke has none, but may be a wave: there 40 degrees are
-/// enough, of sides that do not go on turning. Of its sides 1.5 units must be free of the ink of their corners.
+/// units and more, and they bend far less than it turns: chords over 3 and 6 units agree. Where the line turns back
+/// again within 8 units it may be a dent, unless it turns by 70 degrees; the middle of a pen's stroke has none, but may
+/// be a wave: there 40 degrees are enough, of sides that do not go on turning. Of its sides 1.5 units must be free of
+/// the ink of their corners.
 class CornerJudge {
  public:
   explicit CornerJudge(const Contour&);

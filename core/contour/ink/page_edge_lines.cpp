@@ -2,6 +2,7 @@
 #include "core/contour/ink/page_edge_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -65,32 +66,60 @@ Extent extentFrom(int side, const Contour& c, const Page& page) {
   return extent;
 }
 
+/// Calls `look` at places along a line, with the unit normal there.
+template <class Look>
+void alongLine(const Contour& line, const Look& look) {
+  constexpr int kEvery = 4, kTangent = 4;  // points
+  for (int i = kTangent; i + kTangent < std::ssize(line.points); i += kEvery) {
+    const Vec2 along = line.points[i + kTangent].at - line.points[i - kTangent].at;
+    if (along.norm() > 0.0) look(line.points[i].at, leftNormal(along.normalized()));
+  }
+}
+
+/// [px] From the middle of a line to the paper beside it.
+double toPaperBeside(const Contour& line) {
+  std::vector<float> widths = strokeWidthsOf(line.points);
+  return widths.empty() ? 0.0 : kEdgeSideWidths * static_cast<double>(upperMedian(widths));
+}
+
+/// Brightness beside a place, from so many px on; for comparing.
+double levelBeside(const GreyImage& grey, const Vec2& at, const Vec2& across, double fromPx) {
+  double sum = 0.0;
+  for (const double px : kEdgeSidePx) {
+    const Vec2 p = at + (fromPx + px) * across;
+    sum += static_cast<double>(sampleGrey(grey, p.x(), p.y()));
+  }
+  return sum;
+}
+
 /// +1 where the page is clearly brighter on the side of its middle than on that of its border along most of a line, and
 /// hardly anywhere darker; -1 where it is the other way round; else 0.
 int stepAlong(const Contour& line, int side, const GreyImage& grey) {
-  constexpr int kEvery = 4, kTangent = 4;  // points
   const Page page(grey);
-  std::vector<float> widths = strokeWidthsOf(line.points);
-  const double beside = widths.empty() ? 0.0 : kEdgeSideWidths * static_cast<double>(upperMedian(widths));
+  const double beside = toPaperBeside(line);
   int brighter = 0, darker = 0, all = 0;
-  for (int i = kTangent; i + kTangent < std::ssize(line.points); i += kEvery) {
-    const Vec2 along = line.points[i + kTangent].at - line.points[i - kTangent].at;
-    if (!(along.norm() > 0.0)) continue;
-    const Vec2& at = line.points[i].at;
-    Vec2 inwards = leftNormal(along.normalized());
+  alongLine(line, [&](const Vec2& at, Vec2 inwards) {
     if (seenFrom(side, at + inwards, page).y() < seenFrom(side, at, page).y()) inwards = -inwards;
-    double inner = 0.0, outer = 0.0;
-    for (const double px : kEdgeSidePx) {
-      const Vec2 in = at + (beside + px) * inwards, out = at - (beside + px) * inwards;
-      inner += static_cast<double>(sampleGrey(grey, in.x(), in.y()));
-      outer += static_cast<double>(sampleGrey(grey, out.x(), out.y()));
-    }
+    const double inner = levelBeside(grey, at, inwards, beside), outer = levelBeside(grey, at, -inwards, beside);
     const double least = kLeastStep * std::max(inner, outer);
     ++all, brighter += inner - outer > least ? 1 : 0, darker += outer - inner > least ? 1 : 0;
-  }
+  });
   const double most = kStepped * all, few = kAgainst * all;
   if (brighter > most && darker < few) return 1;
   return darker > most && brighter < few ? -1 : 0;
+}
+
+/// Whether the paper dims towards a line on one of its sides: it bends away into a gutter, or lies in its shadow.
+bool dimsTowards(const Contour& line, const GreyImage& grey) {
+  const double beside = toPaperBeside(line), far = beside + kFlatPaper * Page(grey).shorter();
+  const auto dims = [&](const Vec2& at, const Vec2& across) {
+    return levelBeside(grey, at, across, beside) < (1.0 - kLeastDim) * levelBeside(grey, at, across, far);
+  };
+  int left = 0, right = 0, all = 0;
+  alongLine(line, [&](const Vec2& at, const Vec2& across) {
+    ++all, left += dims(at, across) ? 1 : 0, right += dims(at, -across) ? 1 : 0;
+  });
+  return all > 0 && std::max(left, right) >= kStepped * all;
 }
 
 bool isStraightEdge(const Contour& line) {
@@ -126,14 +155,20 @@ EdgePiece edgePieceOf(int contour, int side, const Contour& line, const Page& pa
   return piece;
 }
 
-bool isBeyond(const EdgePiece& piece, const Contour& other, int side, const Page& page) {
+/// Where nothing is drawn along an edge.
+enum class BlankPart {
+  Beyond,    ///< From near the edge to the border of the page.
+  BothSides  ///< Near the edge, whatever is beyond.
+};
+
+bool isIn(BlankPart part, const EdgePiece& piece, const Contour& other, int side, const Page& page) {
   const double alone = kAlone * page.shorter();
   return std::any_of(other.points.begin(), other.points.end(), [&](const ContourPoint& point) {
     const Vec2 p = seenFrom(side, point.at, page) - Vec2(piece.extent.least.x(), 0.0);
+    if (p.x() <= -alone || p.x() >= piece.extent.most.x() - piece.extent.least.x() + alone) return false;
     const double last = static_cast<double>(piece.depths.size()) - 1.0;
-    const double at = std::clamp(p.x() / kDepthStepPx, 0.0, last);
-    return p.x() > -alone && p.x() < piece.extent.most.x() - piece.extent.least.x() + alone &&
-           p.y() < piece.depths[static_cast<int>(at)] + alone;
+    const double inwards = p.y() - piece.depths[static_cast<int>(std::clamp(p.x() / kDepthStepPx, 0.0, last))];
+    return inwards < alone && (part == BlankPart::Beyond || inwards > -alone);
   });
 }
 
@@ -147,18 +182,8 @@ bool isSheetEdge(int side, int index, const std::vector<Contour>& contours, cons
     return false;
   const EdgePiece piece = edgePieceOf(index, side, line, page);
   for (int k = 0; k < std::ssize(contours); ++k)
-    if (k != index && isBeyond(piece, contours[k], side, page)) return false;
+    if (k != index && isIn(BlankPart::Beyond, piece, contours[k], side, page)) return false;
   return true;
-}
-
-/// Whether a line lies along a piece of the edge, or goes on where it ends: a part of the edge too.
-bool isPartOf(const Contour& edge, const Contour& line, const Page& page) {
-  const Vec2 from = edge.points.front().at, chord = edge.points.back().at - from;
-  const Vec2 along = chord.normalized(), across = leftNormal(along);
-  return std::all_of(line.points.begin(), line.points.end(), [&](const ContourPoint& p) {
-    const double at = along.dot(p.at - from) / chord.norm();
-    return at > -kGoesOn && at < 1.0 + kGoesOn && std::fabs(across.dot(p.at - from)) < kPart * page.shorter();
-  });
 }
 
 /// Whether a line lies on another one made longer.
@@ -167,6 +192,17 @@ bool liesOnLineOf(const Contour& edge, const Contour& line, const Page& page) {
   return std::all_of(line.points.begin(), line.points.end(), [&](const ContourPoint& p) {
     return std::fabs(across.dot(p.at - from)) < kPart * page.shorter();
   });
+}
+
+/// Whether a line lies along a piece of the edge, or goes on where it ends: a part of the edge too.
+bool isPartOf(const Contour& edge, const Contour& line, const Page& page) {
+  const Vec2 from = edge.points.front().at, chord = edge.points.back().at - from;
+  const Vec2 along = chord.normalized();
+  const bool isNear = std::all_of(line.points.begin(), line.points.end(), [&](const ContourPoint& p) {
+    const double at = along.dot(p.at - from) / chord.norm();
+    return at > -kGoesOn && at < 1.0 + kGoesOn;
+  });
+  return isNear && liesOnLineOf(edge, line, page);
 }
 
 /// The lines along one side of a page and which of them are parts of the edge of a sheet.
@@ -179,7 +215,8 @@ class SheetEdge {
   std::vector<bool> partsOf(std::vector<EdgePiece> pieces) const {
     for (;;) {
       std::vector<bool> parts = linesAlong(pieces);
-      const auto drawn = std::erase_if(pieces, [&](const EdgePiece& e) { return hasLineBeyond(e, parts); });
+      const auto drawn =
+          std::erase_if(pieces, [&](const EdgePiece& e) { return hasLineIn(BlankPart::Beyond, e, parts); });
       if (drawn == 0) return lengthOf(parts) < kLong * (side_ < 2 ? page_.width : page_.height) ? none() : parts;
     }
   }
@@ -209,63 +246,20 @@ class SheetEdge {
     return length;
   }
 
- private:
-  std::vector<bool> none() const { return std::vector<bool>(contours_.size(), false); }
-
-  bool hasLineBeyond(const EdgePiece& piece, const std::vector<bool>& parts) const {
+  /// Whether anything but these lines is drawn where an edge has nothing.
+  bool hasLineIn(BlankPart blank, const EdgePiece& piece, const std::vector<bool>& but) const {
     for (int k = 0; k < std::ssize(contours_); ++k)
-      if (!parts[k] && isBeyond(piece, contours_[k], side_, page_)) return true;
+      if (!but[k] && isIn(blank, piece, contours_[k], side_, page_)) return true;
     return false;
   }
+
+ private:
+  std::vector<bool> none() const { return std::vector<bool>(contours_.size(), false); }
 
   int side_;
   const std::vector<Contour>& contours_;
   Page page_;
 };
-
-/// Whether anything drawn comes near a line along one side, or stands where it has ended.
-bool isTouched(const EdgePiece& piece, const std::vector<Contour>& contours, const std::vector<bool>& parts, int side,
-               const Page& page) {
-  const double alone = kAlone * page.shorter(), length = piece.extent.most.x() - piece.extent.least.x();
-  for (int k = 0; k < std::ssize(contours); ++k) {
-    if (parts[k]) continue;
-    for (const ContourPoint& point : contours[k].points) {
-      const Vec2 p = seenFrom(side, point.at, page) - Vec2(piece.extent.least.x(), 0.0);
-      if (p.x() <= -alone || p.x() >= length + alone) continue;
-      const double last = static_cast<double>(piece.depths.size()) - 1.0;
-      const auto at = static_cast<std::ptrdiff_t>(std::clamp(p.x() / kDepthStepPx, 0.0, last));
-      if (std::fabs(p.y() - piece.depths[at]) < alone) return true;
-    }
-  }
-  return false;
-}
-
-/// Whether the paper dims towards a line on one of its sides: it bends away into a gutter, or lies in its shadow.
-bool dimsTowards(const Contour& line, const GreyImage& grey) {
-  constexpr int kEvery = 4, kTangent = 4;  // points
-  std::vector<float> widths = strokeWidthsOf(line.points);
-  const double beside = widths.empty() ? 0.0 : kEdgeSideWidths * static_cast<double>(upperMedian(widths));
-  const double far = beside + kFlatPaper * Page(grey).shorter();
-  const auto levelAt = [&](const Vec2& at, const Vec2& across, double from) {
-    double sum = 0.0;
-    for (const double px : kEdgeSidePx) {
-      const Vec2 p = at + (from + px) * across;
-      sum += static_cast<double>(sampleGrey(grey, p.x(), p.y()));
-    }
-    return sum;
-  };
-  int left = 0, right = 0, all = 0;
-  for (int i = kTangent; i + kTangent < std::ssize(line.points); i += kEvery) {
-    const Vec2 along = line.points[i + kTangent].at - line.points[i - kTangent].at;
-    if (!(along.norm() > 0.0)) continue;
-    const Vec2 across = leftNormal(along.normalized()), &at = line.points[i].at;
-    const auto dims = [&](const Vec2& way) {
-      return levelAt(at, way, beside) < (1.0 - kLeastDim) * levelAt(at, way, far);
-    };
-    ++all, left += dims(across) ? 1 : 0, right += dims(-across) ? 1 : 0;
-  }
-  return all > 0 && std::max(left, right) >= kStepped * all;
-}
 
 /// Lines near one side of a page that are as straight as the edge of a sheet.
 std::vector<EdgePiece> straightPieces(int side, const std::vector<Contour>& contours, const Page& page) {
@@ -283,10 +277,10 @@ std::vector<EdgePiece> straightPieces(int side, const std::vector<Contour>& cont
 
 /// Finds the gutter of a book along one side, or the edge of a sheet upon another: paper dims towards it, and it runs
 /// right across the picture, whatever is drawn beyond. What was drawn does so rarely.
-void findGutters(int side, const std::vector<Contour>& contours, const GreyImage& grey, std::vector<bool>& isEdge) {
+void findGutters(int side, const std::vector<EdgePiece>& straight, const std::vector<Contour>& contours,
+                 const GreyImage& grey, std::vector<bool>& isEdge) {
   const Page page(grey);
   const double along = side < 2 ? page.width : page.height, alone = kAlone * page.shorter();
-  const std::vector<EdgePiece> straight = straightPieces(side, contours, page);
   const SheetEdge edge(side, contours, page);
   for (const EdgePiece& first : straight) {
     if (first.extent.most.x() - first.extent.least.x() < kLong * along) continue;
@@ -297,23 +291,23 @@ void findGutters(int side, const std::vector<Contour>& contours, const GreyImage
     double begin = along, end = 0.0;
     for (const EdgePiece& e : pieces)
       begin = std::min(begin, e.extent.least.x()), end = std::max(end, e.extent.most.x());
-    std::vector<bool> parts = edge.linesAlong(pieces);
-    if (begin > alone || end < along - alone || edge.lengthOf(parts) < kRightAcross * along) continue;
+    std::vector<bool> known = edge.linesAlong(pieces);
+    if (begin > alone || end < along - alone || edge.lengthOf(known) < kRightAcross * along) continue;
     if (!dimsTowards(contours[first.contour], grey)) continue;
-    std::vector<bool> known = parts;
-    for (std::size_t k = 0; k < known.size(); ++k) known[k] = parts[k] || isEdge[k];
-    const auto isNear = [&](const EdgePiece& e) { return isTouched(e, contours, known, side, page); };
-    if (std::ranges::none_of(pieces, isNear)) isEdge = known;
+    for (std::size_t k = 0; k < known.size(); ++k) known[k] = known[k] || isEdge[k];
+    const auto isTouched = [&](const EdgePiece& e) { return edge.hasLineIn(BlankPart::BothSides, e, known); };
+    if (std::ranges::none_of(pieces, isTouched)) isEdge = known;
   }
 }
 
 /// Finds the edges of sheets that are lighter or darker than what lies beyond, along one side.
-void findSteps(int side, const std::vector<Contour>& contours, const GreyImage& grey, std::vector<bool>& isEdge) {
+void findSteps(int side, const std::vector<EdgePiece>& straight, const std::vector<Contour>& contours,
+               const GreyImage& grey, std::vector<bool>& isEdge) {
   const Page page(grey);
   std::vector<EdgePiece> brighter, darker;
-  for (EdgePiece& piece : straightPieces(side, contours, page)) {
+  for (const EdgePiece& piece : straight) {
     const int step = stepAlong(contours[piece.contour], side, grey);
-    if (step != 0) (step > 0 ? brighter : darker).push_back(std::move(piece));
+    if (step != 0) (step > 0 ? brighter : darker).push_back(piece);
   }
   for (std::vector<EdgePiece>* pieces : {&brighter, &darker}) {
     const std::vector<bool> parts = SheetEdge(side, contours, page).partsOf(std::move(*pieces));
@@ -326,12 +320,14 @@ void findSteps(int side, const std::vector<Contour>& contours, const GreyImage& 
 void dropPageEdgeLines(ContourSet& set, const GreyImage& grey) {
   const Page page(grey);
   std::vector<bool> isEdge(set.contours.size(), false);
+  std::array<std::vector<EdgePiece>, 4> straight;
   for (int side = 0; side < 4; ++side) {
     for (int k = 0; k < std::ssize(set.contours); ++k)
       isEdge[k] = isEdge[k] || isSheetEdge(side, k, set.contours, page);
-    findSteps(side, set.contours, grey, isEdge);
+    straight[side] = straightPieces(side, set.contours, page);
+    findSteps(side, straight[side], set.contours, grey, isEdge);
   }
-  for (int side = 0; side < 4; ++side) findGutters(side, set.contours, grey, isEdge);
+  for (int side = 0; side < 4; ++side) findGutters(side, straight[side], set.contours, grey, isEdge);
   if (std::find(isEdge.begin(), isEdge.end(), false) == isEdge.end()) return;
   std::vector<Contour> drawn;
   for (std::size_t k = 0; k < isEdge.size(); ++k)

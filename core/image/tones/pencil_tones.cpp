@@ -96,8 +96,9 @@ struct FilledAreas {
   cv::Mat1b all;
   cv::Mat1b torn;  ///< Of these the ones of hatching or smudging: less even inside than paper is.
 };
-/// @param unlined not 0 beyond the blurred borders of lines.
-FilledAreas filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& unlined) {
+/// @param unlined not 0 beyond the blurred borders of lines. @param grain [of 255] of the page's level.
+FilledAreas filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& unlined,
+                        const cv::Mat1f& grain) {
   cv::Mat1f depth, deepest;
   page.ground.convertTo(depth, CV_32F, -1.0, 255.0);
   cv::dilate(depth, deepest, disc(page.brush));
@@ -113,7 +114,6 @@ FilledAreas filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const c
   const std::vector<double> ends = sums(border & (deepest >= kLeastDark * page.darkness), one);
   const std::vector<double> darkness = sums(bare, 255.0 - page.level);
   const std::vector<double> depths = sums(inner, depth), squares = sums(inner, depth.mul(depth));
-  const cv::Mat1f grain = cv::abs(page.level - blurredTone(page.level, page.widthPx));
   const std::vector<double> grains = sums(inner, grain);
   const double grainOfPaper =
       std::max(kLeastPaperGrain, cv::mean(grain, (grownMask(shaded, page.brush) == 0) & unlined)[0]);
@@ -150,7 +150,8 @@ std::vector<double> linesBeside(const PencilPage& page, const cv::Mat1i& tones, 
 }
 
 /// Shaded areas that are wider than lines and have some, and more than these and paper between them.
-cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lines, const cv::Mat1b& unlined) {
+cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat1b& lines, const cv::Mat1b& unlined,
+                  const cv::Mat1f& grain) {
   cv::Mat1i labels;
   const int count = cv::connectedComponents(shaded, labels, 8, CV_32S);
   const cv::Mat1f one = cv::Mat1f::ones(shaded.size());
@@ -159,13 +160,12 @@ cv::Mat1b tonesOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Mat
   const std::vector<double> lined = linesBeside(page, labels, count, lines);
   const std::vector<double> bare = sumsOf(labels, count, within, one);
   const std::vector<double> darkness = sumsOf(labels, count, within, 255.0 - page.level);
-  const std::vector<double> grain =
-      sumsOf(labels, count, within, cv::abs(page.level - blurredTone(page.level, page.widthPx)));
+  const std::vector<double> grains = sumsOf(labels, count, within, grain);
   std::vector<std::uint8_t> isTone(count, 0);
   for (int k = 1; k < count; ++k) {
     const bool isWide = bare[k] >= std::pow(kLeastShownWidths * page.widthPx, 2);
     const bool isDark = darkness[k] >= kLeastDark * page.darkness * bare[k];
-    if (isWide && isDark && lined[k] >= kLeastBesideTone * borders[k] && grain[k] < kMostUneven * darkness[k])
+    if (isWide && isDark && lined[k] >= kLeastBesideTone * borders[k] && grains[k] < kMostUneven * darkness[k])
       isTone[k] = 255;
   }
   return labelled(labels, isTone);
@@ -217,9 +217,10 @@ std::optional<ToneAreas> findPencilTones(const ToneCopy& copy, const RunContext&
   if (context.isCancelled() || cv::countNonZero(lines) == 0) return std::nullopt;
   const cv::Mat1b lineLevel = levelOfLines(*look, lines);
   const cv::Mat1b unlined = grownMask(lines, static_cast<int>(std::ceil(kBesideLines * look->widthPx))) == 0;
-  const FilledAreas filled = filledAreas(*look, shaded, unlined);
+  const cv::Mat1f grain = cv::abs(look->level - blurredTone(look->level, look->widthPx));
+  const FilledAreas filled = filledAreas(*look, shaded, unlined, grain);
   const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel) | filled.all;
-  const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines, unlined);
+  const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines, unlined, grain);
   if (context.isCancelled() || cv::countNonZero(tones | filled.torn) == 0) return std::nullopt;
   ToneAreas areas = areasOf(*look, tones, solids, lines, lineLevel);
   areas.pixelsPerPx = copy.pixelsPerPx;

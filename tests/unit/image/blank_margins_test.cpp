@@ -130,12 +130,12 @@ TEST(BlankMargins, TinyAndUniformPicturesHaveNone) {
   EXPECT_FALSE(sheetWithinMargins(GreyImage()));
 }
 
-// As the default recipe does it: the page around becomes paper.
 TEST(BlankMargins, APartAtTheFarCornerOfAPictureHasARim) {
   const PaperSheet sheet = sheetWithinRim(4000, 109, {3990, 98, 10, 11});
   EXPECT_LE(sheet.inside.count(), 1);
 }
 
+// As the default recipe does it: the page around becomes paper.
 TEST(BlankMargins, AreCutOffThePage) {
   Scan scan;
   scan.grey = pastedScan(kPasted, 255.0, 232.0);
