@@ -18,6 +18,10 @@ constexpr double kRibbonWidths = 6.0, kRibbonShare = 0.25;
 constexpr double kOwnPen = 10.0;      // widths of paths that show the pen of a piece
 constexpr double kLimbWidths = 12.0;  // shorter paths that hang on a shape may be its limbs
 constexpr double kSamePen = 1.5;      // ratio of widths
+// Of the area of a piece, what strokes of one width each explain where it is lettering of a broad pen, and where it is
+// strokes of the page's pen at all.
+constexpr double kExplainedBroad = 0.75, kExplainedAny = 0.1;
+constexpr double kBroadWidths = 2.0;  // paths of a broad pen that are longer count as strokes of it
 
 bool isExplained(const InkPath& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
 
@@ -85,7 +89,7 @@ class Labeller {
     }
     absorbLimbs();
     for (const LabelledPiece& piece : page_.pieces) {
-      if (piece.isBlot) labelWhole(piece);
+      if (piece.isBlot || isUnexplained(piece)) labelWhole(piece);
     }
     labelWithinJunctions();
   }
@@ -190,6 +194,26 @@ class Labeller {
                                        [&](int path) { return explained_[path] && !isShape(path); });
       if (!anyLine && isSolid(piece)) labelWhole(piece);
     }
+  }
+
+  // A filled letter or mark: wider than lines of the page's pen where they cross, and redrawn with strokes of one width
+  // each much of its ink would be missing.
+  bool isUnexplained(const LabelledPiece& piece) const {
+    if (!page_.pagePenPx) return false;
+    const double widestPx = 2.0 * piece.largestRadiusPx - kRadiiBeyondWidthPx, broadPx = coreWidth(*page_.pagePenPx);
+    if (widestPx <= broadPx) return false;
+    const bool isBroad = piece.penPx > broadPx;
+    double redrawn = 0.0;
+    for (const int number : piece.paths) {
+      const InkPath& s = graph_.paths()[number];
+      if (isShape(number)) return false;
+      if (!s.widthPx) continue;
+      const bool isLine = explained_[number] || s.elongation() >= (isBroad ? kBroadWidths : kShortWidths) ||
+                          *s.widthPx <= kSamePen * *page_.pagePenPx + 1.0;
+      redrawn += isLine ? s.lengthPx * *s.widthPx : 0.0;
+    }
+    const double asked = isBroad ? kExplainedBroad : kExplainedAny;
+    return redrawn < asked * static_cast<double>(piece.areaPx);
   }
 
   void labelWhole(int path) {

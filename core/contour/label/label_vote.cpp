@@ -72,7 +72,7 @@ class WidthByDirection {
 struct Voter {
   std::size_t piece = 0;
   int widthBin = 0, sizeBin = 0, meanBin = 0;  // half octaves: of the largest disc, of the piece, of the mean width
-  double area = 0.0, uneven = 0.0, penPx = 0.0, sizePx = 0.0, widthsLong = 0.0;
+  double area = 0.0, uneven = 0.0, penPx = 0.0, widestPx = 0.0, sizePx = 0.0, widthsLong = 0.0;
   bool isMostlyShape = false, isOneLine = false;
   WidthByDirection widths;
 };
@@ -117,6 +117,7 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
   v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
   v.area = static_cast<double>(piece.areaPx);
   v.penPx = piece.mainPenPx;
+  v.widestPx = 2.0 * piece.largestRadiusPx - kRadiiBeyondWidthPx;
   v.sizePx = size;
   double pathsPx = 0.0;
   int lines = 0;
@@ -171,6 +172,8 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t, double leastB
   const bool mayBeBroad = t.pen >= leastBroadPx * t.area && !isHandwriting;
   if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && mayBeBroad) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
+  // Where lines of the pen of the others cross the ink is no wider: a scribbled blot among letters is none of them.
+  if (voter.isMostlyShape && voter.widestPx > coreWidth(t.pen / t.area)) return {};
   if (t.shape < kFewShapes * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
   return {};
 }

@@ -9,6 +9,7 @@
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/mark_rows.h"
 #include "core/image/bits/run_pieces.h"
+#include "core/image/threshold/even_strokes.h"
 #include "core/image/threshold/faint_lines.h"
 #include "core/image/threshold/level_masks.h"
 #include "core/image/threshold/whole_ink.h"
@@ -57,9 +58,10 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (image.width <= 0 || image.height <= 0) return BitImage();
     // Folds are taken out before the picture is smoothed: a sharp step and a smoothed one would differ.
     const std::vector<PaperFold>& folds = thresholds.paper.folds;
-    const GreyImage flat = folds.empty() ? GreyImage() : withoutFolds(image, folds, context);
+    const GreyImage unfolded = folds.empty() ? GreyImage() : withoutFolds(image, folds, context);
+    const GreyImage& flat = folds.empty() ? image : unfolded;
     if (context.isCancelled()) return cancelled();
-    LevelMasks masks = masksOf(folds.empty() ? image : flat, thresholds, params, context);
+    LevelMasks masks = masksOf(flat, thresholds, params, context);
     if (context.isCancelled()) return cancelled();
     BitImage ink = masks.ink;
     if (params.speckArea > 0) {
@@ -67,7 +69,12 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
       ink = keepPieces(ink, {.minArea = params.speckArea, .minDiagonal = diagonal, .seeds = &*masks.certain}, context);
     }
     if (context.isCancelled()) return cancelled();
-    if (params.reach < 1.0) ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
+    if (params.reach < 1.0) {
+      ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
+      PaperBackground paper = thresholds.paper;
+      paper.folds.clear();
+      ink = addEvenStrokes(std::move(ink), {flat, paper, *masks.faint}, context, pixelsPerPx);
+    }
     if (context.isCancelled()) return cancelled();
     if (params.speckArea > 0) ink = withRows(std::move(ink), masks.ink, *masks.certain, params.speckArea, context);
     if (context.isCancelled()) return cancelled();

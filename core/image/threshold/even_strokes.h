@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/run_context.h"
+#include "core/image/bits/bit_image.h"
+#include "core/image/grey_image.h"
+#include "core/image/threshold/paper_background.h"
+
+namespace batten {
+
+/// What addEvenStrokes looks at; all of one size.
+struct EvenStrokeSources {
+  const GreyImage& image;
+  const PaperBackground& paper;  ///< Of the image.
+  const BitImage& faint;         ///< Everything that stands out of the paper.
+};
+
+/// Adds to the ink what a pale marker drew beside dark lines: places that stand out of the paper, are long for their
+/// width however wide, and of one grey inside. Shading, shadows and the strokes of a pencil are of many greys, and what
+/// runs out of the picture is no stroke.
+/// @param pixelsPerPx of the image, along a pixel of the page (fine_page.h).
+BitImage addEvenStrokes(BitImage ink, const EvenStrokeSources& sources, const RunContext& context, int pixelsPerPx = 1);
+
+}  // namespace batten
