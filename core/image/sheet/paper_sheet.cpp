@@ -12,6 +12,7 @@
 #include "core/image/sheet/sheet_behind_lines.h"
 #include "core/image/sheet/sheet_cells.h"
 #include "core/image/sheet/sheet_drawn_edge.h"
+#include "core/image/sheet/sheet_on_table.h"
 #include "core/image/sheet/sheet_step.h"
 #include "core/image/sheet/straight_sheet_edges.h"
 
@@ -229,7 +230,8 @@ cv::Mat1b withSlowChanges(const cv::Mat1b& even, const SheetCells& cells) {
   return filledSheet(even | added);
 }
 
-/// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book.
+/// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book, or lies
+/// upon it, where that is a table.
 std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& context) {
   const cv::Mat1i labels = joinCells(cells);
   std::vector<int> areas;
@@ -238,6 +240,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
     ++areas[label];
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+  if (auto onTable = sheetOnTable(labels, largest, cells)) return onTable;
   cv::Mat1b even = filledSheet(labels == largest);
   const int area = cv::countNonZero(even);
   if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;

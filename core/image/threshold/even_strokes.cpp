@@ -17,7 +17,7 @@ constexpr int kBesideInkPx = 3;       // [px] the blurred side of ink that is th
 constexpr int kBlurredPx = 2;         // [px] from the border of a stroke to where its grey is its own
 constexpr double kLeastInside = 0.3;  // of the area: thinner strokes are found as lines
 constexpr double kLeastLengthPx = 40.0, kEvenLengthPerWidth = 7.0;  // shorter pieces are spots
-constexpr double kMostBesideInk = 0.25;  // of its border: an area that lines bound is a tone
+constexpr double kMostBesideInk = 0.25;                             // of its border: an area that lines bound is a tone
 constexpr double kEvenSpread = 0.15;  // of its depth: standard deviation of the grey inside
 
 // One piece, with its greys below the paper where it is not blurred.
@@ -73,7 +73,8 @@ BitImage addEvenStrokes(BitImage ink, const EvenStrokeSources& sources, const Ru
   }
   std::vector<bool> isStroke(pieces.size(), false);
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    isStroke[i] = pieces[i].areaPx > 0 && !pieces[i].leavesPicture && pieces[i].isLong(boxes[i].diagonal(), pixelsPerPx);
+    isStroke[i] =
+        pieces[i].areaPx > 0 && !pieces[i].leavesPicture && pieces[i].isLong(boxes[i].diagonal(), pixelsPerPx);
   for (std::size_t i = 0; i < pieces.size() && !context.isCancelled(); ++i) {
     if (isStroke[found.piece[i]]) addDepths(sources, inside, found.runs[i], pieces[found.piece[i]].depths);
   }
