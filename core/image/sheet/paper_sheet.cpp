@@ -20,7 +20,7 @@ namespace batten {
 namespace {
 
 constexpr double kMostRoughness = 9.0;                   // [grey] between neighbours within a cell: carpet, wood, cloth
-constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
+constexpr double kLeastSheet = 0.3, kMostSheet = 0.997;  // of the picture
 constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
 constexpr double kLeastAlongSide = 0.2;                  // of a side of the picture that a patch beside the sheet takes
 constexpr double kSheetContrast = 12.0;                  // [grey] of the patch against the sheet beside it
