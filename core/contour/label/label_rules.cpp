@@ -20,7 +20,7 @@ constexpr double kLimbWidths = 12.0;  // shorter paths that hang on a shape may 
 constexpr double kSamePen = 1.5;      // ratio of widths
 // Of the area of a piece, what strokes of one width each explain where it is lettering of a broad pen, and where it is
 // strokes of the page's pen at all.
-constexpr double kExplainedBroad = 0.75, kExplainedAny = 0.1;
+constexpr double kExplainedBroad = 0.75, kExplainedAny = 0.25;
 constexpr double kBroadWidths = 2.0;  // paths of a broad pen that are longer count as strokes of it
 
 bool isExplained(const InkPath& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
@@ -206,8 +206,8 @@ class Labeller {
     double redrawn = 0.0;
     for (const int number : piece.paths) {
       const InkPath& s = graph_.paths()[number];
-      if (isShape(number)) return false;
-      if (!s.widthPx) continue;
+      if (isShape(number) && !isBroad) return false;
+      if (isShape(number) || !s.widthPx) continue;
       const bool isLine = explained_[number] || s.elongation() >= (isBroad ? kBroadWidths : kShortWidths) ||
                           *s.widthPx <= kSamePen * *page_.pagePenPx + 1.0;
       redrawn += isLine ? s.lengthPx * *s.widthPx : 0.0;

@@ -94,6 +94,52 @@ TEST(FaintLines, DoNotWidenInkNorMergeParallelLines) {
   EXPECT_EQ(mask(grey), mask(grey, 1.0));
 }
 
+/// Of the pixels within `reachPx` of a curve, the share that the mask holds.
+double shareAlong(const BitImage& found, const std::function<double(double, double)>& distance, double reachPx) {
+  int all = 0, held = 0;
+  for (int y = 0; y < found.height; ++y) {
+    for (int x = 0; x < found.width; ++x) {
+      if (std::fabs(distance(x + 0.5, y + 0.5)) > reachPx) continue;
+      ++all;
+      held += found.at(x, y) ? 1 : 0;
+    }
+  }
+  return all > 0 ? static_cast<double>(held) / all : 0.0;
+}
+
+/// Lines of a black pen near the sides of all 64 regions: the thresholds follow it.
+double penLines(double along, double regionPx) {
+  const double at = std::fmod(along, regionPx);
+  return stroke(at - 6.0, 4.0, 190.0) + stroke(at - regionPx + 6.0, 4.0, 190.0);
+}
+
+TEST(EvenStrokes, OfAPaleMarkerAreFoundBesideDarkLines) {
+  const auto letter = [](double x, double y) {
+    return std::min(distanceTo(x, y, 330, 240, 345, 370), distanceTo(x, y, 345, 370, 368, 240));
+  };
+  const GreyImage grey =
+      page([&](double x, double y) { return penLines(x, 100.0) + stroke(letter(x, y), 15.0, 55.0); }, 2.0);
+  EXPECT_GT(shareAlong(mask(grey), letter, 5.0), 0.98);
+  EXPECT_LT(shareAlong(mask(grey, 1.0), letter, 5.0), 0.02);
+}
+
+TEST(EvenStrokes, TonesBetweenLinesAndShadowsAreNone) {
+  // A tone that two lines bound, and a shadow.
+  const auto band = [](double, double y) { return y - 300.0; };
+  const auto shadow = [](double x, double y) { return distanceTo(x, y, 200, 412, 620, 412); };
+  const GreyImage grey = page(
+      [&](double x, double y) {
+        const double tone = x > 180.0 && x < 640.0 && std::fabs(band(x, y)) < 6.0 ? 55.0 : 0.0;
+        return penLines(y, 75.0) + tone + 60.0 * std::max(0.0, 1.0 - shadow(x, y) / 20.0);
+      },
+      2.0);
+  const auto within = [](const std::function<double(double, double)>& distance) {
+    return [distance](double x, double y) { return x > 250.0 && x < 560.0 ? distance(x, y) : 1000.0; };
+  };
+  EXPECT_LT(shareAlong(mask(grey), within(band), 2.0), 0.02);
+  EXPECT_LT(shareAlong(mask(grey), within(shadow), 6.0), 0.02);
+}
+
 TEST(FaintLines, LeaveWideHatchingShadingAndNoiseAlone) {
   const auto drawing = [](double x, double y) {
     double dark = strongOutline(x, y);

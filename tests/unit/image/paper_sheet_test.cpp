@@ -258,6 +258,47 @@ TEST(PaperSheet, IsFoundOnTableAndCarpet) {
                       "shadow along the edge");
 }
 
+// The table is even and larger than the paper that a drawing leaves free, which it parts from edge to edge.
+TEST(PaperSheet, IsFoundOnAnEvenTableHoweverTheDrawingPartsIt) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (depthInSheet(x, y) < 0.0) return {185.0, 2.0};
+    const bool isDrawn = std::fabs(y - 320.0 - 40.0 * std::sin(x / 30.0)) < 50.0;
+    return {isDrawn ? 60.0 : 246.0, isDrawn ? 30.0 : 1.5};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  for (int y = 4; y < kPhotoHeight; y += 8) {
+    for (int x = 4; x < kPhotoWidth; x += 8) {
+      const double depth = depthInSheet(x, y);
+      if (std::fabs(depth) < 22.0) continue;
+      ASSERT_EQ(sheet->inside.at(x / sheet->cellPx, y / sheet->cellPx), depth > 0.0) << x << ' ' << y;
+    }
+  }
+}
+
+// A toned page that is drawn upon around the panel.
+TEST(PaperSheet, ABrightPanelOfADrawingIsNone) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (std::fabs(x - 410.0) < 240.0 && std::fabs(y - 320.0) < 180.0) return {isRing(x, y) ? 40.0 : 246.0, 1.5};
+    const bool isDrawn = std::hypot(std::fmod(x, 80.0) - 40.0, std::fmod(y, 80.0) - 40.0) < 32.0;
+    return {isDrawn ? 60.0 : 185.0, 1.5};
+  });
+  EXPECT_FALSE(sheetOf(scan).has_value());
+}
+
+// The sheet fills nearly all of the picture.
+TEST(PaperSheet, ACornerOfTheTableIsCutOff) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (x > 780.0 + 0.17 * y) return {90.0, 25.0};
+    return {isRing(x, y) ? 40.0 : 235.0, 1.5};
+  });
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value());
+  EXPECT_FALSE(sheet->inside.at(810 / sheet->cellPx, 60 / sheet->cellPx));
+  EXPECT_TRUE(sheet->inside.at(700 / sheet->cellPx, 60 / sheet->cellPx));
+  EXPECT_LT(sheet->outsideShare, 0.03);
+}
+
 // Light that grazes rough paper shows its grain at one side only, and its lamp is nearer to the other: the sheet goes
 // on as long as nothing changes at once.
 TEST(PaperSheet, GrainThatGrowsUnderGrazingLightIsNoCarpet) {

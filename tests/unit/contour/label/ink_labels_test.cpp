@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/image/bits/bit_steps.h"
 #include "tests/support/label_page.h"
@@ -148,6 +149,50 @@ TEST(InkLabels, ABlackThatLinesRunIntoIsAShape) {
   page.area({{{270, 100}, {330, 96}, {334, 146}, {274, 150}}});
   const BitImage ink = page.ink(3);
   EXPECT_GT(page.score(ink, labelsOf(ink).shapes).shapes, 0.9);
+}
+
+/// Of the marks that `draw` makes among lines of a pen, the share that is labelled shape.
+double shareOfShapesOf(const std::function<void(test::LabelPage&)>& draw, double penPx) {
+  test::LabelPage page(800, 600);
+  page.begin(false);
+  for (int i = 0; i < 8; ++i) page.line(segment({20, 340.0 + 30.0 * i}, {780, 350.0 + 28.0 * i}), penPx);
+  page.begin(true);
+  draw(page);
+  const BitImage ink = page.ink(3);
+  return page.score(ink, labelsOf(ink).shapes).shapes;
+}
+
+// One even stroke runs through it from end to end, but its bars and its bowl are no part of that.
+TEST(InkLabels, AMonogramThatOneStrokeDoesNotRedrawIsAShape) {
+  const auto monogram = [](test::LabelPage& page) {
+    page.line({{200, 40}, {204, 130}, {240, 190}, {262, 260}}, 18.0);
+    page.line(segment({178, 78}, {226, 76}), 18.0);
+    page.area({test::circle({276, 280}, 46), test::circle({278, 280}, 5)});
+    page.line(segment({196, 172}, {226, 168}), 30.0);
+  };
+  EXPECT_GT(shareOfShapesOf(monogram, 3.0), 0.99);
+}
+
+// A bird, as it stands for a network: no wider than two and a half pens along most of it, and no stroke.
+TEST(InkLabels, AStubbyMarkOfUnevenWidthIsAShape) {
+  const auto mark = [](test::LabelPage& page) {
+    page.line({{200, 120}, {222, 124}}, 8.0, 20.0);
+    page.line({{222, 124}, {248, 112}}, 20.0, 7.0);
+    page.line({{216, 122}, {214, 92}}, 14.0, 4.0);
+  };
+  EXPECT_GT(shareOfShapesOf(mark, 5.3), 0.99);
+}
+
+// As large and as broad as dashes beside it, but where lines of their pen crossed the ink would be no wider.
+TEST(InkLabels, ABlotAmongDashesIsAShape) {
+  test::LabelPage page(800, 600);
+  page.begin(false);
+  for (int i = 0; i < 8; ++i) page.line(segment({20, 340.0 + 30.0 * i}, {780, 350.0 + 28.0 * i}), 5.3);
+  for (int i = 0; i < 8; ++i) page.line(segment({300.0 + 50.0 * i, 150}, {310.0 + 50.0 * i, 210}), 11.0);
+  page.begin(true);
+  page.line(segment({200, 160}, {222, 160}), 17.0);
+  const BitImage ink = page.ink(3);
+  EXPECT_GT(page.score(ink, labelsOf(ink).shapes).shapes, 0.95);
 }
 
 // Legs of even width, but nothing on the page says that a pen of that width was used.
