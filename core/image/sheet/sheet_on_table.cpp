@@ -12,7 +12,7 @@ namespace batten {
 namespace {
 
 constexpr double kBrighterThanTable = 20.0;  // [grey] the paper, in the middle of its cells
-constexpr double kLeastPaperArea = 0.01;     // of the picture: smaller even areas are gaps of a drawing
+constexpr double kLeastSheetPart = 0.01;     // of the picture: smaller even areas are gaps of a drawing
 constexpr double kLeastOnTable = 0.3;        // of the picture
 constexpr double kLeastPaperOfSheet = 0.3;   // of the sheet: what the drawing leaves
 constexpr double kMostTableOnSheet = 0.03;   // of the sheet: its corners are rounded, its edges ragged
@@ -27,7 +27,7 @@ cv::Mat1b paperOn(const cv::Mat1i& areas, int largest, const SheetCells& cells) 
   for (int j = 0; j < areas.rows; ++j)
     for (int i = 0; i < areas.cols; ++i) levels[areas(j, i)].push_back(cells.colour(j, i)[0]);
   const double least = static_cast<double>(upperMedian(std::vector<float>(levels[largest]))) + kBrighterThanTable;
-  const double leastCells = kLeastPaperArea * static_cast<double>(areas.total());
+  const double leastCells = kLeastSheetPart * static_cast<double>(areas.total());
   std::vector<bool> isPaper;
   isPaper.reserve(levels.size());
   for (std::vector<float>& of : levels) {
