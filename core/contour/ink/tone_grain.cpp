@@ -30,6 +30,7 @@ constexpr double kBlurWidths = 0.4;        // [widths] standard deviation: about
 // deviations of its mean; that is half as large as of a place, four widths long or so; and pencil on the tooth of the
 // paper varies up to twice as far to the dark side as to the bright.
 constexpr double kStandsOut = 4.0;
+constexpr double kWaysOverGround = 1000.0;
 constexpr double kOneSigma = 0.841, kTwoSigma = 0.977;  // quantiles of a normal variable, 1 and 2 above its median
 constexpr double kRoundingSigma = 0.29;                 // [grey] of what is rounded to whole levels
 constexpr int kFewestCells = 60;                        // of a ground: the upper quantile is then not a single cell
@@ -248,10 +249,22 @@ bool isClipped(const LinesOnGround& page) {
   return 2 * cv::countNonZero(white) > page.level.rows * page.level.cols;
 }
 
-// Lines that are hardly darker than their ground, and fainter than the long lines.
-std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, const GreyImage& grey, bool isPencil,
-                             const RunContext& context) {
-  std::vector<bool> isFaint(set.contours.size(), false);
+// [standard deviations of a place] Of so many lines of grain the darkest is that of as many times more ways.
+double standsOutOf(std::ptrdiff_t lines) {
+  const double many = std::max(1.0, static_cast<double>(lines));
+  return kStandsOut * std::sqrt(std::log(kWaysOverGround * many) / std::log(kWaysOverGround));
+}
+
+// What tells a faint line: how far it stands out of its ground, and whether it is far fainter than the long lines.
+struct Faintness {
+  double over = 0.0;
+  bool isFarFainter = false;
+};
+
+// Of the lines that are fainter than the long lines; the others have none.
+std::vector<std::optional<Faintness>> faintLines(const ContourSet& set, const ShortLines& lines, const GreyImage& grey,
+                                                 bool isPencil, const RunContext& context) {
+  std::vector<std::optional<Faintness>> faint(set.contours.size());
   const LinesOnGround page = linesOnGround(set, lines.isShort, grey, lines.widthPx);
   const std::optional<double> usual = usualContrastOfLines(set, lines.isShort, page);
   const bool isWhite = isPencil && isClipped(page);
@@ -261,9 +274,25 @@ std::vector<bool> faintLines(const ContourSet& set, const ShortLines& lines, con
     const double contrast = contrastOfLine(c, page);
     if (contrast >= kAsDarkAsLines * *usual) continue;
     const std::optional<double> over = overGround(c, page);
-    isFaint[i] = over && (*over < kStandsOut || (isWhite && contrast < kFaintOnWhite * *usual));
+    if (over) faint[i] = {*over, isWhite && contrast < kFaintOnWhite * *usual};
   }
-  return isFaint;
+  return faint;
+}
+
+// Adds the lines that stand out of their ground no farther, and have no company.
+void addGrain(const ContourSet& set, const std::vector<std::optional<Faintness>>& faint, double standsOut,
+              double widthPx, std::vector<bool>& isGrain, const RunContext& context) {
+  // Grain is no company: without it others have none either.
+  bool isChanged = true;
+  for (int round = 0; round < kMostRounds && isChanged && !context.isCancelled(); ++round) {
+    isChanged = false;
+    const LineCompany company(set, isGrain, widthPx);
+    for (int i = 0; i < std::ssize(set.contours) && !context.isCancelled(); ++i) {
+      const bool isFaint = faint[i] && (faint[i]->over < standsOut || faint[i]->isFarFainter);
+      if (!isFaint || isGrain[i] || company.isOneOf(i)) continue;
+      isGrain[i] = isChanged = true;
+    }
+  }
 }
 
 }  // namespace
@@ -273,17 +302,10 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, boo
   const ShortLines lines = shortLinesOf(set);
   if (grey.isUniform || !(lines.widthPx > 0.0) || context.isCancelled()) return isGrain;
   if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
-  const std::vector<bool> isFaint = faintLines(set, lines, grey, isPencil, context);
-  // Grain is no company: without it others have none either.
-  bool isChanged = true;
-  for (int round = 0; round < kMostRounds && isChanged && !context.isCancelled(); ++round) {
-    isChanged = false;
-    const LineCompany company(set, isGrain, lines.widthPx);
-    for (int i = 0; i < std::ssize(set.contours) && !context.isCancelled(); ++i) {
-      if (!isFaint[i] || isGrain[i] || company.isOneOf(i)) continue;
-      isGrain[i] = isChanged = true;
-    }
-  }
+  const std::vector<std::optional<Faintness>> faint = faintLines(set, lines, grey, isPencil, context);
+  addGrain(set, faint, kStandsOut, lines.widthPx, isGrain, context);
+  // On a page that is full of it the darkest of all stands out farther than the darkest of one ground.
+  addGrain(set, faint, standsOutOf(std::ranges::count(isGrain, true)), lines.widthPx, isGrain, context);
   return isGrain;
 }
 

@@ -13,7 +13,7 @@ namespace batten {
 
 /// Which short lines of a page are nothing but the grain of a tone: where the tooth of the paper takes more of the
 /// pencil, smooth shading crosses the threshold in dashes of any direction. Such a line is all of this:
-/// - hardly darker than its ground varies. That is measured on the bright side, where grain shows and ink does not: on
+/// - hardly darker than its ground varies, or of many such lines the darkest. That is measured on the bright side, where grain shows and ink does not: on
 ///   clean paper everything stands out, however closely it is drawn. Where the scanner has made the paper of a
 ///   pencil white, nothing of its grain is left to measure but such lines, and those far fainter than the long ones
 ///   count;

@@ -163,6 +163,25 @@ TEST(ToneGrain, AFaintDashIsGrainOnNoiseAloneAndNotInCompany) {
   EXPECT_FALSE(grainOf({longLine, {between({300.0, 250.0}, {352.0, 275.0}), 25.0}}, 50.0)[1]) << "long and straight";
 }
 
+// Of many lines of grain one stands out as far as none of a few does.
+TEST(ToneGrain, OfAPageFullOfItTheDarkestGoToo) {
+  const FaintLine longLine{between({50.0, 30.0}, {550.0, 40.0}), 120.0};
+  const auto pageWith = [&](int count, double depth) -> bool {
+    std::vector<FaintLine> lines{longLine, {between({300.0, 250.0}, {318.0, 258.0}), depth}};
+    // In all directions, so that they are no company.
+    for (int k = 0; k < count; ++k) {
+      const Vec2 at(60.0 + 48.0 * (k % 10), 80.0 + 48.0 * (k / 10));
+      if ((at - Vec2(309.0, 254.0)).norm() < 40.0) continue;
+      const Vec2 half(9.0 * std::cos(2.4 * k), 9.0 * std::sin(2.4 * k));
+      lines.push_back({between(at - half, at + half), 15.0});
+    }
+    return grainOf(lines, 50.0)[1];
+  };
+  EXPECT_FALSE(pageWith(0, 35.0));
+  EXPECT_TRUE(pageWith(60, 35.0));
+  EXPECT_FALSE(pageWith(60, 60.0)) << "farther than chance explains";
+}
+
 // A scanner has made the paper white but for crumbs of its tooth.
 TEST(ToneGrain, OnWhitenedPaperItIsToldByTheLinesAlone) {
   constexpr double kWhite = 255.0;
