@@ -13,10 +13,10 @@ namespace batten {
 
 /// Which short lines of a page are nothing but the grain of a tone: where the tooth of the paper takes more of the
 /// pencil, smooth shading crosses the threshold in dashes of any direction. Such a line is all of this:
-/// - hardly darker than its ground varies, or of many such lines the darkest. That is measured on the bright side, where grain shows and ink does not: on
-///   clean paper everything stands out, however closely it is drawn. Where the scanner has made the paper of a
-///   pencil white, nothing of its grain is left to measure but such lines, and those far fainter than the long ones
-///   count;
+/// - hardly darker than its ground varies, or of many such lines the darkest. How the ground varies is measured on the
+///   bright side, where grain shows and ink does not: on clean paper everything stands out, however closely it is
+///   drawn. Where the scanner has made the paper of a pencil white, nothing of its grain is left to measure but such
+///   lines, and those far fainter than the long ones count;
 /// - fainter against what lies beside it than the long lines of the page, as ink is that a threshold between them and
 ///   the paper would not find;
 /// - not straight over a length that chance does not lead it;
