@@ -20,7 +20,8 @@ namespace batten {
 namespace {
 
 constexpr double kMostRoughness = 9.0;                   // [grey] between neighbours within a cell: carpet, wood, cloth
-constexpr double kLeastSheet = 0.3, kMostSheet = 0.997;  // of the picture
+constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
+constexpr double kMostBesideTable = 0.997;               // of it, where a corner of the table tells the sheet
 constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
 constexpr double kLeastAlongSide = 0.2;                  // of a side of the picture that a patch beside the sheet takes
 constexpr double kSheetContrast = 12.0;                  // [grey] of the patch against the sheet beside it
@@ -202,9 +203,19 @@ cv::Mat1b sheetWithoutNecks(const cv::Mat1b& beside) {
   return sheet;
 }
 
+/// Broader than a line that runs along the border of the picture.
+bool isBroad(const cv::Mat1b& table) {
+  constexpr int kBroadCells = 5;
+  const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {kBroadCells, kBroadCells});
+  cv::Mat1b within;
+  cv::erode(table, within, square, {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  return cv::countNonZero(within) > 0;
+}
+
 struct BesideSheet {
   std::optional<cv::Mat1b> cells;  ///< Absent: nothing is beside a sheet, or it is doubtful that there is one.
   bool isDoubtful = false;         ///< Something lies beside, and what it leaves is no sheet.
+  double mostSheet = kMostSheet;   ///< Of the picture, that a sheet may fill.
 };
 
 /// All cells beside a sheet. `even`: its even area, filled.
@@ -215,12 +226,13 @@ BesideSheet cellsBeside(const cv::Mat1b& even, const SheetCells& cells, const Ru
   if (cv::countNonZero(beside) == 0) return {};
   const cv::Mat1b sheet = sheetWithoutNecks(beside);
   const double share = cv::countNonZero(sheet) / static_cast<double>(sheet.total());
-  if (share < kLeastSheet || share > kMostSheet) return {std::nullopt, true};
+  const double most = isBroad(table) ? kMostBesideTable : kMostSheet;
+  if (share < kLeastSheet || share > most) return {std::nullopt, true};
   std::vector<cv::Point> places, hull;
   cv::findNonZero(sheet, places);
   cv::convexHull(places, hull);
   if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return {std::nullopt, true};
-  return {cv::Mat1b(withoutTonesAtEdge(table, even, cells) | (beside & (table == 0))), false};
+  return {cv::Mat1b(withoutTonesAtEdge(table, even, cells) | (beside & (table == 0))), false, most};
 }
 
 /// An even area with what it becomes slowly, but for narrow parts: the blur along its edge.
@@ -262,7 +274,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
     break;
   }
   const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(beside));
-  if (cv::countNonZero(sheet) > kMostSheet * static_cast<double>(sheet.total())) return std::nullopt;
+  if (cv::countNonZero(sheet) > found.mostSheet * static_cast<double>(sheet.total())) return std::nullopt;
   return sheet;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/mark_rows.h"
 #include "core/image/bits/run_pieces.h"
@@ -42,6 +43,16 @@ LevelMasks masksOf(const GreyImage& image, const RegionThresholds& thresholds, c
                          context);
 }
 
+/// [grey] Below the paper, twice the half level, of the darker regions with edges of their own: others may hold nothing
+/// but pale strokes. 0: none has any.
+double inkDepthOf(const RegionThresholds& thresholds) {
+  constexpr double kOfDarker = 0.75;  // quantile
+  std::vector<double> depths;
+  for (int region = 0; region < kRegions; ++region)
+    if (thresholds.measured[region]) depths.push_back(-2.0 * thresholds.contrast[region]);
+  return depths.empty() ? 0.0 : lowerQuantile(depths, kOfDarker);
+}
+
 BitImage withoutNoiseHoles(BitImage ink, int area, const RunContext& context) {
   BitImage filled = ink;
   fillHoles(filled, area, context);
@@ -73,7 +84,7 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
       ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
       PaperBackground paper = thresholds.paper;
       paper.folds.clear();
-      ink = addEvenStrokes(std::move(ink), {flat, paper, *masks.faint}, context, pixelsPerPx);
+      ink = addEvenStrokes(std::move(ink), {flat, paper, *masks.faint, inkDepthOf(thresholds)}, context, pixelsPerPx);
     }
     if (context.isCancelled()) return cancelled();
     if (params.speckArea > 0) ink = withRows(std::move(ink), masks.ink, *masks.certain, params.speckArea, context);

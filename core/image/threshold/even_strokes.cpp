@@ -18,6 +18,7 @@ constexpr int kBlurredPx = 2;         // [px] from the border of a stroke to whe
 constexpr double kLeastInside = 0.3;  // of the area: thinner strokes are found as lines
 constexpr double kLeastLengthPx = 40.0, kEvenLengthPerWidth = 7.0;  // shorter pieces are spots
 constexpr double kMostBesideInk = 0.25;                             // of its border: an area that lines bound is a tone
+constexpr double kLeastOfInk = 0.25;                                // of the depth of ink: fainter hatching is shading
 constexpr double kEvenSpread = 0.15;  // of its depth: standard deviation of the grey inside
 
 // One piece, with its greys below the paper where it is not blurred.
@@ -34,8 +35,9 @@ struct PalePiece {
            static_cast<double>(besideInkPx) <= kMostBesideInk * static_cast<double>(borderPx) &&
            static_cast<double>(insidePx) >= kLeastInside * static_cast<double>(areaPx);
   }
-  bool isEven() {
+  bool isEven(double leastDepth) {
     const float depth = upperMedian(depths);
+    if (static_cast<double>(depth) < leastDepth) return false;
     for (float& d : depths) d -= depth;
     return robustSigma(depths) <= kEvenSpread * static_cast<double>(depth);
   }
@@ -79,7 +81,8 @@ BitImage addEvenStrokes(BitImage ink, const EvenStrokeSources& sources, const Ru
     if (isStroke[found.piece[i]]) addDepths(sources, inside, found.runs[i], pieces[found.piece[i]].depths);
   }
   if (context.isCancelled()) return ink;
-  for (std::size_t i = 0; i < pieces.size(); ++i) isStroke[i] = isStroke[i] && pieces[i].isEven();
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    isStroke[i] = isStroke[i] && pieces[i].isEven(kLeastOfInk * sources.inkDepth);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (isStroke[found.piece[i]]) setBits(ink, found.runs[i]);
   }

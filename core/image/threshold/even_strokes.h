@@ -13,11 +13,12 @@ struct EvenStrokeSources {
   const GreyImage& image;
   const PaperBackground& paper;  ///< Of the image.
   const BitImage& faint;         ///< Everything that stands out of the paper.
+  double inkDepth;               ///< [grey] Of the ink of the page, below the paper.
 };
 
 /// Adds to the ink what a pale marker drew beside dark lines: places that stand out of the paper, are long for their
-/// width however wide, and of one grey inside. Shading, shadows and the strokes of a pencil are of many greys, and what
-/// runs out of the picture is no stroke.
+/// width however wide, of one grey inside, and a quarter as dark as ink or more. Shading, shadows and the strokes of a
+/// pencil are of many greys, fainter hatching is a tone, and what runs out of the picture is no stroke.
 /// @param pixelsPerPx of the image, along a pixel of the page (fine_page.h).
 BitImage addEvenStrokes(BitImage ink, const EvenStrokeSources& sources, const RunContext& context, int pixelsPerPx = 1);
 
