@@ -28,8 +28,9 @@ constexpr double kLeastBroadPx = 4.5;  // of the page: below it the grid of pixe
 // hardly larger than the pen is wide are blots, and are read by their outline.
 constexpr double kNarrowPens = 3.0;  // [least broad pens]
 constexpr double kLeastByDirection = 0.4;
-constexpr double kSlenderWidths = 8.0;  // [pen widths] of the size of letters
-constexpr int kLeastVoters = 5;         // pieces: fewer are no lettering
+constexpr double kUnevenHandwriting = 0.2;  // more no pen leaves unexplained: such letters were filled in
+constexpr double kSlenderWidths = 8.0;      // [pen widths] of the size of letters
+constexpr int kLeastVoters = 5;             // pieces: fewer are no lettering
 // Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
 // them.
 constexpr double kOneLineShare = 0.75;
@@ -167,10 +168,11 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t, double leastB
   // A pixel of every width counts as even (unevennessOf).
   const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
   const bool mayBeLetters = t.oneLine < kOneLineShare * t.voters;
-  const bool isHandwriting = t.pen < kNarrowPens * leastBroadPx * t.area &&
+  const double uneven = weightedMedian(t.uneven).value_or(0.0);
+  const bool isHandwriting = t.pen < kNarrowPens * leastBroadPx * t.area && uneven < kUnevenHandwriting &&
                              voter.sizePx > kSlenderWidths * voter.penPx && t.widths.explained() < kLeastByDirection;
   const bool mayBeBroad = t.pen >= leastBroadPx * t.area && !isHandwriting;
-  if (mayBeLetters && weightedMedian(t.uneven).value_or(0.0) >= limit && mayBeBroad) return InkLabel::Shape;
+  if (mayBeLetters && uneven >= limit && mayBeBroad) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   // Where lines of the pen of the others cross the ink is no wider: a scribbled blot among letters is none of them.
   if (voter.isMostlyShape && voter.widestPx > coreWidth(t.pen / t.area)) return {};

@@ -183,6 +183,20 @@ TEST(InkLabels, AStubbyMarkOfUnevenWidthIsAShape) {
   EXPECT_GT(shareOfShapesOf(mark, 5.3), 0.99);
 }
 
+// Letters filled in by hand, thick and thin whatever their direction: no pen draws so.
+TEST(InkLabels, LettersThatWereFilledInAreShapes) {
+  test::LabelPage page(1200, 500);
+  for (int i = 0; i < 16; ++i) {
+    page.begin(true);
+    const double x = 50.0 + 140.0 * (i % 8), y = 60.0 + 220.0 * (i / 8);
+    const bool isUpright = i % 2 == 0;
+    page.line(segment({x, y}, {x, y + 150}), isUpright ? 17.0 : 7.0);
+    page.line(segment({x, y + 150}, {x + 80, y + 146}), isUpright ? 7.0 : 17.0);
+    page.line(segment({x + 4, y + 4}, {x + 70, y + 60}), isUpright ? 7.0 : 12.0);
+  }
+  EXPECT_GT(shareOfShapes(labelsOf(page.ink(3))), 0.99);
+}
+
 // As large and as broad as dashes beside it, but where lines of their pen crossed the ink would be no wider.
 TEST(InkLabels, ABlotAmongDashesIsAShape) {
   test::LabelPage page(800, 600);
