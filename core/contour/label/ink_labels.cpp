@@ -19,7 +19,7 @@ namespace batten {
 namespace {
 
 constexpr std::size_t kDiscsPerCheck = 256;  // between two looks at the cancel token
-constexpr double kWidestPen = 0.035;  // of the page's mean side: 9 mm on A4; bars of lettering and of signs are wider
+constexpr double kWidestPen = 0.05;  // of the page's mean side: 12 mm on A4; bars of lettering and of signs are wider
 
 // Discs of ink about skeleton pixels; those that lie within the one painted before are passed over.
 class DiscPainter {
