@@ -249,7 +249,7 @@ bool isClipped(const LinesOnGround& page) {
   return 2 * cv::countNonZero(white) > page.level.rows * page.level.cols;
 }
 
-// [standard deviations of a place] Of so many lines of grain the darkest is that of as many times more ways.
+// [standard deviations of a place] The darkest of n lines of grain is the darkest of n times as many ways.
 double standsOutOf(std::ptrdiff_t lines) {
   const double many = std::max(1.0, static_cast<double>(lines));
   return kStandsOut * std::sqrt(std::log(kWaysOverGround * many) / std::log(kWaysOverGround));
@@ -279,12 +279,12 @@ std::vector<std::optional<Faintness>> faintLines(const ContourSet& set, const Sh
   return faint;
 }
 
-// Adds the lines that stand out of their ground no farther, and have no company.
-void addGrain(const ContourSet& set, const std::vector<std::optional<Faintness>>& faint, double standsOut,
-              double widthPx, std::vector<bool>& isGrain, const RunContext& context) {
+// Adds the lines that stand out of their ground no farther, and have no company. @return the rounds that are left.
+int addGrain(const ContourSet& set, const std::vector<std::optional<Faintness>>& faint, double standsOut,
+             double widthPx, int rounds, std::vector<bool>& isGrain, const RunContext& context) {
   // Grain is no company: without it others have none either.
   bool isChanged = true;
-  for (int round = 0; round < kMostRounds && isChanged && !context.isCancelled(); ++round) {
+  for (; rounds > 0 && isChanged && !context.isCancelled(); --rounds) {
     isChanged = false;
     const LineCompany company(set, isGrain, widthPx);
     for (int i = 0; i < std::ssize(set.contours) && !context.isCancelled(); ++i) {
@@ -293,6 +293,7 @@ void addGrain(const ContourSet& set, const std::vector<std::optional<Faintness>>
       isGrain[i] = isChanged = true;
     }
   }
+  return rounds;
 }
 
 }  // namespace
@@ -303,9 +304,10 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, boo
   if (grey.isUniform || !(lines.widthPx > 0.0) || context.isCancelled()) return isGrain;
   if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
   const std::vector<std::optional<Faintness>> faint = faintLines(set, lines, grey, isPencil, context);
-  addGrain(set, faint, kStandsOut, lines.widthPx, isGrain, context);
+  const int rounds = addGrain(set, faint, kStandsOut, lines.widthPx, kMostRounds, isGrain, context);
   // On a page that is full of it the darkest of all stands out farther than the darkest of one ground.
-  addGrain(set, faint, standsOutOf(std::ranges::count(isGrain, true)), lines.widthPx, isGrain, context);
+  const std::ptrdiff_t many = std::ranges::count(isGrain, true);
+  if (many > 1) addGrain(set, faint, standsOutOf(many), lines.widthPx, rounds, isGrain, context);
   return isGrain;
 }
 

@@ -22,7 +22,7 @@ struct InkLabels {
 
 /// Strokes and shapes, region by region: a solid and the lines attached to it are one piece of ink and two labels.
 /// Pieces that are alike in size and width (an alphabet) are voted on together, so that broad-nib letters are shapes as
-/// a whole. Nothing depends on the size of the page but what counts as a letter.
+/// a whole. Nothing depends on the size of the page but what counts as a letter, and how wide a pen may be.
 /// Strokes drawn over one another are no solid where they lie close: what is long, narrow and joined to three strokes,
 /// or longer and joined to two, stays stroke; how narrow, the strokes that meet there say. So does what lines run into
 /// without a step in width, if they cover far more than it does: a line that swells.

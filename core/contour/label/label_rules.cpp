@@ -21,7 +21,8 @@ constexpr double kSamePen = 1.5;      // ratio of widths
 // Of the area of a piece, what strokes of one width each explain where it is lettering of a broad pen, and where it is
 // strokes of the page's pen at all.
 constexpr double kExplainedBroad = 0.75, kExplainedAny = 0.25;
-constexpr double kBroadWidths = 2.0;  // paths of a broad pen that are longer count as strokes of it
+constexpr double kBroadWidths = 2.0;       // paths of a broad pen that are longer count as strokes of it
+constexpr double kBroadLineWidths = 25.0;  // a longer one is a line that a broad pen drew, whatever is joined to it
 
 bool isExplained(const InkPath& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
 
@@ -208,6 +209,7 @@ class Labeller {
       const InkPath& s = graph_.paths()[number];
       if (isShape(number) && !isBroad) return false;
       if (isShape(number) || !s.widthPx) continue;
+      if (explained_[number] && s.elongation() >= kBroadLineWidths) return false;
       const bool isLine = explained_[number] || s.elongation() >= (isBroad ? kBroadWidths : kShortWidths) ||
                           *s.widthPx <= kSamePen * *page_.pagePenPx + 1.0;
       redrawn += isLine ? s.lengthPx * *s.widthPx : 0.0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "core/image/sheet/facing_pages.h"
 #include "core/image/sheet/shaded_paper.h"
@@ -270,7 +271,11 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
     const cv::Mat1b page = filledSheet(labels == label);
     // Within the sheet it is a shape that was drawn.
     if (cv::countNonZero(page & even) > 0 || !isFacingPage(page, even, cells, ShadedPaper(even, cells))) continue;
-    if (auto both = cellsBeside(even | page, cells, context).cells) beside = *both;
+    BesideSheet both = cellsBeside(even | page, cells, context);
+    if (both.cells) {
+      found = std::move(both);
+      beside = *found.cells;
+    }
     break;
   }
   const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(beside));

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/base/statistics.h"
+#include "core/image/grown_mask.h"
+#include "core/image/sheet/shaded_paper.h"
 #include "core/image/sheet/sheet_step.h"
 
 namespace batten {
@@ -59,6 +61,10 @@ std::optional<cv::Mat1b> sheetOnTable(const cv::Mat1i& areas, int largest, const
   if (cv::countNonZero(tableBeside) < kLeastTableBeside * besideCells) return std::nullopt;
   if (sheetCells < kLeastOfRectangle * static_cast<double>(cv::minAreaRect(hull).size.area())) return std::nullopt;
   if (!isStepBetween(paper, tableBeside, cells)) return std::nullopt;
+  // A bright panel on toned paper: both have the same grain, and the drawing goes on beside it.
+  const float grain = std::max(paperLookOf(paper, cells).rough, static_cast<float>(kLeastGrain));
+  const bool isOneGrain = paperLookOf(tableBeside, cells).rough <= static_cast<float>(kSameGrain) * grain;
+  if (isOneGrain && ShadedPaper(sheet, cells).isDrawnOn(shrunkMask(tableBeside, kSheetEdgeCells))) return std::nullopt;
   return sheet;
 }
 

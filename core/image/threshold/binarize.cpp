@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,14 +44,20 @@ LevelMasks masksOf(const GreyImage& image, const RegionThresholds& thresholds, c
                          context);
 }
 
-/// [grey] Below the paper, twice the half level, of the darker regions with edges of their own: others may hold nothing
-/// but pale strokes. 0: none has any.
-double inkDepthOf(const RegionThresholds& thresholds) {
+/// [grey] Below the paper, twice the automatic half level, of the darker regions with edges of their own: others may
+/// hold nothing but pale strokes. Absent: the paper was not measured, or no region has such edges.
+std::optional<double> inkDepthOf(const GreyImage& image, const RegionThresholds& thresholds,
+                                 const ThresholdParams& params) {
   constexpr double kOfDarker = 0.75;  // quantile
   std::vector<double> depths;
-  for (int region = 0; region < kRegions; ++region)
-    if (thresholds.measured[region]) depths.push_back(-2.0 * thresholds.contrast[region]);
-  return depths.empty() ? 0.0 : lowerQuantile(depths, kOfDarker);
+  for (int region = 0; region < kRegions && !thresholds.paper.isEmpty(); ++region) {
+    if (!thresholds.measured[region]) continue;
+    const double x = (region % kRegionsPerSide + 0.5) * image.width / kRegionsPerSide;
+    const double y = (region / kRegionsPerSide + 0.5) * image.height / kRegionsPerSide;
+    const double contrast = thresholds.paper.at(x, y) - thresholds.automatic[region];
+    depths.push_back(2.0 * contrast / (params.strength * thresholds.halfLevelShare));
+  }
+  return depths.empty() ? std::nullopt : std::optional(lowerQuantile(depths, kOfDarker));
 }
 
 BitImage withoutNoiseHoles(BitImage ink, int area, const RunContext& context) {
@@ -82,9 +89,11 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (context.isCancelled()) return cancelled();
     if (params.reach < 1.0) {
       ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
-      PaperBackground paper = thresholds.paper;
-      paper.folds.clear();
-      ink = addEvenStrokes(std::move(ink), {flat, paper, *masks.faint, inkDepthOf(thresholds)}, context, pixelsPerPx);
+      if (const auto inkDepth = inkDepthOf(image, thresholds, params)) {
+        PaperBackground paper = thresholds.paper;
+        paper.folds.clear();
+        ink = addEvenStrokes(std::move(ink), {flat, paper, *masks.faint, *inkDepth}, context, pixelsPerPx);
+      }
     }
     if (context.isCancelled()) return cancelled();
     if (params.speckArea > 0) ink = withRows(std::move(ink), masks.ink, *masks.certain, params.speckArea, context);

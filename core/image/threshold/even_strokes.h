@@ -17,8 +17,9 @@ struct EvenStrokeSources {
 };
 
 /// Adds to the ink what a pale marker drew beside dark lines: places that stand out of the paper, are long for their
-/// width however wide, of one grey inside, and a quarter as dark as ink or more. Shading, shadows and the strokes of a
-/// pencil are of many greys, fainter hatching is a tone, and what runs out of the picture is no stroke.
+/// width, no wider than a pen, of one grey inside, and a quarter as dark as ink or more. Shading, shadows and the
+/// strokes of a pencil are of many greys, fainter hatching is a tone, and so is an area that lines bound; what runs out
+/// of the picture is no stroke.
 /// @param pixelsPerPx of the image, along a pixel of the page (fine_page.h).
 BitImage addEvenStrokes(BitImage ink, const EvenStrokeSources& sources, const RunContext& context, int pixelsPerPx = 1);
 

@@ -113,31 +113,53 @@ double penLines(double along, double regionPx) {
   return stroke(at - 6.0, 4.0, 190.0) + stroke(at - regionPx + 6.0, 4.0, 190.0);
 }
 
-TEST(EvenStrokes, OfAPaleMarkerAreFoundBesideDarkLines) {
-  const auto letter = [](double x, double y) {
-    return std::min(distanceTo(x, y, 330, 240, 345, 370), distanceTo(x, y, 345, 370, 368, 240));
-  };
-  const GreyImage grey =
-      page([&](double x, double y) { return penLines(x, 100.0) + stroke(letter(x, y), 15.0, 55.0); }, 2.0);
-  EXPECT_GT(shareAlong(mask(grey), letter, 5.0), 0.98);
-  EXPECT_LT(shareAlong(mask(grey, 1.0), letter, 5.0), 0.02);
+double markerLetter(double x, double y) {
+  return std::min(distanceTo(x, y, 330, 240, 345, 370), distanceTo(x, y, 345, 370, 368, 240));
+}
+GreyImage pageWithMarker(double depth) {
+  return page([=](double x, double y) { return penLines(x, 100.0) + stroke(markerLetter(x, y), 15.0, depth); }, 2.0);
 }
 
-TEST(EvenStrokes, TonesBetweenLinesAndShadowsAreNone) {
-  // A tone that two lines bound, and a shadow.
-  const auto band = [](double, double y) { return y - 300.0; };
+TEST(EvenStrokes, OfAPaleMarkerAreFoundBesideDarkLines) {
+  const GreyImage grey = pageWithMarker(55.0);
+  EXPECT_GT(shareAlong(mask(grey), markerLetter, 5.0), 0.98);
+  EXPECT_LT(shareAlong(mask(grey, 1.0), markerLetter, 5.0), 0.02);
+  EXPECT_LT(shareAlong(mask(pageWithMarker(34.0)), markerLetter, 5.0), 0.02) << "less than a quarter as dark as ink";
+}
+
+// A pen line across it is no end of it.
+TEST(EvenStrokes, GoOnUpToALineThatCrossesThem) {
+  const auto marker = [](double x, double y) { return distanceTo(x, y, 335, 120, 365, 480); };
+  const auto pen = [](double x, double y) { return distanceTo(x, y, 310, 290, 390, 296); };
+  const GreyImage grey = page(
+      [&](double x, double y) {
+        const double dark = penLines(x, 100.0) + stroke(marker(x, y), 15.0, 55.0);
+        return std::max(dark, stroke(pen(x, y), 4.0, 190.0));
+      },
+      2.0);
+  EXPECT_GT(shareAlong(mask(grey), marker, 5.0), 0.99);
+}
+
+TEST(EvenStrokes, TonesBetweenLinesShadowsAndWhatLeavesThePictureAreNone) {
+  const auto row = [](double at) {
+    return [at](double x, double y) { return x > 250.0 && x < 560.0 ? y - at : 1000.0; };
+  };
   const auto shadow = [](double x, double y) { return distanceTo(x, y, 200, 412, 620, 412); };
   const GreyImage grey = page(
       [&](double x, double y) {
-        const double tone = x > 180.0 && x < 640.0 && std::fabs(band(x, y)) < 6.0 ? 55.0 : 0.0;
-        return penLines(y, 75.0) + tone + 60.0 * std::max(0.0, 1.0 - shadow(x, y) / 20.0);
+        // A tone that two lines bound, a shadow, and a band from side to side.
+        double dark = penLines(y, 75.0);
+        if (x > 180.0 && x < 640.0) {
+          dark += std::fabs(y - 338.0) < 11.0 ? 55.0 : 0.0;
+          dark = std::max(dark, stroke(y - 325.0, 4.0, 190.0) + stroke(y - 351.0, 4.0, 190.0));
+        }
+        return dark + 60.0 * std::max(0.0, 1.0 - shadow(x, y) / 20.0) + stroke(y - 188.0, 14.0, 55.0);
       },
       2.0);
-  const auto within = [](const std::function<double(double, double)>& distance) {
-    return [distance](double x, double y) { return x > 250.0 && x < 560.0 ? distance(x, y) : 1000.0; };
-  };
-  EXPECT_LT(shareAlong(mask(grey), within(band), 2.0), 0.02);
-  EXPECT_LT(shareAlong(mask(grey), within(shadow), 6.0), 0.02);
+  const BitImage found = mask(grey);
+  EXPECT_LT(shareAlong(found, row(338.0), 5.0), 0.02);
+  EXPECT_LT(shareAlong(found, row(412.0), 6.0), 0.02);
+  EXPECT_LT(shareAlong(found, row(188.0), 4.0), 0.02);
 }
 
 TEST(FaintLines, LeaveWideHatchingShadingAndNoiseAlone) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <random>
 
 #include "core/image/file/scan_reader.h"
@@ -278,12 +279,20 @@ TEST(PaperSheet, IsFoundOnAnEvenTableHoweverTheDrawingPartsIt) {
 
 // A toned page that is drawn upon around the panel.
 TEST(PaperSheet, ABrightPanelOfADrawingIsNone) {
-  const Scan scan = photo([](double x, double y) -> PhotoPixel {
-    if (std::fabs(x - 410.0) < 240.0 && std::fabs(y - 320.0) < 180.0) return {isRing(x, y) ? 40.0 : 246.0, 1.5};
+  const auto onPanel = [](double x, double y) -> std::optional<PhotoPixel> {
+    if (std::fabs(x - 410.0) > 240.0 || std::fabs(y - 320.0) > 180.0) return {};
+    return PhotoPixel{isRing(x, y) ? 40.0 : 246.0, 1.5};
+  };
+  const Scan dense = photo([&](double x, double y) -> PhotoPixel {
     const bool isDrawn = std::hypot(std::fmod(x, 80.0) - 40.0, std::fmod(y, 80.0) - 40.0) < 32.0;
-    return {isDrawn ? 60.0 : 185.0, 1.5};
+    return onPanel(x, y).value_or(PhotoPixel{isDrawn ? 60.0 : 185.0, 1.5});
   });
-  EXPECT_FALSE(sheetOf(scan).has_value());
+  EXPECT_FALSE(sheetOf(dense).has_value());
+  const Scan lines = photo([&](double x, double y) -> PhotoPixel {
+    const bool isDrawn = std::fabs(std::fmod(x + 0.5 * y, 90.0) - 45.0) < 1.5;
+    return onPanel(x, y).value_or(PhotoPixel{isDrawn ? 60.0 : 185.0, 1.5});
+  });
+  EXPECT_FALSE(sheetOf(lines).has_value());
 }
 
 // The sheet fills nearly all of the picture.
