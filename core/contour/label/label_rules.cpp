@@ -22,6 +22,7 @@ constexpr double kSamePen = 1.5;      // ratio of widths
 // strokes of the page's pen at all.
 constexpr double kExplainedBroad = 0.75, kExplainedAny = 0.25;
 constexpr double kBroadWidths = 2.0;       // paths of a broad pen that are longer count as strokes of it
+constexpr double kLetterStroke = 10.0;     // strokes of filled letters are shorter
 constexpr double kBroadLineWidths = 25.0;  // a longer one is a line that a broad pen drew, whatever is joined to it
 
 bool isExplained(const InkPath& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
@@ -197,25 +198,26 @@ class Labeller {
     }
   }
 
-  // A filled letter or mark: wider than lines of the page's pen where they cross, and redrawn with strokes of one width
-  // each much of its ink would be missing.
+  // A filled letter or mark: wider than lines of the page's pen where they cross, and either all of it is and no stroke
+  // is long, or redrawn with strokes of one width each much of its ink would be missing.
   bool isUnexplained(const LabelledPiece& piece) const {
     if (!page_.pagePenPx) return false;
     const double widestPx = 2.0 * piece.largestRadiusPx - kRadiiBeyondWidthPx, broadPx = coreWidth(*page_.pagePenPx);
     if (widestPx <= broadPx) return false;
     const bool isBroad = piece.penPx > broadPx;
-    double redrawn = 0.0;
+    double redrawn = 0.0, longest = 0.0;
     for (const int number : piece.paths) {
       const InkPath& s = graph_.paths()[number];
       if (isShape(number) && !isBroad) return false;
       if (isShape(number) || !s.widthPx) continue;
-      if (explained_[number] && s.elongation() >= kBroadLineWidths) return false;
+      if (explained_[number]) longest = std::max(longest, s.elongation());
       const bool isLine = explained_[number] || s.elongation() >= (isBroad ? kBroadWidths : kShortWidths) ||
                           *s.widthPx <= kSamePen * *page_.pagePenPx + 1.0;
       redrawn += isLine ? s.lengthPx * *s.widthPx : 0.0;
     }
-    const double asked = isBroad ? kExplainedBroad : kExplainedAny;
-    return redrawn < asked * static_cast<double>(piece.areaPx);
+    if (isBroad && longest < kLetterStroke) return true;
+    if (longest >= kBroadLineWidths) return false;
+    return redrawn < (isBroad ? kExplainedBroad : kExplainedAny) * static_cast<double>(piece.areaPx);
   }
 
   void labelWhole(int path) {

@@ -173,6 +173,30 @@ TEST(InkLabels, AMonogramThatOneStrokeDoesNotRedrawIsAShape) {
   EXPECT_GT(shareOfShapesOf(monogram, 3.0), 0.99);
 }
 
+TEST(InkLabels, AFilledLetterAmongFineLinesIsAShape) {
+  const auto letter = [](test::LabelPage& page) {
+    page.line(segment({200, 60}, {198, 160}), 20.0);
+    page.line(segment({260, 60}, {262, 160}), 20.0);
+    page.line(segment({200, 112}, {260, 110}), 17.0);
+  };
+  EXPECT_GT(shareOfShapesOf(letter, 3.0), 0.99);
+}
+
+// The outline of a car with its tyres filled in: a line of a broad pen, whatever is joined to it.
+TEST(InkLabels, ALongLineOfABroadPenStaysAStroke) {
+  test::LabelPage page(1200, 600);
+  page.begin(false);
+  for (int i = 0; i < 12; ++i) page.line(segment({20, 330.0 + 20.0 * i}, {1180, 340.0 + 19.0 * i}), 3.0);
+  page.line({{60, 240}, {160, 150}, {420, 120}, {560, 40}, {860, 44}, {1020, 130}, {1130, 160}, {1140, 250}}, 12.0);
+  page.begin(true);
+  page.area({test::circle({120, 250}, 62)});
+  page.area({test::circle({1080, 250}, 62)});
+  const BitImage ink = page.ink(3);
+  const auto score = page.score(ink, labelsOf(ink).shapes);
+  EXPECT_GT(score.strokes, 0.95);
+  EXPECT_GT(score.shapes, 0.9);
+}
+
 // A bird, as it stands for a network: no wider than two and a half pens along most of it, and no stroke.
 TEST(InkLabels, AStubbyMarkOfUnevenWidthIsAShape) {
   const auto mark = [](test::LabelPage& page) {
