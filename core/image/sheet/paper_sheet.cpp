@@ -253,7 +253,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
     ++areas[label];
   }
   const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
-  if (auto onTable = sheetOnTable(labels, largest, cells)) return onTable;
+  if (auto onTable = sheetOnTable(labels, areas, largest, cells)) return onTable;
   cv::Mat1b even = filledSheet(labels == largest);
   const int area = cv::countNonZero(even);
   if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;

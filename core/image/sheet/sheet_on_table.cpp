@@ -21,21 +21,20 @@ constexpr double kMostTableOnSheet = 0.03;   // of the sheet: its corners are ro
 constexpr double kLeastTableBeside = 0.7;    // of what lies beside the sheet: things lie there, too
 constexpr double kLeastOfRectangle = 0.9;    // a sheet seen at an angle is no perfect one
 
-// Areas that are brighter than the table and large.
-cv::Mat1b paperOn(const cv::Mat1i& areas, int largest, const SheetCells& cells) {
-  double last = 0.0;
-  cv::minMaxLoc(areas, nullptr, &last);
-  std::vector<std::vector<float>> levels(static_cast<std::size_t>(last) + 1);
-  for (int j = 0; j < areas.rows; ++j)
-    for (int i = 0; i < areas.cols; ++i) levels[areas(j, i)].push_back(cells.colour(j, i)[0]);
-  const double least = static_cast<double>(upperMedian(std::vector<float>(levels[largest]))) + kBrighterThanTable;
+// Areas that are brighter than the table and large. Absent: there are none.
+std::optional<cv::Mat1b> paperOn(const cv::Mat1i& areas, const std::vector<int>& size, int table,
+                                 const SheetCells& cells) {
   const double leastCells = kLeastSheetPart * static_cast<double>(areas.total());
+  std::vector<std::vector<float>> levels(size.size());  // of the large areas
+  const auto isLarge = [&](int area) { return size[area] >= leastCells; };
+  if (std::count_if(size.begin(), size.end(), [&](int cellsOf) { return cellsOf >= leastCells; }) < 2) return {};
+  for (int j = 0; j < areas.rows; ++j)
+    for (int i = 0; i < areas.cols; ++i)
+      if (isLarge(areas(j, i))) levels[areas(j, i)].push_back(cells.colour(j, i)[0]);
+  const double least = static_cast<double>(upperMedian(levels[table])) + kBrighterThanTable;
   std::vector<bool> isPaper;
   isPaper.reserve(levels.size());
-  for (std::vector<float>& of : levels) {
-    const bool isLarge = static_cast<double>(std::ssize(of)) >= leastCells;
-    isPaper.push_back(isLarge && static_cast<double>(upperMedian(of)) >= least);
-  }
+  for (std::vector<float>& of : levels) isPaper.push_back(!of.empty() && static_cast<double>(upperMedian(of)) >= least);
   cv::Mat1b paper(areas.size(), 0);
   for (int j = 0; j < areas.rows; ++j)
     for (int i = 0; i < areas.cols; ++i) paper(j, i) = isPaper[areas(j, i)] ? 255 : 0;
@@ -44,8 +43,11 @@ cv::Mat1b paperOn(const cv::Mat1i& areas, int largest, const SheetCells& cells) 
 
 }  // namespace
 
-std::optional<cv::Mat1b> sheetOnTable(const cv::Mat1i& areas, int largest, const SheetCells& cells) {
-  const cv::Mat1b paper = paperOn(areas, largest, cells);
+std::optional<cv::Mat1b> sheetOnTable(const cv::Mat1i& areas, const std::vector<int>& size, int largest,
+                                      const SheetCells& cells) {
+  const std::optional<cv::Mat1b> found = paperOn(areas, size, largest, cells);
+  if (!found) return std::nullopt;
+  const cv::Mat1b& paper = *found;
   const double paperCells = cv::countNonZero(paper), all = static_cast<double>(areas.total());
   if (paperCells < kLeastPaperOfSheet * kLeastOnTable * all) return std::nullopt;
   std::vector<cv::Point> places, hull;

@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "core/image/sheet/sheet_cells.h"
 
@@ -13,7 +14,9 @@ namespace batten {
 /// holds hardly any table, ends at an edge (sheet_step.h), and most of what lies beside it is the table. Absent: there
 /// is none.
 /// @param areas of every cell the even area that it lies in, from 0.
-/// @param largest of these areas.
-std::optional<cv::Mat1b> sheetOnTable(const cv::Mat1i& areas, int largest, const SheetCells& cells);
+/// @param size [cells] of these areas.
+/// @param largest of them.
+std::optional<cv::Mat1b> sheetOnTable(const cv::Mat1i& areas, const std::vector<int>& size, int largest,
+                                      const SheetCells& cells);
 
 }  // namespace batten
