@@ -52,8 +52,8 @@ std::optional<double> inkDepthOf(const GreyImage& image, const RegionThresholds&
   std::vector<double> depths;
   for (int region = 0; region < kRegions && !thresholds.paper.isEmpty(); ++region) {
     if (!thresholds.measured[region]) continue;
-    const double x = (region % kRegionsPerSide + 0.5) * image.width / kRegionsPerSide;
-    const double y = (region / kRegionsPerSide + 0.5) * image.height / kRegionsPerSide;
+    const int column = region % kRegionsPerSide, row = region / kRegionsPerSide;
+    const double x = (column + 0.5) * image.width / kRegionsPerSide, y = (row + 0.5) * image.height / kRegionsPerSide;
     const double contrast = thresholds.paper.at(x, y) - thresholds.automatic[region];
     depths.push_back(2.0 * contrast / (params.strength * thresholds.halfLevelShare));
   }
