@@ -251,8 +251,7 @@ bool isClipped(const LinesOnGround& page) {
 
 // [standard deviations of a place] The darkest of n lines of grain is the darkest of n times as many ways.
 double standsOutOf(std::ptrdiff_t lines) {
-  const double many = std::max(1.0, static_cast<double>(lines));
-  return kStandsOut * std::sqrt(std::log(kWaysOverGround * many) / std::log(kWaysOverGround));
+  return kStandsOut * std::sqrt(std::log(kWaysOverGround * static_cast<double>(lines)) / std::log(kWaysOverGround));
 }
 
 // What tells a faint line: how far it stands out of its ground, and whether it is far fainter than the long lines.
@@ -279,23 +278,6 @@ std::vector<std::optional<Faintness>> faintLines(const ContourSet& set, const Sh
   return faint;
 }
 
-// Adds the lines that stand out of their ground no farther, and have no company. @return the rounds that are left.
-int addGrain(const ContourSet& set, const std::vector<std::optional<Faintness>>& faint, double standsOut,
-             double widthPx, int rounds, std::vector<bool>& isGrain, const RunContext& context) {
-  // Grain is no company: without it others have none either.
-  bool isChanged = true;
-  for (; rounds > 0 && isChanged && !context.isCancelled(); --rounds) {
-    isChanged = false;
-    const LineCompany company(set, isGrain, widthPx);
-    for (int i = 0; i < std::ssize(set.contours) && !context.isCancelled(); ++i) {
-      const bool isFaint = faint[i] && (faint[i]->over < standsOut || faint[i]->isFarFainter);
-      if (!isFaint || isGrain[i] || company.isOneOf(i)) continue;
-      isGrain[i] = isChanged = true;
-    }
-  }
-  return rounds;
-}
-
 }  // namespace
 
 std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, bool isPencil, const RunContext& context) {
@@ -304,10 +286,23 @@ std::vector<bool> linesOfGrain(const ContourSet& set, const GreyImage& grey, boo
   if (grey.isUniform || !(lines.widthPx > 0.0) || context.isCancelled()) return isGrain;
   if (std::min(grey.width, grey.height) < kGroundWidths * lines.widthPx) return isGrain;
   const std::vector<std::optional<Faintness>> faint = faintLines(set, lines, grey, isPencil, context);
-  const int rounds = addGrain(set, faint, kStandsOut, lines.widthPx, kMostRounds, isGrain, context);
-  // On a page that is full of it the darkest of all stands out farther than the darkest of one ground.
-  const std::ptrdiff_t many = std::ranges::count(isGrain, true);
-  if (many > 1) addGrain(set, faint, standsOutOf(many), lines.widthPx, rounds, isGrain, context);
+  double standsOut = kStandsOut;
+  bool isRaised = false;
+  for (int round = 0; round < kMostRounds && !context.isCancelled(); ++round) {
+    // Grain is no company: without it others have none either.
+    bool isChanged = false;
+    const LineCompany company(set, isGrain, lines.widthPx);
+    for (int i = 0; i < std::ssize(set.contours) && !context.isCancelled(); ++i) {
+      const bool isFaint = faint[i] && (faint[i]->over < standsOut || faint[i]->isFarFainter);
+      if (!isFaint || isGrain[i] || company.isOneOf(i)) continue;
+      isGrain[i] = isChanged = true;
+    }
+    if (isChanged) continue;
+    // On a page that is full of it the darkest of all stands out farther than the darkest of one ground.
+    const std::ptrdiff_t many = std::ranges::count(isGrain, true);
+    if (std::exchange(isRaised, true) || many < 2) break;
+    standsOut = standsOutOf(many);
+  }
   return isGrain;
 }
 

@@ -202,8 +202,8 @@ class Labeller {
   // is long, or redrawn with strokes of one width each much of its ink would be missing.
   bool isUnexplained(const LabelledPiece& piece) const {
     if (!page_.pagePenPx) return false;
-    const double widestPx = 2.0 * piece.largestRadiusPx - kRadiiBeyondWidthPx, broadPx = coreWidth(*page_.pagePenPx);
-    if (widestPx <= broadPx) return false;
+    const double broadPx = coreWidth(*page_.pagePenPx);
+    if (piece.widestPx() <= broadPx) return false;
     const bool isBroad = piece.penPx > broadPx;
     double redrawn = 0.0, longest = 0.0;
     for (const int number : piece.paths) {

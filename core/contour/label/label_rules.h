@@ -23,6 +23,8 @@ struct LabelledPiece {
   double penPx = 1.0;                  ///< Width of the pen that is taken for its strokes.
   double mainPenPx = 1.0;              ///< The same, but by length: the width that most of the ink has.
   bool isBlot = false;                 ///< No stroke path is long enough to have a direction.
+  /// [px] Where it is widest.
+  double widestPx() const { return 2.0 * largestRadiusPx - kRadiiBeyondWidthPx; }
 };
 
 /// Ink shorter than this many of its widths has no direction.

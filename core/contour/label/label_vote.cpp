@@ -118,7 +118,7 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const InkGraph& graph, 
   v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
   v.area = static_cast<double>(piece.areaPx);
   v.penPx = piece.mainPenPx;
-  v.widestPx = 2.0 * piece.largestRadiusPx - kRadiiBeyondWidthPx;
+  v.widestPx = piece.widestPx();
   v.sizePx = size;
   double pathsPx = 0.0;
   int lines = 0;

@@ -265,20 +265,16 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
     found = cellsBeside(even, cells, context);
   }
   if (!found.cells) return std::nullopt;
-  cv::Mat1b beside = *found.cells;
   for (int label = 0; label < std::ssize(areas); ++label) {
     if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
     const cv::Mat1b page = filledSheet(labels == label);
     // Within the sheet it is a shape that was drawn.
     if (cv::countNonZero(page & even) > 0 || !isFacingPage(page, even, cells, ShadedPaper(even, cells))) continue;
     BesideSheet both = cellsBeside(even | page, cells, context);
-    if (both.cells) {
-      found = std::move(both);
-      beside = *found.cells;
-    }
+    if (both.cells) found = std::move(both);
     break;
   }
-  const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(beside));
+  const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(*found.cells));
   if (cv::countNonZero(sheet) > found.mostSheet * static_cast<double>(sheet.total())) return std::nullopt;
   return sheet;
 }

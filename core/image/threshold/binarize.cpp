@@ -14,6 +14,7 @@
 #include "core/image/threshold/even_strokes.h"
 #include "core/image/threshold/faint_lines.h"
 #include "core/image/threshold/level_masks.h"
+#include "core/image/threshold/region_values.h"
 #include "core/image/threshold/whole_ink.h"
 
 namespace batten {
@@ -52,9 +53,8 @@ std::optional<double> inkDepthOf(const GreyImage& image, const RegionThresholds&
   std::vector<double> depths;
   for (int region = 0; region < kRegions && !thresholds.paper.isEmpty(); ++region) {
     if (!thresholds.measured[region]) continue;
-    const int column = region % kRegionsPerSide, row = region / kRegionsPerSide;
-    const double x = (column + 0.5) * image.width / kRegionsPerSide, y = (row + 0.5) * image.height / kRegionsPerSide;
-    const double contrast = thresholds.paper.at(x, y) - thresholds.automatic[region];
+    const Vec2 centre = regionCentre(image.width, image.height, region);
+    const double contrast = thresholds.paper.at(centre.x(), centre.y()) - thresholds.automatic[region];
     depths.push_back(2.0 * contrast / (params.strength * thresholds.halfLevelShare));
   }
   return depths.empty() ? std::nullopt : std::optional(lowerQuantile(depths, kOfDarker));
@@ -76,10 +76,9 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (image.width <= 0 || image.height <= 0) return BitImage();
     // Folds are taken out before the picture is smoothed: a sharp step and a smoothed one would differ.
     const std::vector<PaperFold>& folds = thresholds.paper.folds;
-    const GreyImage unfolded = folds.empty() ? GreyImage() : withoutFolds(image, folds, context);
-    const GreyImage& flat = folds.empty() ? image : unfolded;
+    const GreyImage flat = folds.empty() ? GreyImage() : withoutFolds(image, folds, context);
     if (context.isCancelled()) return cancelled();
-    LevelMasks masks = masksOf(flat, thresholds, params, context);
+    LevelMasks masks = masksOf(folds.empty() ? image : flat, thresholds, params, context);
     if (context.isCancelled()) return cancelled();
     BitImage ink = masks.ink;
     if (params.speckArea > 0) {
@@ -89,11 +88,8 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (context.isCancelled()) return cancelled();
     if (params.reach < 1.0) {
       ink = addFaintLines({ink, *masks.certain, *masks.faint}, context, pixelsPerPx);
-      if (const auto inkDepth = inkDepthOf(image, thresholds, params)) {
-        PaperBackground paper = thresholds.paper;
-        paper.folds.clear();
-        ink = addEvenStrokes(std::move(ink), {flat, paper, *masks.faint, *inkDepth}, context, pixelsPerPx);
-      }
+      if (const auto inkDepth = inkDepthOf(image, thresholds, params))
+        ink = addEvenStrokes(std::move(ink), {image, thresholds.paper, *masks.faint, *inkDepth}, context, pixelsPerPx);
     }
     if (context.isCancelled()) return cancelled();
     if (params.speckArea > 0) ink = withRows(std::move(ink), masks.ink, *masks.certain, params.speckArea, context);

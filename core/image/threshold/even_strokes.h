@@ -11,7 +11,7 @@ namespace batten {
 /// What addEvenStrokes looks at; all of one size.
 struct EvenStrokeSources {
   const GreyImage& image;
-  const PaperBackground& paper;  ///< Of the image.
+  const PaperBackground& paper;  ///< Of the image, with the folds that are in both.
   const BitImage& faint;         ///< Everything that stands out of the paper.
   double inkDepth;               ///< [grey] Of the ink of the page, below the paper.
 };

@@ -20,6 +20,7 @@
 #include "core/image/threshold/paper_cells.h"
 #include "core/image/threshold/plane_ink.h"
 #include "core/image/threshold/region_surface.h"
+#include "core/image/threshold/region_values.h"
 
 namespace batten {
 namespace {
@@ -304,10 +305,8 @@ AgainstPaper thresholdsByFolds(const GreyImage& image, const Plane& grey, const 
 /// With the user's own values where set, and the acting contrast everywhere.
 RegionThresholds withOwnLevels(const GreyImage& image, const ThresholdParams& params, RegionThresholds out) {
   for (int region = 0; region < kRegions; ++region) {
-    const int column = region % kRegionsPerSide, row = region / kRegionsPerSide;
-    const double x = (column + 0.5) * image.width / kRegionsPerSide;
-    const double y = (row + 0.5) * image.height / kRegionsPerSide;
-    const double paper = out.paper.at(x, y);
+    const Vec2 centre = regionCentre(image.width, image.height, region);
+    const double paper = out.paper.at(centre.x(), centre.y());
     if (!out.paper.isEmpty()) out.automatic[region] = std::clamp(paper + out.contrast[region], 0.0, 255.0);
     out.level[region] = out.automatic[region];
     std::optional<double> own = params.grid[region];

@@ -9,6 +9,11 @@ RegionBounds regionBounds(int width, int height, int region) {
   return {cut(width, column), cut(height, row), cut(width, column + 1), cut(height, row + 1)};
 }
 
+Vec2 regionCentre(int width, int height, int region) {
+  const int column = region % kRegionsPerSide, row = region / kRegionsPerSide;
+  return {(column + 0.5) * width / kRegionsPerSide, (row + 0.5) * height / kRegionsPerSide};
+}
+
 std::array<std::uint32_t, 256> regionHistogram(const GreyImage& image, int region) {
   std::array<std::uint32_t, 256> counts{};
   const RegionBounds bounds = regionBounds(image.width, image.height, region);
