@@ -284,10 +284,8 @@ void CurveCanvas::State::paint(QPainter& painter) {
       paintRulings(painter, *this);
     }
     paintRegions(painter, *this);
-    if (areCombsShown()) {
-      paintDirection(painter, *this);
-      paintSpans(painter, *this);
-    }
+    if (isSelectionShown()) paintDirection(painter, *this);
+    if (areCombsShown()) paintSpans(painter, *this);
     if (areExtremaShown()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners) || view.tool() == Tool::Corners) paintCorners(painter, *this);
     if (view.isVisible(Layer::Junctions) || view.tool() == Tool::Junctions) paintJunctions(painter, *this);

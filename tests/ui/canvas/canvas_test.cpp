@@ -246,6 +246,30 @@ TEST_F(CanvasTest, PaintsScanCurvesAndTheDropHint) {
   view.setScanOnly(false);
 }
 
+TEST_F(CanvasTest, AnArrowShowsTheSelectedCurvesDirectionWithoutItsComb) {
+  open(test::zigzagPage());
+  view.setVisible(Layer::Comb, false);
+  ASSERT_TRUE(session().selectedCurve());
+  // In the body of the arrow, beside the curve: 14.5 px from its start, on the first of its straight strokes.
+  const auto isArrowAt = [&](const QImage& shown, const Vec2& startPx, const Vec2& nextPx) {
+    const QPointF start = canvas->toWidget(startPx), next = canvas->toWidget(nextPx);
+    const QPointF along = (next - start) / std::hypot(next.x() - start.x(), next.y() - start.y());
+    const QPointF beside = start + 14.5 * along + 2.5 * QPointF(-along.y(), along.x());
+    const QColor color = shown.pixelColor((beside * canvas->devicePixelRatioF()).toPoint());
+    return color.blue() > color.red() + 40;
+  };
+  const auto isArrowShown = [&] {
+    const QImage shown = canvas->grab().toImage();
+    return isArrowAt(shown, {60, 300}, {200, 100}) || isArrowAt(shown, {580, 80}, {400, 300});
+  };
+  EXPECT_TRUE(waitUntil(isArrowShown));
+  view.setVisible(Layer::Curve, false);
+  view.setVisible(Layer::Faired, false);
+  EXPECT_FALSE(isArrowShown()) << "there is no curve to be told";
+  view.setVisible(Layer::Faired, true);
+  view.setVisible(Layer::Curve, true);
+}
+
 TEST_F(CanvasTest, PaintsInDevicePixels) {
   open(test::zigzagPage());
   view.setVisible(Layer::Comb, false);

@@ -41,6 +41,10 @@ bool CanvasScene::areExtremaShown() const {
 
 bool CanvasScene::isResultShown() const { return judgedIn(view) == Judged::Result && shapes && shapes->source.faired; }
 
+bool CanvasScene::isSelectionShown() const {
+  return (view.isVisible(Layer::Curve) || view.isVisible(Layer::Faired)) && !session.growing().isOpen();
+}
+
 bool CanvasScene::areCombsShown() const { return view.isVisible(Layer::Comb) && !session.growing().isOpen(); }
 
 const ExtremumMark* CanvasScene::extremumNear(const Vec2& px) const {
