@@ -18,7 +18,7 @@
 #include "core/image/sheet/paint_over.h"
 #include "core/image/sheet/sheet_and_holes.h"
 #include "core/image/threshold/region_values.h"
-#include "core/image/tones/pencil_tones.h"
+#include "core/image/tones/shading.h"
 #include "core/image/tones/tone_areas.h"
 #include "core/image/tones/without_tones.h"
 
@@ -150,8 +150,7 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
 void leaveOutShading(const Scan& scan, PreparedPage& page, const RunContext& context) {
   const std::optional<ToneCopy> copy = toneCopyOf(greyOf(scan, page), context);
   if (!copy) return;
-  std::optional<ToneAreas> areas = findToneAreas(*copy, context);
-  if (!areas && !context.isCancelled()) areas = findPencilTones(*copy, context);
+  const std::optional<ToneAreas> areas = findShading(*copy, context);
   if (!areas || context.isCancelled()) return;
   if (!page.grey) page.grey = scan.grey;
   page.grey = withoutTones(std::move(*page.grey), *areas, context);

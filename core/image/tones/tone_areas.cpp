@@ -29,6 +29,9 @@ constexpr int kBlurPx = 1;                 // that a line is blurred over its bo
 constexpr int kSolidEdgePx = 2;            // beyond a solid: its blurred edge
 constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
 
+/// Up to which an area is a tone.
+enum class LinesOnTone { Some, Many };
+
 enum class AreaKind {
   Tone,
   Solid,    ///< Or a shape, hatching or grain: it stays ink.
@@ -44,7 +47,7 @@ struct Area {
 
 /// What an area of ink is that is nowhere darker than kDarkestTone. @param area not 0 inside; the pictures are cut to a
 /// box around it.
-Area areaOf(const cv::Mat1b& area, const ToneLook& look) {
+Area areaOf(const cv::Mat1b& area, const ToneLook& look, LinesOnTone most) {
   const double darkness = darknessQuantile(look.ground, area, 0.5);
   const cv::Mat1b inner = shrunkMask(area, 2), border = area & (shrunkMask(area, 1) == 0);
   const int borderPx = cv::countNonZero(border);
@@ -57,7 +60,8 @@ Area areaOf(const cv::Mat1b& area, const ToneLook& look) {
   // The rim of a broad marker's stroke is darker than its inside, and is no line around a tone.
   const double mostOfLines = barePx > kUsualBare * borderPx ? kMostOfBareLines : kMostOfLines;
   if (darkness > mostOfLines * darknessQuantile(look.flat, linesOn, kLineDarknessQuantile)) return {};
-  if (cv::countNonZero(inner & look.lines) > kMostToneGrain * cv::countNonZero(inner)) return {};
+  const bool isFull = cv::countNonZero(inner & look.lines) > kMostToneGrain * cv::countNonZero(inner);
+  if (isFull && most == LinesOnTone::Some) return {};
   double radius = 0.0;
   cv::Mat1f distance;
   cv::distanceTransform(area, distance, cv::DIST_L2, cv::DIST_MASK_5);
@@ -93,7 +97,7 @@ void addTone(Parted& parted, const cv::Rect& box, const cv::Mat1b& mask, const A
   parted.mostGain(box).setTo(std::min(255.0, std::floor(ToneAreas::kGainUnit * area.mostGain)), mask);
 }
 
-Parted partedAreas(const ToneLook& look, const RunContext& context) {
+Parted partedAreas(const ToneLook& look, LinesOnTone most, const RunContext& context) {
   // Black that touches a tone is no part of it.
   const cv::Size size = look.wide.size();
   Parted parted{cv::Mat1b::zeros(size), look.wide & (look.ground < 255.0 - kDarkestTone), cv::Mat1b::zeros(size),
@@ -113,7 +117,7 @@ Parted partedAreas(const ToneLook& look, const RunContext& context) {
       parted.solids(box) |= mask;
       continue;
     }
-    const Area area = areaOf(mask, cutTo(look, box));
+    const Area area = areaOf(mask, cutTo(look, box), most);
     if (area.kind == AreaKind::Tone) addTone(parted, box, mask, area, look);
     if (area.kind == AreaKind::Solid) parted.solids(box) |= mask;
   }
@@ -151,18 +155,7 @@ int scaleOf(const GreyImage& page) {
   return (std::max(page.width, page.height) + kLongestSidePx - 1) / kLongestSidePx;
 }
 
-}  // namespace
-
-std::optional<ToneCopy> toneCopyOf(const GreyImage& page, const RunContext& context) {
-  if (page.isUniform) return std::nullopt;
-  ToneCopy copy{&page, scaleOf(page), std::nullopt};
-  // A narrow strip has no shading, and its copy no pixels.
-  if (std::min(page.width, page.height) < 2 * kToneCellPx * copy.pixelsPerPx) return std::nullopt;
-  if (copy.pixelsPerPx > 1) copy.smaller = reducedPage(page, copy.pixelsPerPx, context);
-  return copy;
-}
-
-std::optional<ToneAreas> findToneAreas(const ToneCopy& copy, const RunContext& context) {
+std::optional<ToneAreas> tonesWith(LinesOnTone most, const ToneCopy& copy, const RunContext& context) {
   ToneAreas areas;
   areas.pixelsPerPx = copy.pixelsPerPx;
   const GreyImage& searched = copy.searched();
@@ -170,7 +163,7 @@ std::optional<ToneAreas> findToneAreas(const ToneCopy& copy, const RunContext& c
   if (context.isCancelled() || !mayBeShaded(cells)) return std::nullopt;
   std::optional<ToneLook> look = inkOfPage(searched, context);
   if (!look || !lookAtLines(*look, context)) return std::nullopt;
-  const Parted parted = partedAreas(*look, context);
+  const Parted parted = partedAreas(*look, most, context);
   if (context.isCancelled() || parted.longestPx == 0) return std::nullopt;
   // The paper of the thresholds goes along with wide tones; behind them is that of their surroundings.
   const double windowPx =
@@ -198,6 +191,25 @@ std::optional<ToneAreas> findToneAreas(const ToneCopy& copy, const RunContext& c
   areas.lineDarkness = look->lineDarkness;
   areas.share = static_cast<double>(cv::countNonZero(ground < kClearGround)) / static_cast<double>(ground.total());
   return areas;
+}
+
+}  // namespace
+
+std::optional<ToneCopy> toneCopyOf(const GreyImage& page, const RunContext& context) {
+  if (page.isUniform) return std::nullopt;
+  ToneCopy copy{&page, scaleOf(page), std::nullopt};
+  // A narrow strip has no shading, and its copy no pixels.
+  if (std::min(page.width, page.height) < 2 * kToneCellPx * copy.pixelsPerPx) return std::nullopt;
+  if (copy.pixelsPerPx > 1) copy.smaller = reducedPage(page, copy.pixelsPerPx, context);
+  return copy;
+}
+
+std::optional<ToneAreas> findToneAreas(const ToneCopy& copy, const RunContext& context) {
+  return tonesWith(LinesOnTone::Some, copy, context);
+}
+
+std::optional<ToneAreas> findToneAreasFullOfLines(const ToneCopy& copy, const RunContext& context) {
+  return tonesWith(LinesOnTone::Many, copy, context);
 }
 
 }  // namespace batten

@@ -56,5 +56,8 @@ struct ToneAreas {
 /// so do black, and areas of hatching and of grain.
 /// @return Absent: there are none, or the search was cancelled.
 std::optional<ToneAreas> findToneAreas(const ToneCopy&, const RunContext&);
+/// The same with areas that lines cover more of than they leave: lines drawn close together, but hatching and grain,
+/// too.
+std::optional<ToneAreas> findToneAreasFullOfLines(const ToneCopy&, const RunContext&);
 
 }  // namespace batten
