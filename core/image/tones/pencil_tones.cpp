@@ -24,8 +24,10 @@ constexpr double kLeastDark = 0.375;  // of the darkness of lines, in the mean: 
 constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step within a brush; shades fade farther
 // Of the border of a filled area: it ends sharply; of its darkness: standard deviation without what is narrow.
 constexpr double kFilledShare = 0.75, kMostUnevenFill = 0.4;
-// Mean grain inside the rim of a filled area, by that of bare paper, which is no less than the second [of 255] (paper
-// that the scanner has turned white has none): strokes show, or paper does.
+// Of a filled area: what is brighter than half of the darkness of lines. More of it shows lines and what is between.
+constexpr double kMostBrightFill = 0.15;
+// Mean grain inside a filled area, by that of bare paper, which is no less than the second [of 255] (paper that the
+// scanner has turned white has none): strokes show, or paper does.
 constexpr double kTornGrain = 3.0, kLeastPaperGrain = 0.5;
 constexpr double kLeastBesideTone = 0.15;  // of the length of its border: lines on a tone and beside it
 constexpr double kBesideTone = 2.0;        // [widths] from a tone: lines along its border
@@ -109,12 +111,16 @@ FilledAreas filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const c
   };
   const cv::Mat1f one = cv::Mat1f::ones(shaded.size());
   const cv::Mat1b border = rimOfMask(shaded), inner = shrunkMask(shaded, page.brush);
-  const cv::Mat1b bare = shaded & unlined;
+  const cv::Mat1b bare = shaded & unlined, dark = depth >= 0.5 * kMostOfLines * page.darkness;
+  // Inside, and without the step at the border, which is no grain.
+  const cv::Mat1b heart = shrunkMask(shaded & dark, page.brush);
+  const cv::Mat1f inside = cv::abs(page.level - meanOfMasked(page.level, heart, page.widthPx));
   const std::vector<double> borders = sums(border, one), sizes = sums(bare, one), inners = sums(inner, one);
   const std::vector<double> ends = sums(border & (deepest >= kLeastDark * page.darkness), one);
   const std::vector<double> darkness = sums(bare, 255.0 - page.level);
   const std::vector<double> depths = sums(inner, depth), squares = sums(inner, depth.mul(depth));
-  const std::vector<double> grains = sums(inner, grain);
+  const std::vector<double> brights = sums(inner & (255.0 - page.level < 0.5 * page.darkness), one);
+  const std::vector<double> hearts = sums(heart, one), grains = sums(heart, inside);
   const double grainOfPaper =
       std::max(kLeastPaperGrain, cv::mean(grain, (grownMask(shaded, page.brush) == 0) & unlined)[0]);
   std::vector<std::uint8_t> isFilled(count, 0), isTorn(count, 0);
@@ -123,11 +129,11 @@ FilledAreas filledAreas(const PencilPage& page, const cv::Mat1b& shaded, const c
     const bool isDark = darkness[k] >= kMostOfLines * page.darkness * sizes[k];
     // The mean square is that of the mean and the variance.
     const bool isEven = squares[k] * inners[k] <= (1.0 + kMostUnevenFill * kMostUnevenFill) * depths[k] * depths[k];
-    if (!isWide || !isDark || !isEven || ends[k] < kFilledShare * borders[k]) continue;
+    const bool isFull = brights[k] <= kMostBrightFill * inners[k];
+    if (!isWide || !isDark || !isEven || !isFull || ends[k] < kFilledShare * borders[k]) continue;
     isFilled[k] = 255;
-    if (grains[k] > kTornGrain * grainOfPaper * inners[k]) isTorn[k] = 255;
+    if (grains[k] > kTornGrain * grainOfPaper * hearts[k]) isTorn[k] = 255;
   }
-  const cv::Mat1b dark = depth >= 0.5 * kMostOfLines * page.darkness;
   return {labelled(labels, isFilled) & dark, labelled(labels, isTorn) & dark};
 }
 
