@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-/// Of the broad ink that other tones leave: what tones full of lines may leave. Grain and hatching are lines, too.
+/// Of the broad ink that other even tones leave: what tones full of lines may leave. Grain and hatching are lines, too.
 constexpr double kLeftByFullTones = 0.6;
 
 /// [px of the copy] Without the tones: ink that a brush of this radius fits into.
@@ -33,21 +33,16 @@ double broadInkWithout(ToneAreas tones, int brush, const ToneCopy& copy, const R
 
 std::optional<ToneAreas> findShading(const ToneCopy& copy, const RunContext& context) {
   std::optional<ToneAreas> even = findToneAreas(copy, context), pencil = findPencilTones(copy, context);
-  if (context.isCancelled() || (!even && !pencil)) return std::nullopt;
-  std::optional<ToneAreas> full = findToneAreasFullOfLines(copy, context);
-  if (!full && !(even && pencil)) return even ? std::move(even) : std::move(pencil);
-  double widthPx = HUGE_VAL;
-  for (const auto* one : {&even, &pencil, &full})
-    if (*one) widthPx = std::min(widthPx, (*one)->lineWidthPx / (*one)->pixelsPerPx);
+  if (context.isCancelled()) return std::nullopt;
+  if (!even) return pencil;
+  double widthPx = even->lineWidthPx / even->pixelsPerPx;
+  if (pencil) widthPx = std::min(widthPx, pencil->lineWidthPx / pencil->pixelsPerPx);
   const int brush = static_cast<int>(std::ceil(kWiderThanLines * widthPx + 1.0));
-  const auto left = [&](const std::optional<ToneAreas>& one) {
-    return one ? broadInkWithout(*one, brush, copy, context) : HUGE_VAL;
-  };
-  const double byEven = left(even), byPencil = left(pencil);
-  if (full && left(full) <= kLeftByFullTones * std::min(byEven, byPencil))
-    even = std::move(full);
-  else if (byPencil < byEven)
-    even = std::move(pencil);
+  const auto left = [&](const ToneAreas& tones) { return broadInkWithout(tones, brush, copy, context); };
+  const double byEven = left(*even);
+  if (pencil && left(*pencil) < byEven) return context.isCancelled() ? std::nullopt : std::move(pencil);
+  std::optional<ToneAreas> full = findToneAreasFullOfLines(copy, context);
+  if (full && left(*full) <= kLeftByFullTones * byEven) even = std::move(full);
   return context.isCancelled() ? std::nullopt : std::move(even);
 }
 

@@ -9,7 +9,7 @@
 namespace batten {
 
 /// What a page is shaded with: even tones or those of a pencil, whichever leave the least ink that is broader than
-/// lines. On a shaded page tones may also be full of lines, where that leaves far less of it than the others.
+/// lines. Some of the even ones may be full of lines, where that leaves far less of it.
 /// @return Absent: nothing is shaded, or the search was cancelled.
 std::optional<ToneAreas> findShading(const ToneCopy&, const RunContext&);
 

@@ -42,6 +42,7 @@ enum class AreaKind {
 struct Area {
   AreaKind kind = AreaKind::Solid;
   cv::Mat1b bare;         ///< Of a tone: its border where that is sharp and without a line.
+  bool isFull = false;    ///< Of a tone: lines cover more of it than they leave.
   double mostGain = 0.0;  ///< Of a tone: see ToneAreas::MostGain.
 };
 
@@ -60,8 +61,8 @@ Area areaOf(const cv::Mat1b& area, const ToneLook& look, LinesOnTone most) {
   // The rim of a broad marker's stroke is darker than its inside, and is no line around a tone.
   const double mostOfLines = barePx > kUsualBare * borderPx ? kMostOfBareLines : kMostOfLines;
   if (darkness > mostOfLines * darknessQuantile(look.flat, linesOn, kLineDarknessQuantile)) return {};
-  const bool isFull = cv::countNonZero(inner & look.lines) > kMostToneGrain * cv::countNonZero(inner);
-  if (isFull && most == LinesOnTone::Some) return {};
+  found.isFull = cv::countNonZero(inner & look.lines) > kMostToneGrain * cv::countNonZero(inner);
+  if (found.isFull && most == LinesOnTone::Some) return {};
   double radius = 0.0;
   cv::Mat1f distance;
   cv::distanceTransform(area, distance, cv::DIST_L2, cv::DIST_MASK_5);
@@ -84,12 +85,17 @@ ToneLook cutTo(const ToneLook& look, const cv::Rect& box) {
 /// Areas of wide ink, parted into tones and solids.
 struct Parted {
   cv::Mat1b tones, solids;
+  cv::Mat1b full;      ///< Of the tones those that lines cover more of than they leave, without their rims.
   cv::Mat1b bare;      ///< Borders of tones that become lines.
   cv::Mat1b mostGain;  ///< Of the tones, see ToneAreas::MostGain.
   int longestPx = 0;   ///< Of the tones.
 };
+/// [px] From the middle of a line to beyond its blurred border.
+int halfLine(const ToneLook& look) { return static_cast<int>(std::ceil(0.5 * look.lineWidthPx)) + kBlurPx; }
+
 void addTone(Parted& parted, const cv::Rect& box, const cv::Mat1b& mask, const Area& area, const ToneLook& look) {
   parted.tones(box) |= mask;
+  if (area.isFull) parted.full(box) |= shrunkMask(mask, halfLine(look));
   parted.longestPx = std::max({parted.longestPx, box.width, box.height});
   // A step from tone to tone is none of the drawing's lines.
   const cv::Mat1b byPaper = area.bare & grownMask(look.ground(box) >= kFaintestGround, look.brush);
@@ -100,8 +106,9 @@ void addTone(Parted& parted, const cv::Rect& box, const cv::Mat1b& mask, const A
 Parted partedAreas(const ToneLook& look, LinesOnTone most, const RunContext& context) {
   // Black that touches a tone is no part of it.
   const cv::Size size = look.wide.size();
-  Parted parted{cv::Mat1b::zeros(size), look.wide & (look.ground < 255.0 - kDarkestTone), cv::Mat1b::zeros(size),
-                cv::Mat1b(size, 255), 0};
+  Parted parted{cv::Mat1b::zeros(size), look.wide & (look.ground < 255.0 - kDarkestTone),
+                cv::Mat1b::zeros(size), cv::Mat1b::zeros(size),
+                cv::Mat1b(size, 255),   0};
   const double mostPx = kMostPaperWindow * std::max(size.height, size.width);  // behind wider ones is no paper
   cv::Mat1i labels;
   cv::Mat stats, centres;
@@ -141,12 +148,12 @@ cv::Mat1b withFades(const Parted& parted, const ToneLook& look) {
 }
 
 /// The ground, below lines that beside them: a line along the border of a tone has tone on one side and paper on the
-/// other, and its middle must not move.
-cv::Mat1b groundBesideLines(const ToneLook& look) {
+/// other, and its middle must not move. @param between not 0 where lines lie so close that nothing is beside them.
+cv::Mat1b groundBesideLines(const ToneLook& look, const cv::Mat1b& between) {
   // A pixel lower at the borders, where the page has an edge within a pixel of the copy: brighter than paper is
   // nothing.
   const cv::Mat1b ground = shrunkMask(look.ground, 1);
-  return fromBeside(ground, grownMask(look.lines, static_cast<int>(std::ceil(0.5 * look.lineWidthPx)) + kBlurPx));
+  return fromBeside(ground, grownMask(look.lines, halfLine(look)) & (between == 0));
 }
 
 // Pixels of a page along one of the copy: its longer side is no more than 1750 pixels.
@@ -176,7 +183,7 @@ std::optional<ToneAreas> tonesWith(LinesOnTone most, const ToneCopy& copy, const
   if (context.isCancelled() || !lookAtGround(*look, context)) return std::nullopt;
   const cv::Mat1b shaded = withFades(parted, *look);
   if (context.isCancelled()) return std::nullopt;
-  cv::Mat1b ground = groundBesideLines(*look);
+  cv::Mat1b ground = groundBesideLines(*look, parted.full);
   ground.setTo(255, shaded == 0);
   if (context.isCancelled() || cv::countNonZero(ground < 255) == 0) return std::nullopt;
   areas.columns = ground.cols, areas.rows = ground.rows;

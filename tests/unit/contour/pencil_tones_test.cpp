@@ -205,6 +205,45 @@ TEST(PencilTones, WhatHatchingFillsIsOneShape) {
   }
 }
 
+/// A rectangle that upright bars fill, with faint gaps between them. @param gapPx between two bars
+Cover bars(double gapPx) {
+  constexpr double kPitchPx = 20.0;
+  Cover cover(std::ptrdiff_t{kBoxWidth} * kBoxHeight, 0.0f);
+  for (int y = static_cast<int>(kGrilleTop); y < static_cast<int>(kGrilleBottom); ++y)
+    for (int x = static_cast<int>(kGrilleLeft); x < static_cast<int>(kGrilleRight); ++x)
+      cover[std::ptrdiff_t{y} * kBoxWidth + x] = std::fmod(x - kGrilleLeft, kPitchPx) < gapPx ? 0.1f : 0.95f;
+  return cover;
+}
+
+// A car, drawn with lines close together and dark tones between them, is as dark as a filled area in the mean.
+TEST(PencilTones, WhatShowsLinesAndWhatIsBetweenIsNotFilled) {
+  for (const std::uint32_t seed : kBoxSeeds) {
+    const auto narrow = tonesOn(boxPage(0.5, 0.4, 0.28, 0.5, seed, bars(2.0)), {});
+    ASSERT_TRUE(narrow) << "seed " << seed;
+    EXPECT_TRUE(narrow->filled) << "seed " << seed;
+    const auto wide = tonesOn(boxPage(0.5, 0.4, 0.28, 0.5, seed, bars(7.0)), {});
+    ASSERT_TRUE(wide) << "seed " << seed;
+    EXPECT_FALSE(wide->filled) << "seed " << seed;
+  }
+}
+
+// Printed beside a drawing: what is black all over and ends within a pixel is not torn, and its border stays in place.
+TEST(PencilTones, ACrispSolidBesideThemIsNotFilledAgain) {
+  for (const std::uint32_t seed : kBoxSeeds) {
+    GreyImage page = shadedBox(seed);
+    constexpr auto kBlack = static_cast<std::uint16_t>(10 * GreyImage::kGreyUnit);
+    for (int y = static_cast<int>(kGrilleTop); y < static_cast<int>(kGrilleBottom); ++y)
+      std::fill(page.row(y) + static_cast<int>(kGrilleLeft), page.row(y) + static_cast<int>(kGrilleRight), kBlack);
+    const std::optional<ToneAreas> tones = tonesOn(page, {});
+    ASSERT_TRUE(tones) << "seed " << seed;
+    EXPECT_FALSE(tones->filled) << "seed " << seed;
+    const GreyImage without = withoutTones(page, *tones, {});
+    for (int x = 500; x < 620; x += 10)
+      for (const int outside : {2, 4, 6})
+        EXPECT_GT(without.level(x, static_cast<int>(kGrilleTop) - outside), 150.0) << "seed " << seed << " at " << x;
+  }
+}
+
 TEST(PencilTones, AreTheSameWithAnyNumberOfThreadsAndNotLookedForAfterACancel) {
   const GreyImage page = shadedBox(5);
   RunContext one, eight;
