@@ -2,6 +2,8 @@
 #include "core/contour/ink/ink_split.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -183,14 +185,22 @@ std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& g
   return opened;
 }
 
-// Moves what a pencil drew to the strokes or to the shapes, whole pieces at a time. @return its ink.
+// Moves what a pencil drew to the strokes or to the shapes, whole pieces at a time: to the strokes, too, where many
+// lines are joined to something solid, which pencilSolids() tells from them. @return its ink.
 BitImage movePencil(const BitImage& ink, const PencilPieces& pencil, const StrokeSplit& byPiece, InkSplit& split) {
+  constexpr double kManyLines = 40.0;  // [pens] of length
+  const double manyPx = kManyLines * std::pow(split.penPx.value_or(HUGE_VAL), 2);
   const RunPieces& pieces = pencil.pieces();
+  std::map<int, std::int64_t> strokesPx;
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i)
+    strokesPx[pieces.piece[i]] += countBits(split.strokes, pieces.runs[i]);
   BitImage drawn(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!pencil.isPencil(pieces.piece[i])) continue;
     setBits(drawn, pieces.runs[i]);
-    move(ink, pieces.runs[i], byPiece.shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
+    const bool hasLines = static_cast<double>(strokesPx[pieces.piece[i]]) >= manyPx;
+    const bool isShape = byPiece.shapes.at(pieces.runs[i].x0, pieces.runs[i].y);
+    move(ink, pieces.runs[i], isShape && !hasLines, split);
   }
   return drawn;
 }

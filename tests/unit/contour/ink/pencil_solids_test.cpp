@@ -71,6 +71,31 @@ GreyImage pencilPage(const std::vector<std::vector<Vec2>>& lines, std::uint32_t 
   return test::scanOfLines(std::move(cover), kSolidPageWidth, kSolidPageHeight, seed).grey;
 }
 
+// However large the solid is against them.
+TEST(PencilSolids, LeaveTheLinesThatAreJoinedToALargeOneStrokes) {
+  constexpr double kRadius = 100.0, kBorderPx = 8.0;
+  const auto lines = test::hatchLines(kToneCentre, 12.0, 3, 60.0, 440.0, 0.0);
+  for (const std::uint32_t seed : {2u, 3u, 5u}) {
+    const GreyImage grey = pencilPage(lines, seed, [](const Vec2& p) { return (p - kToneCentre).norm() < kRadius; });
+    const ThresholdParams params;
+    const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
+    const auto split = splitInk(ink, grey, {}, {});
+    ASSERT_TRUE(split && split->pencil);
+    int inside = 0, found = 0, astray = 0, strokes = 0;
+    for (int y = 0; y < kSolidPageHeight; ++y) {
+      for (int x = 0; x < kSolidPageWidth; ++x) {
+        const double distance = (Vec2(x + 0.5, y + 0.5) - kToneCentre).norm();
+        inside += distance < kRadius - kBorderPx ? 1 : 0;
+        found += distance < kRadius - kBorderPx && split->shapes.at(x, y) ? 1 : 0;
+        astray += distance > kRadius + kBorderPx && split->shapes.at(x, y) ? 1 : 0;
+        strokes += distance > kRadius + kBorderPx && split->strokes.at(x, y) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(found, 0.8 * inside) << "seed " << seed << ": but for its grain";
+    EXPECT_LT(astray, 0.02 * strokes) << "seed " << seed;
+  }
+}
+
 TEST(PencilSolids, ADotAloneIsFollowedByItsBorderAndSpecksAreNot) {
   constexpr double kDotRadius = 11.0;
   const std::vector<Vec2> dots = {{100, 83}, {380, 270}};
