@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -51,14 +50,13 @@ class PencilPieces {
     return found == byPiece_.end() ? page_.isPencil() : found->second.isPencil();
   }
   bool any() const { return page_.pencil > 0.0; }
-
- private:
   std::optional<int> pieceOf(const StrokePath& path) const {
     if (path.points.empty()) return std::nullopt;
     const Vec2& at = path.points[path.points.size() / 2].at;
     return pieceAt(pieces_, static_cast<int>(at.x()), static_cast<int>(at.y()));
   }
 
+ private:
   RunPieces pieces_;
   Drawn page_;
   std::map<int, Drawn> byPiece_;
@@ -185,22 +183,57 @@ std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& g
   return opened;
 }
 
+// [px] Of a path what lies in the strokes, if a pen drew it: long and of one width. Paths through grain and shading are
+// not.
+double lineOn(const BitImage& strokes, const StrokePath& path, double penPx) {
+  constexpr double kLongLine = 12.0;   // [pens]
+  constexpr double kMostUneven = 0.3;  // of its width, in the mean
+  const double widthPx = path.widthPx();
+  if (path.length() < kLongLine * penPx) return 0.0;
+  double uneven = 0.0;
+  int inStrokes = 0;
+  for (const StrokePathPoint& p : path.points) {
+    uneven += std::abs(2.0 * static_cast<double>(p.radius) - widthPx);
+    inStrokes += strokes.at(static_cast<int>(p.at.x()), static_cast<int>(p.at.y())) ? 1 : 0;
+  }
+  const auto count = static_cast<double>(path.points.size());
+  return uneven <= kMostUneven * widthPx * count ? path.length() * inStrokes / count : 0.0;
+}
+
+// Whether many lines are part of each piece, whatever they are joined to.
+class LinedPieces {
+ public:
+  LinedPieces(const PencilPieces& pencil, const InkSplit& split, double penPx) : penPx_(penPx) {
+    for (const StrokePath& path : split.known->paths)
+      if (const auto piece = pencil.pieceOf(path)) linesPx_[*piece] += lineOn(split.strokes, path, penPx);
+    const RunPieces& pieces = pencil.pieces();
+    for (std::size_t i = 0; i < pieces.runs.size(); ++i)
+      strokesPx2_[pieces.piece[i]] += static_cast<double>(countBits(split.strokes, pieces.runs[i]));
+  }
+  bool has(int piece) const {
+    constexpr double kManyPens = 20.0;    // [pens] of length
+    constexpr double kLeastLined = 0.15;  // of all that is no solid: grain and shading hold a few lines, too
+    const auto lines = linesPx_.find(piece);
+    return lines != linesPx_.end() && lines->second >= kManyPens * penPx_ &&
+           lines->second * penPx_ >= kLeastLined * strokesPx2_.at(piece);
+  }
+
+ private:
+  double penPx_;
+  std::map<int, double> linesPx_, strokesPx2_;  // [px], [px^2]
+};
+
 // Moves what a pencil drew to the strokes or to the shapes, whole pieces at a time: to the strokes, too, where many
 // lines are joined to something solid, which pencilSolids() tells from them. @return its ink.
 BitImage movePencil(const BitImage& ink, const PencilPieces& pencil, const StrokeSplit& byPiece, InkSplit& split) {
-  constexpr double kManyLines = 40.0;  // [pens] of length
-  const double manyPx = kManyLines * std::pow(split.penPx.value_or(HUGE_VAL), 2);
+  const LinedPieces lined(pencil, split, split.penPx.value_or(ink.width + ink.height));
   const RunPieces& pieces = pencil.pieces();
-  std::map<int, std::int64_t> strokesPx;
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i)
-    strokesPx[pieces.piece[i]] += countBits(split.strokes, pieces.runs[i]);
   BitImage drawn(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!pencil.isPencil(pieces.piece[i])) continue;
     setBits(drawn, pieces.runs[i]);
-    const bool hasLines = static_cast<double>(strokesPx[pieces.piece[i]]) >= manyPx;
-    const bool isShape = byPiece.shapes.at(pieces.runs[i].x0, pieces.runs[i].y);
-    move(ink, pieces.runs[i], isShape && !hasLines, split);
+    const bool isShape = byPiece.shapes.at(pieces.runs[i].x0, pieces.runs[i].y) && !lined.has(pieces.piece[i]);
+    move(ink, pieces.runs[i], isShape, split);
   }
   return drawn;
 }
