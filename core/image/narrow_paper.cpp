@@ -32,8 +32,9 @@ constexpr int kLeastPaperArea = 8;      // [px^2] two pixels of the page
 // Of a page as it is: the ink on either side lies within a stroke's width.
 constexpr double kReachWidths = 1.25;
 constexpr int kMostNarrowPx = 16;
-// [stroke widths, as thresholded] Strokes that leave less between them were often drawn over one another.
-constexpr double kLeastBetweenWidths = 1.25;
+// [stroke widths, as thresholded] Strokes that leave less between them were often drawn over one another; those of
+// letters are not.
+constexpr double kLeastBetweenWidths = 1.25, kLeastInLetters = 0.5;
 // [stroke widths] Half of what two strokes and the paper between them are broad at least, less an octagon's corners.
 constexpr double kThickWidths = 0.75;
 // Within the ink of a pencil.
@@ -213,15 +214,16 @@ BitImage withoutNarrowPaper(BitImage ink, const GreyImage& image, const PaperBac
 }
 
 BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBackground& paper, double penPx,
-                            const RunContext& context) {
+                            const RunContext& context, PaperBetween between) {
   const int reachPx = reachOf(penPx);
-  if (kLeastBetweenWidths * penPx > 2.0 * reachPx) return ink;  // wider than is looked for
+  const double leastPx = penPx * (between == PaperBetween::Letters ? kLeastInLetters : kLeastBetweenWidths);
+  if (leastPx > 2.0 * reachPx) return ink;  // wider than is looked for
   const int steps = std::max(1, static_cast<int>(kThickWidths * penPx));
   const BitImage thick = shrunken(ink, steps, context);
   if (context.isCancelled() || thick.count() == 0) return ink;
   const BitImage candidates = both(grown(thick, steps, context), ink);
   if (context.isCancelled()) return ink;
-  return opened(std::move(ink), candidates, image, paper, {reachPx, kLeastBetweenWidths * penPx}, context);
+  return opened(std::move(ink), candidates, image, paper, {reachPx, leastPx}, context);
 }
 
 BitImage clearPaper(const BitImage& ink, const GreyImage& image, const PaperBackground& paper, double penPx,

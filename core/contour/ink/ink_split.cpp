@@ -120,10 +120,14 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
 
 constexpr double kLongestWidths = 64.0;  // [pens] of a line of lettering: a dozen letters
 
+// [pens] Of letters with their tails, of a large one alone, and of the lowest.
+struct LetterSize {
+  double highest, alone, lowest;
+};
+constexpr LetterSize kPencilLetters{24.0, 16.0, 0.0}, kPenLetters{12.0, 12.0, 2.5};
+
 // The pieces that may be a line of lettering, or part of one.
-BitImage letteringOf(const BitImage& ink, double penPx, const RunContext& context) {
-  constexpr double kHighestWidths = 24.0;  // [pens] of letters with their tails
-  constexpr double kLetterWidths = 16.0;   // [pens] a large letter alone
+BitImage letteringOf(const BitImage& ink, double penPx, const LetterSize& size, const RunContext& context) {
   constexpr double kLongerThanHigh = 1.5;  // of two letters or more
   const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
   const std::vector<PieceBox> boxes = boxesOfPieces(pieces);
@@ -132,8 +136,8 @@ BitImage letteringOf(const BitImage& ink, double penPx, const RunContext& contex
     const PieceBox& box = boxes[pieces.piece[i]];
     const double longer = std::max(box.width(), box.height()) / penPx;
     const double lower = std::min(box.width(), box.height()) / penPx;
-    const bool isLine = longer <= kLongestWidths && lower <= kHighestWidths && longer >= kLongerThanHigh * lower;
-    if (isLine || longer <= kLetterWidths) setBits(lettering, pieces.runs[i]);
+    const bool isLine = longer <= kLongestWidths && lower <= size.highest && longer >= kLongerThanHigh * lower;
+    if (lower >= size.lowest && (isLine || longer <= size.alone)) setBits(lettering, pieces.runs[i]);
   }
   return lettering;
 }
@@ -143,7 +147,7 @@ BitImage letteringOf(const BitImage& ink, double penPx, const RunContext& contex
 std::optional<BitImage> paperInLettering(const BitImage& pencil, const BitImage& closed, const GreyImage& grey,
                                          const PaperBackground& sheet, double penPx, const RunContext& context) {
   const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
-  const BitImage small = either(without(BitImage(pencil), large), letteringOf(closed, penPx, context));
+  const BitImage small = either(without(BitImage(pencil), large), letteringOf(closed, penPx, kPencilLetters, context));
   BitImage paper = clearPaper(small, grey, sheet, penPx, context);
   return paper.count() > 0 ? std::optional(std::move(paper)) : std::nullopt;
 }
@@ -170,12 +174,16 @@ struct PencilClosing {
 std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& grey, const InkSplit& split,
                                          const std::optional<PencilClosing>& pencil, const PaperBackground& sheet,
                                          const RunContext& context) {
-  const BitImage strokes = both(BitImage(pencil ? pencil->pens : ink), split.strokes);
-  const BitImage open = withoutClosedPaper(strokes, grey, sheet, *split.penPx, context);
+  const BitImage& pens = pencil ? pencil->pens : ink;
+  const BitImage letters = letteringOf(pens, *split.penPx, kPenLetters, context);
+  const BitImage drawn = without(both(BitImage(pens), split.strokes), letters),
+                 strokes = either(BitImage(drawn), letters);
+  const BitImage open = either(withoutClosedPaper(drawn, grey, sheet, *split.penPx, context),
+                               withoutClosedPaper(letters, grey, sheet, *split.penPx, context, PaperBetween::Letters));
   OpenedInk opened;
   if (pencil) {
-    const BitImage drawn = without(BitImage(ink), pencil->pens);
-    opened.clear = paperInLettering(drawn, pencil->closed, grey, sheet, *split.penPx, context);
+    const BitImage ofPencil = without(BitImage(ink), pencil->pens);
+    opened.clear = paperInLettering(ofPencil, pencil->closed, grey, sheet, *split.penPx, context);
   }
   if (context.isCancelled() || (open == strokes && !opened.clear)) return std::nullopt;
   opened.ink = either(without(BitImage(ink), strokes), open);

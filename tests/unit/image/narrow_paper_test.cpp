@@ -132,6 +132,19 @@ TEST(ClosedPaper, LeavesWhatIsNarrowerThanThat) {
   EXPECT_EQ(without(page.ink, withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, {})).count(), 0);
 }
 
+// The counter of an a or an e is narrower than the pen.
+TEST(ClosedPaper, OpensHalfAStrokesWidthInLetters) {
+  const FineInk page = shadedPair(10.0);
+  ASSERT_TRUE(page.ink.at(60, 60));
+  const auto opened = [&](PaperBetween between) {
+    return withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, {}, between);
+  };
+  EXPECT_TRUE(opened(PaperBetween::Strokes).at(60, 60));
+  EXPECT_FALSE(opened(PaperBetween::Letters).at(60, 60));
+  EXPECT_TRUE(opened(PaperBetween::Letters).at(60, 55));
+  EXPECT_TRUE(opened(PaperBetween::Letters).at(60, 65));
+}
+
 TEST(ClosedPaper, LeavesATone) {
   const FineInk page = fineInkOf([](double x, double y) { return std::hypot(x - 60.0, y - 60.0) < 40.0 ? 0.3 : 0.0; });
   EXPECT_EQ(without(page.ink, withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, {})).count(), 0);
