@@ -14,6 +14,7 @@ namespace batten {
 /// the faint middle of a bar and stays. Single pixels are grain and stay, too. Unfinished when cancelled.
 BitImage withoutNarrowPaper(BitImage ink, const GreyImage&, const PaperBackground&, const RunContext&);
 
+/// What the paper lies between.
 enum class PaperBetween { Strokes, Letters };
 
 /// The same on a page as it is, for paper between the strokes of a pen that lies in their blur or in a shadow, so that

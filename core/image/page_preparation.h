@@ -34,7 +34,7 @@ enum class SheetUse {
   Off,     ///< The whole picture is the page.
 };
 
-/// What becomes of areas of tone that lines are drawn on and around (tone_areas.h, pencil_tones.h).
+/// What becomes of areas of tone that lines are drawn on and around (shading.h).
 enum class ShadingUse {
   LeaveOut,  ///< They are paper to the lines.
   Keep,      ///< They are ink as any other.

@@ -120,11 +120,12 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
 
 constexpr double kLongestWidths = 64.0;  // [pens] of a line of lettering: a dozen letters
 
-// [pens] Of letters with their tails, of a large one alone, and of the lowest.
+// [pens] Of letters with their tails, of a large one alone, of the lowest word and the lowest letter. Of a pen a line
+// drawn twice is lower than a word: two strokes and no more between them than withoutClosedPaper() opens anyway.
 struct LetterSize {
-  double highest, alone, lowest;
+  double highest, alone, lowestWord, lowest;
 };
-constexpr LetterSize kPencilLetters{24.0, 16.0, 0.0}, kPenLetters{12.0, 12.0, 2.5};
+constexpr LetterSize kPencilLetters{24.0, 16.0, 0.0, 0.0}, kPenLetters{12.0, 12.0, 3.3, 2.5};
 
 // The pieces that may be a line of lettering, or part of one.
 BitImage letteringOf(const BitImage& ink, double penPx, const LetterSize& size, const RunContext& context) {
@@ -136,8 +137,9 @@ BitImage letteringOf(const BitImage& ink, double penPx, const LetterSize& size, 
     const PieceBox& box = boxes[pieces.piece[i]];
     const double longer = std::max(box.width(), box.height()) / penPx;
     const double lower = std::min(box.width(), box.height()) / penPx;
-    const bool isLine = longer <= kLongestWidths && lower <= size.highest && longer >= kLongerThanHigh * lower;
-    if (lower >= size.lowest && (isLine || longer <= size.alone)) setBits(lettering, pieces.runs[i]);
+    const bool isLine = longer <= kLongestWidths && lower >= size.lowestWord && lower <= size.highest &&
+                        longer >= kLongerThanHigh * lower;
+    if (isLine || (longer <= size.alone && lower >= size.lowest)) setBits(lettering, pieces.runs[i]);
   }
   return lettering;
 }
@@ -191,8 +193,8 @@ std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& g
   return opened;
 }
 
-// [px] Of a path what lies in the strokes, if a pen drew it: long and of one width. Paths through grain and shading are
-// not.
+// [px] Length of a path that lies in the strokes; 0 unless it is long and of one width. Paths through grain and shading
+// are not.
 double lineOn(const BitImage& strokes, const StrokePath& path, double penPx) {
   constexpr double kLongLine = 12.0;   // [pens]
   constexpr double kMostUneven = 0.3;  // of its width, in the mean
@@ -211,9 +213,10 @@ double lineOn(const BitImage& strokes, const StrokePath& path, double penPx) {
 // Whether many lines are part of each piece, whatever they are joined to.
 class LinedPieces {
  public:
-  LinedPieces(const PencilPieces& pencil, const InkSplit& split, double penPx) : penPx_(penPx) {
+  LinedPieces(const PencilPieces& pencil, const InkSplit& split) : penPx_(split.penPx.value_or(0.0)) {
+    if (!split.penPx) return;
     for (const StrokePath& path : split.known->paths)
-      if (const auto piece = pencil.pieceOf(path)) linesPx_[*piece] += lineOn(split.strokes, path, penPx);
+      if (const auto piece = pencil.pieceOf(path)) linesPx_[*piece] += lineOn(split.strokes, path, penPx_);
     const RunPieces& pieces = pencil.pieces();
     for (std::size_t i = 0; i < pieces.runs.size(); ++i)
       strokesPx2_[pieces.piece[i]] += static_cast<double>(countBits(split.strokes, pieces.runs[i]));
@@ -234,7 +237,7 @@ class LinedPieces {
 // Moves what a pencil drew to the strokes or to the shapes, whole pieces at a time: to the strokes, too, where many
 // lines are joined to something solid, which pencilSolids() tells from them. @return its ink.
 BitImage movePencil(const BitImage& ink, const PencilPieces& pencil, const StrokeSplit& byPiece, InkSplit& split) {
-  const LinedPieces lined(pencil, split, split.penPx.value_or(ink.width + ink.height));
+  const LinedPieces lined(pencil, split);
   const RunPieces& pieces = pencil.pieces();
   BitImage drawn(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {

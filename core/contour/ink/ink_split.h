@@ -39,11 +39,11 @@ struct InkSplit {
 
 /// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one
 /// way (EdgeParams::mode); ink that the user painted is what he painted it as, and regions that he chose for follow his
-/// choice. Ink drawn with a pencil is split piece by piece (splitStrokes), and of its tones only solids far wider than
-/// its strokes are shapes.
+/// choice. Ink drawn with a pencil is split piece by piece (splitStrokes), but what many even lines are part of goes to
+/// the strokes, and of its tones only solids far wider than its strokes are shapes.
 /// @param page what an enlarged ink and grey were made of (fine_page.h), else absent.
-/// @param paper of the grey, by which paper that the strokes of a pen have closed is found (narrow_paper.h); absent:
-/// none is looked for.
+/// @param paper of the grey, by which paper that the strokes of a pen have closed is found (narrow_paper.h), in letters
+/// down to half a stroke's width; absent: none is looked for.
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const RunContext&,
                           const GreyImage* page = nullptr, const PaperBackground* paper = nullptr);
 

@@ -107,7 +107,7 @@ std::optional<PencilPage> lookAtPencil(const GreyImage& searched, const RunConte
   page.paper = std::move(thresholds.paper);
   look->flat.convertTo(page.level, CV_32F);
   page.widthPx = std::clamp(*inkPx - kInkBlurPx, kLeastLinePx, kMostLinePx);
-  page.brush = ceiled(kWiderThanLines * page.widthPx + 1.0);
+  page.brush = brushBeyondLines(page.widthPx);
   const cv::Mat1b calm = roundedTone(blurredTone(page.level, kMiddleBlur * page.widthPx));
   const cv::Mat1b thin = middle & (distance < kThinWidths * page.widthPx);
   if (cv::countNonZero(thin) < kLeastLinePixels) return std::nullopt;

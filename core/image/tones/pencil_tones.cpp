@@ -24,7 +24,7 @@ constexpr double kLeastDark = 0.375;  // of the darkness of lines, in the mean: 
 constexpr double kSharpEnd = 0.4;     // of the darkest at its border: the step within a brush; shades fade farther
 // Of the border of a filled area: it ends sharply; of its darkness: standard deviation without what is narrow.
 constexpr double kFilledShare = 0.75, kMostUnevenFill = 0.4;
-// Of a filled area: what is brighter than half of the darkness of lines. More of it shows lines and what is between.
+// Of a filled area: the share that is less than half as dark as lines. Where it is more, lines show and paper between.
 constexpr double kMostBrightFill = 0.15;
 // Mean grain inside a filled area, by that of bare paper, which is no less than the second [of 255] (paper that the
 // scanner has turned white has none): strokes show, or paper does.

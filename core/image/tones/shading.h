@@ -9,7 +9,7 @@
 namespace batten {
 
 /// What a page is shaded with: even tones or those of a pencil, whichever leave the least ink that is broader than
-/// lines. Some of the even ones may be full of lines, where that leaves far less of it.
+/// lines. Where those of a pencil do not, even ones that are full of lines are tried, too.
 /// @return Absent: nothing is shaded, or the search was cancelled.
 std::optional<ToneAreas> findShading(const ToneCopy&, const RunContext&);
 

@@ -29,7 +29,7 @@ constexpr int kBlurPx = 1;                 // that a line is blurred over its bo
 constexpr int kSolidEdgePx = 2;            // beyond a solid: its blurred edge
 constexpr std::uint8_t kFaintestGround = 247;  // [of 255] up to which an area fades
 
-/// Up to which an area is a tone.
+/// How much of a tone lines may cover.
 enum class LinesOnTone { Some, Many };
 
 enum class AreaKind {
@@ -42,7 +42,7 @@ enum class AreaKind {
 struct Area {
   AreaKind kind = AreaKind::Solid;
   cv::Mat1b bare;         ///< Of a tone: its border where that is sharp and without a line.
-  bool isFull = false;    ///< Of a tone: lines cover more of it than they leave.
+  bool isFull = false;    ///< Lines cover more than a third of it.
   double mostGain = 0.0;  ///< Of a tone: see ToneAreas::MostGain.
 };
 
@@ -62,7 +62,7 @@ Area areaOf(const cv::Mat1b& area, const ToneLook& look, LinesOnTone most) {
   const double mostOfLines = barePx > kUsualBare * borderPx ? kMostOfBareLines : kMostOfLines;
   if (darkness > mostOfLines * darknessQuantile(look.flat, linesOn, kLineDarknessQuantile)) return {};
   found.isFull = cv::countNonZero(inner & look.lines) > kMostToneGrain * cv::countNonZero(inner);
-  if (found.isFull && most == LinesOnTone::Some) return {};
+  if (found.isFull && most == LinesOnTone::Some) return found;
   double radius = 0.0;
   cv::Mat1f distance;
   cv::distanceTransform(area, distance, cv::DIST_L2, cv::DIST_MASK_5);
@@ -85,10 +85,11 @@ ToneLook cutTo(const ToneLook& look, const cv::Rect& box) {
 /// Areas of wide ink, parted into tones and solids.
 struct Parted {
   cv::Mat1b tones, solids;
-  cv::Mat1b full;      ///< Of the tones those that lines cover more of than they leave, without their rims.
+  cv::Mat1b full;      ///< Of the tones those that lines cover more than a third of, without their rims.
   cv::Mat1b bare;      ///< Borders of tones that become lines.
   cv::Mat1b mostGain;  ///< Of the tones, see ToneAreas::MostGain.
   int longestPx = 0;   ///< Of the tones.
+  bool leavesFull = false;
 };
 /// [px] From the middle of a line to beyond its blurred border.
 int halfLine(const ToneLook& look) { return static_cast<int>(std::ceil(0.5 * look.lineWidthPx)) + kBlurPx; }
@@ -106,9 +107,11 @@ void addTone(Parted& parted, const cv::Rect& box, const cv::Mat1b& mask, const A
 Parted partedAreas(const ToneLook& look, LinesOnTone most, const RunContext& context) {
   // Black that touches a tone is no part of it.
   const cv::Size size = look.wide.size();
-  Parted parted{cv::Mat1b::zeros(size), look.wide & (look.ground < 255.0 - kDarkestTone),
-                cv::Mat1b::zeros(size), cv::Mat1b::zeros(size),
-                cv::Mat1b(size, 255),   0};
+  Parted parted{.tones = cv::Mat1b::zeros(size),
+                .solids = look.wide & (look.ground < 255.0 - kDarkestTone),
+                .full = cv::Mat1b::zeros(size),
+                .bare = cv::Mat1b::zeros(size),
+                .mostGain = cv::Mat1b(size, 255)};
   const double mostPx = kMostPaperWindow * std::max(size.height, size.width);  // behind wider ones is no paper
   cv::Mat1i labels;
   cv::Mat stats, centres;
@@ -126,7 +129,10 @@ Parted partedAreas(const ToneLook& look, LinesOnTone most, const RunContext& con
     }
     const Area area = areaOf(mask, cutTo(look, box), most);
     if (area.kind == AreaKind::Tone) addTone(parted, box, mask, area, look);
-    if (area.kind == AreaKind::Solid) parted.solids(box) |= mask;
+    if (area.kind == AreaKind::Solid) {
+      parted.solids(box) |= mask;
+      parted.leavesFull |= area.isFull;
+    }
   }
   return parted;
 }
@@ -196,6 +202,7 @@ std::optional<ToneAreas> tonesWith(LinesOnTone most, const ToneCopy& copy, const
   if (cv::countNonZero(parted.bare) > 0) areas.bare.emplace(parted.bare.begin(), parted.bare.end());
   areas.lineWidthPx = look->lineWidthPx * areas.pixelsPerPx;
   areas.lineDarkness = look->lineDarkness;
+  areas.leavesFull = parted.leavesFull;
   areas.share = static_cast<double>(cv::countNonZero(ground < kClearGround)) / static_cast<double>(ground.total());
   return areas;
 }

@@ -48,6 +48,7 @@ struct ToneAreas {
   double lineWidthPx = 0.0;   ///< [px of the page] Of the lines.
   double lineDarkness = 0.0;  ///< [of 255] Of the lines.
   double share = 0.0;         ///< 0..1 of the page is clearly shaded.
+  bool leavesFull = false;    ///< An area stays ink only because lines cover much of it.
 };
 
 /// Finds areas of even tone that lines are drawn on and around, as the shading of marker or airbrush: wider than any
@@ -56,8 +57,7 @@ struct ToneAreas {
 /// so do black, and areas of hatching and of grain.
 /// @return Absent: there are none, or the search was cancelled.
 std::optional<ToneAreas> findToneAreas(const ToneCopy&, const RunContext&);
-/// The same with areas that lines cover more of than they leave: lines drawn close together, but hatching and grain,
-/// too.
+/// The same with areas that lines cover more than a third of: lines drawn close together, but hatching and grain, too.
 std::optional<ToneAreas> findToneAreasFullOfLines(const ToneCopy&, const RunContext&);
 
 }  // namespace batten

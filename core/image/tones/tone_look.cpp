@@ -61,6 +61,13 @@ GreyImage reducedPage(const GreyImage& page, int factor, const RunContext& conte
   return out;
 }
 
+int brushBeyondLines(double lineWidthPx) { return static_cast<int>(std::ceil(kWiderThanLines * lineWidthPx + 1.0)); }
+
+cv::Mat1b wideInk(const cv::Mat1b& ink, int brush) {
+  const Brush round(brush);
+  return round.raise(round.lower(ink));
+}
+
 cv::Mat1b middleLines(const cv::Mat1f& distance) {
   cv::Mat1f around;
   cv::dilate(distance, around, cv::Mat());
@@ -189,10 +196,10 @@ bool lookAtLines(ToneLook& look, const RunContext& context) {
   const std::optional<double> widthPx = widthOfLines(distance, middle);
   if (!widthPx) return false;
   look.lineWidthPx = *widthPx;
-  look.brush = static_cast<int>(std::ceil(kWiderThanLines * look.lineWidthPx + 1.0));
+  look.brush = brushBeyondLines(look.lineWidthPx);
   if (look.brush > kWidestBrush) return false;
   const Brush brush(look.brush);
-  look.wide = brush.raise(brush.lower(look.ink));
+  look.wide = wideInk(look.ink, look.brush);
   if (cv::countNonZero(look.wide) == 0 || context.isCancelled()) return false;
   const cv::Mat1b thin = middle & (grownMask(look.wide, 2) == 0);
   look.lineDarkness =

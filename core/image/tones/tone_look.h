@@ -53,6 +53,10 @@ struct ToneLook {
 std::optional<ToneLook> inkOfPage(const GreyImage&, const RunContext&, RegionThresholds* thresholds = nullptr);
 /// The brightness of a page where the paper is of another: @param paperAt grey 0..255 of the paper at a place in px.
 cv::Mat1b flattened(const GreyImage& page, const std::function<double(int x, int y)>& paperAt, const RunContext&);
+/// [px] The radius of a brush that no line of this width holds.
+int brushBeyondLines(double lineWidthPx);
+/// Ink that holds such a brush.
+cv::Mat1b wideInk(const cv::Mat1b& ink, int brush);
 /// The ink's middle lines: where the distance to paper is largest. @param distance of each pixel of ink.
 cv::Mat1b middleLines(const cv::Mat1f& distance);
 /// [px] Twice the distance to paper along middle lines, in their middle. Absent: there are none.

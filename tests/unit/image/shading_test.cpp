@@ -27,13 +27,11 @@ double insidePanel(double x, double y, double left, double right) {
 }
 
 /// A page with two shaded panels that a line is drawn around, another across the left one, and a circle on bare paper.
-/// @param fromLine of a place in the panel at the right: the distance from the lines on it, px. @param grain 0..1 of
-/// the tone at a place.
-GreyImage panels(const std::function<double(double x, double y)>& fromLine,
-                 const std::function<double(double x, double y)>& grain) {
+/// @param fromLine of a place in the panel at the right: the distance from the lines on it, px.
+GreyImage panels(const std::function<double(double x, double y)>& fromLine) {
   const auto grey = [&](double x, double y) {
     const double left = insidePanel(x, y, 120.0, 360.0), right = insidePanel(x, y, 540.0, 780.0);
-    const double tone = std::max(left, right) > 0.0 ? grain(x, y) : 0.0;
+    const double tone = std::max(left, right) > 0.0 ? 1.0 : 0.0;
     double from = std::min({std::abs(left), std::abs(right), std::abs(std::hypot(x - 60.0, y - 240.0) - 35.0)});
     if (left > 0.0) from = std::min(from, std::abs(y - 200.0));
     if (right > 0.0) from = std::min(from, fromLine(x, y));
@@ -45,7 +43,6 @@ GreyImage panels(const std::function<double(double x, double y)>& fromLine,
 }
 
 constexpr auto oneLine = [](double, double y) { return std::abs(y - 200.0); };
-constexpr auto smooth = [](double, double) { return 1.0; };
 constexpr auto shadingOn = test::tonesOn<findShading>;
 
 /// Mean grey of the panel at the right, where `isPlace` is true.
@@ -59,18 +56,18 @@ double meanAt(const GreyImage& page, const std::function<bool(int x, int y)>& is
 }
 
 TEST(Shading, OfAPlainPanelIsItsEvenTone) {
-  const GreyImage page = panels(oneLine, smooth);
+  const GreyImage page = panels(oneLine);
   const auto areas = shadingOn(page, {});
   ASSERT_TRUE(areas);
   const auto beside = [](int, int y) { return y > 210; };
   EXPECT_GT(meanAt(withoutTones(page, *areas, {}), beside), 0.9 * kPanelPaper);
 }
 
-// Lines drawn close together cover more of the tone than they leave; beside an even tone they are lines all the same.
+// Lines drawn close together cover more than a third of the tone; beside an even tone they are lines all the same.
 TEST(Shading, MayBeFullOfLinesBesideAnEvenTone) {
   constexpr int kPitchPx = 9;
   const auto toLine = [](double x, double) { return std::abs(std::remainder(x - 540.0, kPitchPx)); };
-  const GreyImage page = panels(toLine, smooth);
+  const GreyImage page = panels(toLine);
   const auto onlyEven = test::tonesOn<findToneAreas>(page, {});
   ASSERT_TRUE(onlyEven) << "the panel at the left";
   const auto between = [&](int x, int) { return toLine(x + 0.5, 0.0) > 2.5; };
@@ -86,11 +83,11 @@ TEST(Shading, MayBeFullOfLinesBesideAnEvenTone) {
 TEST(Shading, IsNotLookedForAfterACancel) {
   RunContext context;
   context.cancel.cancel();
-  EXPECT_FALSE(shadingOn(panels(oneLine, smooth), context));
+  EXPECT_FALSE(shadingOn(panels(oneLine), context));
 }
 
 TEST(Shading, IsTheSameWithAnyNumberOfThreads) {
-  const GreyImage page = panels(oneLine, smooth);
+  const GreyImage page = panels([](double x, double) { return std::abs(std::remainder(x - 540.0, 9.0)); });
   RunContext one, eight;
   one.threads = 1, eight.threads = 8;
   const auto a = shadingOn(page, one), b = shadingOn(page, eight);

@@ -42,7 +42,8 @@ bool CanvasScene::areExtremaShown() const {
 bool CanvasScene::isResultShown() const { return judgedIn(view) == Judged::Result && shapes && shapes->source.faired; }
 
 bool CanvasScene::isSelectionShown() const {
-  return (view.isVisible(Layer::Curve) || view.isVisible(Layer::Faired)) && !session.growing().isOpen();
+  const bool isResult = view.isVisible(Layer::Faired) && isResultShown();
+  return (view.isVisible(Layer::Curve) || isResult) && !session.growing().isOpen();
 }
 
 bool CanvasScene::areCombsShown() const { return view.isVisible(Layer::Comb) && !session.growing().isOpen(); }

@@ -52,7 +52,7 @@ struct CanvasScene {
   bool areExtremaShown() const;
   /// Blue is what the drawing comes to: the results where they are shown, the found lines where they are not.
   bool isResultShown() const;
-  /// A curve is on the drawing that the selected one can be told by: the sketched one or the result.
+  /// The selected curve is visible, sketched or as its result.
   bool isSelectionShown() const;
   /// A chain that grows is watched alone, without combs and marks.
   bool areCombsShown() const;

@@ -71,7 +71,7 @@ GreyImage pencilPage(const std::vector<std::vector<Vec2>>& lines, std::uint32_t 
   return test::scanOfLines(std::move(cover), kSolidPageWidth, kSolidPageHeight, seed).grey;
 }
 
-// However large the solid is against them.
+// However much larger the solid is than the lines.
 TEST(PencilSolids, LeaveTheLinesThatAreJoinedToALargeOneStrokes) {
   constexpr double kRadius = 100.0, kBorderPx = 8.0;
   const auto lines = test::hatchLines(kToneCentre, 12.0, 3, 60.0, 440.0, 0.0);
