@@ -128,9 +128,8 @@ struct LetterSize {
 constexpr LetterSize kPencilLetters{24.0, 16.0, 0.0, 0.0}, kPenLetters{12.0, 12.0, 3.3, 2.5};
 
 // The pieces that may be a line of lettering, or part of one.
-BitImage letteringOf(const BitImage& ink, double penPx, const LetterSize& size, const RunContext& context) {
+BitImage letteringOf(const RunPieces& pieces, const BitImage& ink, double penPx, const LetterSize& size) {
   constexpr double kLongerThanHigh = 1.5;  // of two letters or more
-  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
   const std::vector<PieceBox> boxes = boxesOfPieces(pieces);
   BitImage lettering(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
@@ -149,7 +148,9 @@ BitImage letteringOf(const BitImage& ink, double penPx, const LetterSize& size, 
 std::optional<BitImage> paperInLettering(const BitImage& pencil, const BitImage& closed, const GreyImage& grey,
                                          const PaperBackground& sheet, double penPx, const RunContext& context) {
   const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
-  const BitImage small = either(without(BitImage(pencil), large), letteringOf(closed, penPx, kPencilLetters, context));
+  const BitImage small =
+      either(without(BitImage(pencil), large),
+             letteringOf(findPieces(closed, Connectivity::Eight, context), closed, penPx, kPencilLetters));
   BitImage paper = clearPaper(small, grey, sheet, penPx, context);
   return paper.count() > 0 ? std::optional(std::move(paper)) : std::nullopt;
 }
@@ -172,16 +173,19 @@ struct PencilClosing {
 };
 
 // The ink with the paper open again that strokes which have run together, or lettering, have closed; absent: there is
-// none. @param pencil absent: pens drew all of it.
-std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const GreyImage& grey, const InkSplit& split,
-                                         const std::optional<PencilClosing>& pencil, const PaperBackground& sheet,
-                                         const RunContext& context) {
+// none. @param pieces of the ink. @param pencil absent: pens drew all of it.
+std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const RunPieces& pieces, const GreyImage& grey,
+                                         const InkSplit& split, const std::optional<PencilClosing>& pencil,
+                                         const PaperBackground& sheet, const RunContext& context) {
   const BitImage& pens = pencil ? pencil->pens : ink;
-  const BitImage letters = letteringOf(pens, *split.penPx, kPenLetters, context);
-  const BitImage drawn = without(both(BitImage(pens), split.strokes), letters),
-                 strokes = either(BitImage(drawn), letters);
-  const BitImage open = either(withoutClosedPaper(drawn, grey, sheet, *split.penPx, context),
-                               withoutClosedPaper(letters, grey, sheet, *split.penPx, context, PaperBetween::Letters));
+  const BitImage letters = both(letteringOf(pieces, ink, *split.penPx, kPenLetters), pens);
+  const BitImage drawn = without(both(BitImage(pens), split.strokes), letters);
+  BitImage open = withoutClosedPaper(drawn, grey, sheet, *split.penPx, context), strokes = drawn;
+  if (letters.count() > 0) {
+    open =
+        either(std::move(open), withoutClosedPaper(letters, grey, sheet, *split.penPx, context, PaperBetween::Letters));
+    strokes = either(std::move(strokes), letters);
+  }
   OpenedInk opened;
   if (pencil) {
     const BitImage ofPencil = without(BitImage(ink), pencil->pens);
@@ -274,7 +278,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
       if (!closed) return fail(closed.error());
       closing = PencilClosing{std::move(pens), std::move(*closed)};
     }
-    auto opened = withPaperOpened(ink, grey, split, closing, *paper.sheet, context);
+    auto opened = withPaperOpened(ink, pencil.pieces(), grey, split, closing, *paper.sheet, context);
     if (context.isCancelled()) return cancelled();
     const bool isOther = opened && opened->ink != ink;  // else only what the closing would fill stays open
     if (isOther) return splitByLabel(opened->ink, grey, params, page, {nullptr, std::move(opened->clear)}, context);
