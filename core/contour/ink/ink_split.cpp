@@ -127,18 +127,20 @@ struct LetterSize {
 };
 constexpr LetterSize kPencilLetters{24.0, 16.0, 0.0, 0.0}, kPenLetters{12.0, 12.0, 3.3, 2.5};
 
-// The pieces that may be a line of lettering, or part of one.
+// The pieces that may be a line of lettering, or part of one; an empty image where there are none.
 BitImage letteringOf(const RunPieces& pieces, const BitImage& ink, double penPx, const LetterSize& size) {
   constexpr double kLongerThanHigh = 1.5;  // of two letters or more
   const std::vector<PieceBox> boxes = boxesOfPieces(pieces);
-  BitImage lettering(ink.width, ink.height);
+  BitImage lettering;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const PieceBox& box = boxes[pieces.piece[i]];
     const double longer = std::max(box.width(), box.height()) / penPx;
     const double lower = std::min(box.width(), box.height()) / penPx;
     const bool isLine = longer <= kLongestWidths && lower >= size.lowestWord && lower <= size.highest &&
                         longer >= kLongerThanHigh * lower;
-    if (isLine || (longer <= size.alone && lower >= size.lowest)) setBits(lettering, pieces.runs[i]);
+    if (!isLine && !(longer <= size.alone && lower >= size.lowest)) continue;
+    if (lettering.width == 0) lettering = BitImage(ink.width, ink.height);
+    setBits(lettering, pieces.runs[i]);
   }
   return lettering;
 }
@@ -148,9 +150,10 @@ BitImage letteringOf(const RunPieces& pieces, const BitImage& ink, double penPx,
 std::optional<BitImage> paperInLettering(const BitImage& pencil, const BitImage& closed, const GreyImage& grey,
                                          const PaperBackground& sheet, double penPx, const RunContext& context) {
   const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
-  const BitImage small =
-      either(without(BitImage(pencil), large),
-             letteringOf(findPieces(closed, Connectivity::Eight, context), closed, penPx, kPencilLetters));
+  BitImage small = without(BitImage(pencil), large);
+  const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
+  if (const BitImage letters = letteringOf(pieces, closed, penPx, kPencilLetters); letters.width > 0)
+    small = either(std::move(small), letters);
   BitImage paper = clearPaper(small, grey, sheet, penPx, context);
   return paper.count() > 0 ? std::optional(std::move(paper)) : std::nullopt;
 }
@@ -178,10 +181,14 @@ std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const RunPieces& p
                                          const InkSplit& split, const std::optional<PencilClosing>& pencil,
                                          const PaperBackground& sheet, const RunContext& context) {
   const BitImage& pens = pencil ? pencil->pens : ink;
-  const BitImage letters = both(letteringOf(pieces, ink, *split.penPx, kPenLetters), pens);
-  const BitImage drawn = without(both(BitImage(pens), split.strokes), letters);
-  BitImage open = withoutClosedPaper(drawn, grey, sheet, *split.penPx, context), strokes = drawn;
-  if (letters.count() > 0) {
+  BitImage strokes = both(BitImage(pens), split.strokes), letters = letteringOf(pieces, ink, *split.penPx, kPenLetters);
+  const bool hasLetters = letters.width > 0;
+  if (hasLetters) {
+    letters = both(std::move(letters), pens);
+    strokes = without(std::move(strokes), letters);
+  }
+  BitImage open = withoutClosedPaper(strokes, grey, sheet, *split.penPx, context);
+  if (hasLetters) {
     open =
         either(std::move(open), withoutClosedPaper(letters, grey, sheet, *split.penPx, context, PaperBetween::Letters));
     strokes = either(std::move(strokes), letters);
