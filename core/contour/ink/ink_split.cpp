@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/junction/find_stroke_paths.h"
@@ -127,20 +129,27 @@ struct LetterSize {
 };
 constexpr LetterSize kPencilLetters{24.0, 16.0, 0.0, 0.0}, kPenLetters{12.0, 12.0, 3.3, 2.5};
 
-// The pieces that may be a line of lettering, or part of one; an empty image where there are none.
-BitImage letteringOf(const RunPieces& pieces, const BitImage& ink, double penPx, const LetterSize& size) {
+bool mayBeLettering(const PieceBox& box, double penPx, const LetterSize& size) {
   constexpr double kLongerThanHigh = 1.5;  // of two letters or more
+  const double longer = std::max(box.width(), box.height()) / penPx;
+  const double lower = std::min(box.width(), box.height()) / penPx;
+  const bool isLine = longer <= kLongestWidths && lower >= size.lowestWord && lower <= size.highest &&
+                      longer >= kLongerThanHigh * lower;
+  return isLine || (longer <= size.alone && lower >= size.lowest);
+}
+
+// The pieces that may be a line of lettering, or part of one; absent: there are none.
+std::optional<BitImage> letteringOf(const RunPieces& pieces, const BitImage& ink, double penPx,
+                                    const LetterSize& size) {
   const std::vector<PieceBox> boxes = boxesOfPieces(pieces);
-  BitImage lettering;
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const PieceBox& box = boxes[pieces.piece[i]];
-    const double longer = std::max(box.width(), box.height()) / penPx;
-    const double lower = std::min(box.width(), box.height()) / penPx;
-    const bool isLine = longer <= kLongestWidths && lower >= size.lowestWord && lower <= size.highest &&
-                        longer >= kLongerThanHigh * lower;
-    if (!isLine && !(longer <= size.alone && lower >= size.lowest)) continue;
-    if (lettering.width == 0) lettering = BitImage(ink.width, ink.height);
-    setBits(lettering, pieces.runs[i]);
+  std::vector<bool> isLettering(boxes.size(), false);
+  std::optional<BitImage> lettering;
+  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
+    const int first = pieces.piece[i];
+    if (first == i) isLettering[i] = mayBeLettering(boxes[i], penPx, size);
+    if (!isLettering[first]) continue;
+    if (!lettering) lettering.emplace(ink.width, ink.height);
+    setBits(*lettering, pieces.runs[i]);
   }
   return lettering;
 }
@@ -152,8 +161,8 @@ std::optional<BitImage> paperInLettering(const BitImage& pencil, const BitImage&
   const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
   BitImage small = without(BitImage(pencil), large);
   const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
-  if (const BitImage letters = letteringOf(pieces, closed, penPx, kPencilLetters); letters.width > 0)
-    small = either(std::move(small), letters);
+  if (const auto letters = letteringOf(pieces, closed, penPx, kPencilLetters))
+    small = either(std::move(small), *letters);
   BitImage paper = clearPaper(small, grey, sheet, penPx, context);
   return paper.count() > 0 ? std::optional(std::move(paper)) : std::nullopt;
 }
@@ -181,17 +190,17 @@ std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const RunPieces& p
                                          const InkSplit& split, const std::optional<PencilClosing>& pencil,
                                          const PaperBackground& sheet, const RunContext& context) {
   const BitImage& pens = pencil ? pencil->pens : ink;
-  BitImage strokes = both(BitImage(pens), split.strokes), letters = letteringOf(pieces, ink, *split.penPx, kPenLetters);
-  const bool hasLetters = letters.width > 0;
-  if (hasLetters) {
-    letters = both(std::move(letters), pens);
-    strokes = without(std::move(strokes), letters);
+  BitImage strokes = both(BitImage(pens), split.strokes);
+  std::optional<BitImage> letters = letteringOf(pieces, ink, *split.penPx, kPenLetters);
+  if (letters) {
+    letters = both(std::move(*letters), pens);
+    strokes = without(std::move(strokes), *letters);
   }
   BitImage open = withoutClosedPaper(strokes, grey, sheet, *split.penPx, context);
-  if (hasLetters) {
-    open =
-        either(std::move(open), withoutClosedPaper(letters, grey, sheet, *split.penPx, context, PaperBetween::Letters));
-    strokes = either(std::move(strokes), letters);
+  if (letters) {
+    strokes = either(std::move(strokes), *letters);
+    open = either(std::move(open),
+                  withoutClosedPaper(std::move(*letters), grey, sheet, *split.penPx, context, PaperBetween::Letters));
   }
   OpenedInk opened;
   if (pencil) {
@@ -209,8 +218,8 @@ std::optional<OpenedInk> withPaperOpened(const BitImage& ink, const RunPieces& p
 double lineOn(const BitImage& strokes, const StrokePath& path, double penPx) {
   constexpr double kLongLine = 12.0;   // [pens]
   constexpr double kMostUneven = 0.3;  // of its width, in the mean
-  const double widthPx = path.widthPx();
   if (path.length() < kLongLine * penPx) return 0.0;
+  const double widthPx = path.widthPx();
   double uneven = 0.0;
   int inStrokes = 0;
   for (const StrokePathPoint& p : path.points) {
@@ -221,40 +230,36 @@ double lineOn(const BitImage& strokes, const StrokePath& path, double penPx) {
   return uneven <= kMostUneven * widthPx * count ? path.length() * inStrokes / count : 0.0;
 }
 
-// Whether many lines are part of each piece, whatever they are joined to.
-class LinedPieces {
- public:
-  LinedPieces(const PencilPieces& pencil, const InkSplit& split) : penPx_(split.penPx.value_or(0.0)) {
-    if (!split.penPx) return;
-    for (const StrokePath& path : split.known->paths)
-      if (const auto piece = pencil.pieceOf(path)) linesPx_[*piece] += lineOn(split.strokes, path, penPx_);
-    const RunPieces& pieces = pencil.pieces();
-    for (std::size_t i = 0; i < pieces.runs.size(); ++i)
-      strokesPx2_[pieces.piece[i]] += static_cast<double>(countBits(split.strokes, pieces.runs[i]));
-  }
-  bool has(int piece) const {
-    constexpr double kManyPens = 20.0;    // [pens] of length
-    constexpr double kLeastLined = 0.15;  // of all that is no solid: grain and shading hold a few lines, too
-    const auto lines = linesPx_.find(piece);
-    return lines != linesPx_.end() && lines->second >= kManyPens * penPx_ &&
-           lines->second * penPx_ >= kLeastLined * strokesPx2_.at(piece);
-  }
-
- private:
-  double penPx_;
-  std::map<int, double> linesPx_, strokesPx2_;  // [px], [px^2]
-};
+// For the first run of every piece, whether many lines are part of it, whatever they are joined to.
+std::vector<bool> linedPieces(const PencilPieces& pencil, const InkSplit& split) {
+  constexpr double kManyPens = 20.0;    // [pens] of length
+  constexpr double kLeastLined = 0.15;  // of all that is no solid: grain and shading hold a few lines, too
+  const RunPieces& pieces = pencil.pieces();
+  std::vector<bool> isLined(pieces.runs.size(), false);
+  if (!split.penPx) return isLined;
+  const double penPx = *split.penPx;
+  std::vector<double> linesPx(pieces.runs.size(), 0.0);
+  std::vector<std::int64_t> strokesPx2(pieces.runs.size(), 0);
+  for (const StrokePath& path : split.known->paths)
+    if (const auto piece = pencil.pieceOf(path)) linesPx[*piece] += lineOn(split.strokes, path, penPx);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i)
+    strokesPx2[pieces.piece[i]] += countBits(split.strokes, pieces.runs[i]);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i)
+    isLined[i] =
+        linesPx[i] >= kManyPens * penPx && linesPx[i] * penPx >= kLeastLined * static_cast<double>(strokesPx2[i]);
+  return isLined;
+}
 
 // Moves what a pencil drew to the strokes or to the shapes, whole pieces at a time: to the strokes, too, where many
 // lines are joined to something solid, which pencilSolids() tells from them. @return its ink.
 BitImage movePencil(const BitImage& ink, const PencilPieces& pencil, const StrokeSplit& byPiece, InkSplit& split) {
-  const LinedPieces lined(pencil, split);
+  const std::vector<bool> isLined = linedPieces(pencil, split);
   const RunPieces& pieces = pencil.pieces();
   BitImage drawn(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!pencil.isPencil(pieces.piece[i])) continue;
     setBits(drawn, pieces.runs[i]);
-    const bool isShape = byPiece.shapes.at(pieces.runs[i].x0, pieces.runs[i].y) && !lined.has(pieces.piece[i]);
+    const bool isShape = byPiece.shapes.at(pieces.runs[i].x0, pieces.runs[i].y) && !isLined[pieces.piece[i]];
     move(ink, pieces.runs[i], isShape, split);
   }
   return drawn;

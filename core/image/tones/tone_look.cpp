@@ -18,12 +18,13 @@
 namespace batten {
 namespace {
 
-constexpr double kDarkCell = 0.9;    // of the paper near by: a cell that is darker all over
-constexpr int kNearCells = 4;        // within which tones end somewhere, and slow changes of the paper are small
-constexpr int kWidestBrush = 30;     // [px] a drawing of broader strokes has no lines that tones lie between
-constexpr double kLinesDark = 0.6;   // quantile of the darkness of lines: the ends are faint
-constexpr double kLineDepth = 0.25;  // of that: what is darker than its ground by so much is line
-constexpr double kLongLine = 5.0;    // [line widths] shorter ones are grain
+constexpr double kWiderThanLines = 1.25;  // [line widths] half the width of a brush that no line holds
+constexpr double kDarkCell = 0.9;         // of the paper near by: a cell that is darker all over
+constexpr int kNearCells = 4;             // within which tones end somewhere, and slow changes of the paper are small
+constexpr int kWidestBrush = 30;          // [px] a drawing of broader strokes has no lines that tones lie between
+constexpr double kLinesDark = 0.6;        // quantile of the darkness of lines: the ends are faint
+constexpr double kLineDepth = 0.25;       // of that: what is darker than its ground by so much is line
+constexpr double kLongLine = 5.0;         // [line widths] shorter ones are grain
 
 /// A brush: an octagon of nearly `radius`, made of a square and a diamond, which are fast.
 struct Brush {

@@ -14,7 +14,6 @@
 namespace batten {
 
 inline constexpr int kToneCellPx = 8;              // side of the cells of the first look: wider than a line
-inline constexpr double kWiderThanLines = 1.25;    // [line widths] half the width of a brush that no line holds
 inline constexpr int kLeastLinePixels = 50;        // of middle lines, to tell how dark lines are
 inline constexpr double kDarkestTone = 190.0;      // [of 255] darkness on which nothing darker could be drawn
 inline constexpr double kMostOfLines = 0.85;       // of the darkness of the lines on it: what is as dark is a solid

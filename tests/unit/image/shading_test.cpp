@@ -43,6 +43,7 @@ GreyImage panels(const std::function<double(double x, double y)>& fromLine) {
 }
 
 constexpr auto oneLine = [](double, double y) { return std::abs(y - 200.0); };
+constexpr auto denseLines = [](double x, double) { return std::abs(std::remainder(x - 540.0, 9.0)); };
 constexpr auto shadingOn = test::tonesOn<findShading>;
 
 /// Mean grey of the panel at the right, where `isPlace` is true.
@@ -65,13 +66,11 @@ TEST(Shading, OfAPlainPanelIsItsEvenTone) {
 
 // Lines drawn close together cover more than a third of the tone; beside an even tone they are lines all the same.
 TEST(Shading, MayBeFullOfLinesBesideAnEvenTone) {
-  constexpr int kPitchPx = 9;
-  const auto toLine = [](double x, double) { return std::abs(std::remainder(x - 540.0, kPitchPx)); };
-  const GreyImage page = panels(toLine);
+  const GreyImage page = panels(denseLines);
   const auto onlyEven = test::tonesOn<findToneAreas>(page, {});
   ASSERT_TRUE(onlyEven) << "the panel at the left";
-  const auto between = [&](int x, int) { return toLine(x + 0.5, 0.0) > 2.5; };
-  const auto onLine = [&](int x, int) { return toLine(x + 0.5, 0.0) < 0.6; };
+  const auto between = [&](int x, int) { return denseLines(x + 0.5, 0.0) > 2.5; };
+  const auto onLine = [&](int x, int) { return denseLines(x + 0.5, 0.0) < 0.6; };
   EXPECT_LT(meanAt(withoutTones(page, *onlyEven, {}), between), 0.7 * kPanelPaper);
   const auto areas = shadingOn(page, {});
   ASSERT_TRUE(areas);
@@ -87,7 +86,7 @@ TEST(Shading, IsNotLookedForAfterACancel) {
 }
 
 TEST(Shading, IsTheSameWithAnyNumberOfThreads) {
-  const GreyImage page = panels([](double x, double) { return std::abs(std::remainder(x - 540.0, 9.0)); });
+  const GreyImage page = panels(denseLines);
   RunContext one, eight;
   one.threads = 1, eight.threads = 8;
   const auto a = shadingOn(page, one), b = shadingOn(page, eight);
