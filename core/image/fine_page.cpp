@@ -56,7 +56,8 @@ ThresholdParams finer(ThresholdParams params) {
 }
 
 FilterParams finer(FilterParams params) {
-  params.maxChangePx = std::min(params.maxChangePx * kFineArea, kMostChangePx);
+  const int noise = std::min(params.maxChangePx, FilterParams{}.maxChangePx);
+  params.maxChangePx = std::min(noise + kFineArea * (params.maxChangePx - noise), kMostChangePx);
   return params;
 }
 

@@ -14,6 +14,7 @@
 #include "core/contour/centreline/junction/find_stroke_paths.h"
 #include "core/contour/centreline/pencil/grain_closing.h"
 #include "core/contour/centreline/pencil/graininess.h"
+#include "core/contour/centreline/pencil/lettering.h"
 #include "core/contour/centreline/pencil/stroke_split.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink/painted_ink.h"
@@ -120,45 +121,11 @@ BitImage penInk(const BitImage& ink, const PencilPieces& pencil) {
   return pen;
 }
 
-constexpr double kLongestWidths = 64.0;  // [pens] of a line of lettering: a dozen letters
-
-// [pens] Of letters with their tails, of a large one alone, of the lowest word and the lowest letter. Of a pen a line
-// drawn twice is lower than a word: two strokes and no more between them than withoutClosedPaper() opens anyway.
-struct LetterSize {
-  double highest, alone, lowestWord, lowest;
-};
-constexpr LetterSize kPencilLetters{24.0, 16.0, 0.0, 0.0}, kPenLetters{12.0, 12.0, 3.3, 2.5};
-
-bool mayBeLettering(const PieceBox& box, double penPx, const LetterSize& size) {
-  constexpr double kLongerThanHigh = 1.5;  // of two letters or more
-  const double longer = std::max(box.width(), box.height()) / penPx;
-  const double lower = std::min(box.width(), box.height()) / penPx;
-  const bool isLine = longer <= kLongestWidths && lower >= size.lowestWord && lower <= size.highest &&
-                      longer >= kLongerThanHigh * lower;
-  return isLine || (longer <= size.alone && lower >= size.lowest);
-}
-
-// The pieces that may be a line of lettering, or part of one; absent: there are none.
-std::optional<BitImage> letteringOf(const RunPieces& pieces, const BitImage& ink, double penPx,
-                                    const LetterSize& size) {
-  const std::vector<PieceBox> boxes = boxesOfPieces(pieces);
-  std::vector<bool> isLettering(boxes.size(), false);
-  std::optional<BitImage> lettering;
-  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
-    const int first = pieces.piece[i];
-    if (first == i) isLettering[i] = mayBeLettering(boxes[i], penPx, size);
-    if (!isLettering[first]) continue;
-    if (!lettering) lettering.emplace(ink.width, ink.height);
-    setBits(*lettering, pieces.runs[i]);
-  }
-  return lettering;
-}
-
 // Of what a pencil drew, the paper within pieces no larger than a line of lettering, and within lettering that which
 // the closing of its grain fills; absent: there is none.
 std::optional<BitImage> paperInLettering(const BitImage& pencil, const BitImage& closed, const GreyImage& grey,
                                          const PaperBackground& sheet, double penPx, const RunContext& context) {
-  const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestWidths * penPx}, context);
+  const BitImage large = keepPieces(pencil, {.minDiagonal = kLongestLettering * penPx}, context);
   BitImage small = without(BitImage(pencil), large);
   const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
   if (const auto letters = letteringOf(pieces, closed, penPx, kPencilLetters))

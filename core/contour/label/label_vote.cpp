@@ -29,7 +29,7 @@ constexpr double kLeastBroadPx = 4.5;  // of the page: below it the grid of pixe
 constexpr double kNarrowPens = 3.0;  // [least broad pens]
 constexpr double kLeastByDirection = 0.4;
 constexpr double kUnevenHandwriting = 0.2;  // a pen never leaves more unexplained: such letters were filled in
-constexpr double kSlenderWidths = 8.0;      // [pen widths] of the size of letters
+constexpr double kSlenderWidths = 4.0;      // [pen widths] of the size of letters
 constexpr int kLeastVoters = 5;             // pieces: fewer are no lettering
 // Of the letters of an alphabet two in five to half are one line (C, I, L, S, Z); strokes that thin out are, all of
 // them.

@@ -10,6 +10,9 @@ namespace batten {
 
 /// Of ink in [specks and holes per stroke width]: a pen leaves up to .06, a dry brush, pencil or charcoal .12 to .35.
 constexpr double kTornInk = 0.1;
+/// A part of the ink with more is not taken as whole: half-way from a pen's to a pencil's. For the page as a whole a
+/// mistake costs less.
+constexpr double kWholeInk = 0.08;
 /// [widths of torn ink, half that of its strokes] More smoothing rounds strokes off.
 constexpr double kSmoothingPerWidth = 0.45;
 

@@ -14,9 +14,6 @@ namespace batten {
 namespace {
 
 constexpr int kRing = 3;  // [px] how far the weaker level shows beside the ink
-/// [specks and holes per stroke width] Ink with more is not taken as whole: half-way from a pen's to a pencil's
-/// (kTornInk tells them for the page as a whole, where a mistake costs less).
-constexpr double kWholeInk = 0.08;
 constexpr double kCellWidths = 40.0;  // side of a cell in stroke widths: about a word
 constexpr int kLeastCell = 8;         // [px]
 

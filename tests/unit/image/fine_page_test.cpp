@@ -122,5 +122,28 @@ TEST(FinePage, FillsTheHolesThatThePageFills) {
   }
 }
 
+/// The paper between the strokes of small letters is no larger than what the neighbourhood filter takes for noise on
+/// the page; on the fine page it stays open.
+TEST(FinePage, KeepsTheBaysOfSmallLettersOpen) {
+  GreyImage grey = pageWithLine(2.0, 120.0);
+  constexpr double kPitch = 4.4, kStroke = 2.0, kTop = 30.3, kHigh = 5.0;
+  const auto step = [](double x) { return 0.5 * std::erfc(-x / (std::sqrt(2.0) * 0.7)); };
+  for (int y = 20; y < 50; ++y) {
+    for (int x = 30; x < 210; ++x) {
+      const double off = std::abs(std::remainder(x + 0.5 - 40.0, kPitch));
+      const double tooth = step(0.5 * kStroke - off) * step(y + 0.5 - kTop) * step(kTop + kHigh - y - 0.5);
+      const double foot = step(0.5 * kStroke - std::abs(y + 0.5 - kTop - kHigh));
+      grey.row(y)[x] = static_cast<std::uint16_t>((230.0 - 120.0 * std::max(tooth, foot)) * GreyImage::kGreyUnit);
+    }
+  }
+  const BitImage ink = inkOfLinePage(grey);
+  const auto fine = finePage(grey, ink, {}, {});
+  ASSERT_TRUE(fine && *fine);
+  int open = 0, bays = 0;
+  for (double x = 40.0 + 2.5 * kPitch; x < 200.0; x += kPitch, ++bays)
+    open += (*fine)->ink.at(static_cast<int>(kFineFactor * x), static_cast<int>(kFineFactor * (kTop + 1.0))) ? 0 : 1;
+  EXPECT_EQ(open, bays);
+}
+
 }  // namespace
 }  // namespace batten

@@ -5,9 +5,13 @@
 #include <bit>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/contour/centreline/pencil/lettering.h"
+#include "core/image/bits/bit_steps.h"
 #include "core/image/bits/ink_grain.h"
 #include "core/image/bits/ink_holes.h"
 #include "core/image/bits/run_pieces.h"
@@ -69,6 +73,41 @@ void fillNarrowHoles(BitImage& ink, double limitPx, const RunContext& context) {
   }
 }
 
+// For the first run of every piece of `closed` what the ink in it is torn by.
+std::vector<InkCounts> countsOfPieces(const RunPieces& closed, const BitImage& ink, const RunContext& context) {
+  const BitImage border = without(ink, shrunken(ink, 1, context));
+  std::vector<InkCounts> counts(closed.runs.size());
+  for (std::size_t i = 0; i < closed.runs.size(); ++i)
+    counts[closed.piece[i]].add({countBits(ink, closed.runs[i]), countBits(border, closed.runs[i])});
+  const auto addSmall = [&](const RunPieces& parts) {
+    const std::vector<std::int64_t> area = areasOfPieces(parts);
+    for (std::size_t i = 0; i < parts.runs.size(); ++i) {
+      const auto piece = area[i] > 0 ? pieceAt(closed, parts.runs[i].x0, parts.runs[i].y) : std::nullopt;
+      if (!piece || counts[*piece].border == 0) continue;
+      const double widthPx = counts[*piece].widthPx();
+      if (static_cast<double>(area[i]) < widthPx * widthPx) ++counts[*piece].small;
+    }
+  };
+  addSmall(findPieces(ink, Connectivity::Eight, context));
+  addSmall(findPieces(paperOf(ink), Connectivity::Four, context));
+  return counts;
+}
+
+// The strokes of small lettering lie no farther apart than the specks of a pencil: where none tear it, it is as it was.
+BitImage withWholeLetters(BitImage closed, const BitImage& ink, double widthPx, const RunContext& context) {
+  const RunPieces pieces = findPieces(closed, Connectivity::Eight, context);
+  const std::vector<PieceBox> boxes = boxesOfPieces(pieces);
+  const std::vector<InkCounts> counts = countsOfPieces(pieces, ink, context);
+  if (context.isCancelled()) return closed;
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const int piece = pieces.piece[i];
+    if (!mayBeLettering(boxes[piece], widthPx, kPencilLetters) || counts[piece].grain() > kWholeInk) continue;
+    clearBits(closed, pieces.runs[i]);
+    copyBits(ink, pieces.runs[i], closed);
+  }
+  return closed;
+}
+
 }  // namespace
 
 BitImage closeInk(const BitImage& ink, double diameterPx, const RunContext& context) {
@@ -91,7 +130,9 @@ double grainClosing(double widthPx) {
 BitImage closeGrain(const BitImage& ink, double widthPx, bool isFinePage, const RunContext& context) {
   constexpr double kLeastTorn = 0.003;  // a speck or a hole in 333 widths of stroke
   if (isFinePage && measureGrain(ink, context).perWidth < kLeastTorn) return ink;
-  return closeInk(ink, grainClosing(widthPx), context);
+  BitImage closed = closeInk(ink, grainClosing(widthPx), context);
+  if (!isFinePage || context.isCancelled()) return closed;
+  return withWholeLetters(std::move(closed), ink, widthPx, context);
 }
 
 BitImage mostlyInk(const BitImage& closed, const BitImage& ink, double share, const RunContext& context) {

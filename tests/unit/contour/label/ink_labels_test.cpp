@@ -251,24 +251,35 @@ TEST(InkLabels, AnAlphabetGetsOneTreatment) {
   }
 }
 
-// A marker of 7 px whose line swells and thins out as it runs, whatever its direction: handwriting, and no nib.
-TEST(InkLabels, UnevenHandwritingIsStrokes) {
+// Letters of a marker whose line swells and thins out as it runs, whatever its direction: handwriting, and no nib.
+// @param size of the letters, in those of 60 px.
+test::LabelPage unevenHandwriting(double size, double leastPx, double mostPx) {
   test::LabelPage page(900, 500);
   page.begin(false);
   for (int i = 0; i < 27; ++i) {
-    const double x = 50.0 + 95.0 * (i % 9), y = 40.0 + 150.0 * (i / 9);
-    const std::vector<Vec2> letter = {{x, y}, {x + 12, y + 60}, {x + 40, y + 60}, {x + 46, y + 25}, {x + 14, y + 24}};
-    page.line(segment({x + 26, y + 60}, {x + 30, y + 90}), 7.0);
+    const Vec2 origin(50.0 + 95.0 * (i % 9), 40.0 + 150.0 * (i / 9));
+    const auto placed = [&](double x, double y) { return Vec2(origin + size * Vec2(x, y)); };
+    const std::vector<Vec2> letter = {placed(0, 0), placed(12, 60), placed(40, 60), placed(46, 25), placed(14, 24)};
+    page.line(segment(placed(26, 60), placed(30, 90)), 0.5 * (leastPx + mostPx));
     int swing = i;
     for (std::size_t k = 1; k < letter.size(); ++k) {
       for (double from = 0.0; from < 1.0; from += 0.5) {
         const auto at = [&](double f) { return Vec2(letter[k - 1] + f * (letter[k] - letter[k - 1])); };
         const bool isSwelling = ++swing % 2 == 0;
-        page.line(segment(at(from), at(from + 0.5)), isSwelling ? 4.5 : 10.5, isSwelling ? 10.5 : 4.5);
+        page.line(segment(at(from), at(from + 0.5)), isSwelling ? leastPx : mostPx, isSwelling ? mostPx : leastPx);
       }
     }
   }
-  EXPECT_LT(shareOfShapes(labelsOf(page.ink(4))), 0.01);
+  return page;
+}
+
+TEST(InkLabels, UnevenHandwritingIsStrokes) {
+  EXPECT_LT(shareOfShapes(labelsOf(unevenHandwriting(1.0, 4.5, 10.5).ink(4))), 0.01);
+}
+
+// Of letters about five pens high.
+TEST(InkLabels, SmallUnevenHandwritingIsStrokes) {
+  EXPECT_LT(shareOfShapes(labelsOf(unevenHandwriting(0.5, 3.0, 9.0).ink(4))), 0.01);
 }
 
 // Letters of a felt pen above words of a fine pen, of about their size; where lines of a word meet, a disc fits in that
