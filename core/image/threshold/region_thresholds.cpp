@@ -167,7 +167,7 @@ bool isPaperSeen(const Plane& grey, const PaperEstimate& estimate) {
 /// Thresholds against the paper.
 struct AgainstPaper {
   RegionThresholds thresholds;
-  bool isPaperSeen = true;  ///< False: hardly any paper lies free of lines, and its brightness is a guess.
+  bool isPaperSeen = true;  ///< False: hardly any paper lies free of lines, and its brightness or noise is a guess.
   bool isMean = false;      ///< What was taken for paper is a mean over lines and paper, see variesMoreThanLines.
 };
 
@@ -180,13 +180,14 @@ AgainstPaper flattenedThresholds(const Plane& grey, const InkEdges& edges, int s
   PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
   Depths depths;
   double roomPx = kSmoothings.back();
-  bool isFirst = true;
+  bool isFirst = true, standsOut = false;
   for (const double q : kSmoothings) {
     if (q > roomPx || context.isCancelled()) break;
     const std::vector<float> kernel = gaussianKernel(remainingVariance(q * q, shrink));
     depths = measureDepths(grey, edges, estimate, shrink, kernel, context);
     out.smoothingPx = q;
     if (std::fabs(depths.mean) < kContrastPerNoise * depths.noise) continue;
+    standsOut = true;
     contrasts = contrastsOf(grey, edges, depths, 1.0);
     const InkGrain grain =
         measureGrain(inkOfPlane({grey, estimate.paper, contrasts.contrast, shrink}, kernel, context), context);
@@ -197,7 +198,8 @@ AgainstPaper flattenedThresholds(const Plane& grey, const InkEdges& edges, int s
     }
     roomPx = std::min(roomPx, kSmoothingPerWidth * grain.widthPx * shrink);
   }
-  found.isPaperSeen = isPaperSeen(grey, estimate);
+  // On a page full of fine lines most are too weak for edges, and cells that hold them are taken for noisy paper.
+  found.isPaperSeen = standsOut && isPaperSeen(grey, estimate);
   out.paperNoise = depths.noise;
   out.faintLimit = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
   out.paper = std::move(estimate.paper);

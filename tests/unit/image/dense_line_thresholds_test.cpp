@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "tests/support/hatching_page.h"
 #include "tests/unit/image/known_ink_page.h"
@@ -131,6 +133,55 @@ GreyImage netPage(double spacing, double ink, double noise) {
     }
   }
   return page;
+}
+
+/// Rings at random, of thin lines, up to the border of a disc that is paper but for one ring within it.
+GreyImage ornamentPage() {
+  constexpr double kDiscPx = 70.0, kRingPx = 40.0;
+  GreyImage page(360, 500);
+  std::vector<double> ink(page.pixels.size(), 0.0);
+  const auto addRing = [&](double cx, double cy, double radius) {
+    for (int y = 0; y < page.height; ++y) {
+      for (int x = 0; x < page.width; ++x) {
+        const double off = std::fabs(std::hypot(x + 0.5 - cx, y + 0.5 - cy) - radius);
+        double& here = ink[std::ptrdiff_t{y} * page.width + x];
+        here = std::max(here, std::clamp(1.4 - off, 0.0, 1.0));
+      }
+    }
+  };
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int i = 0; i < 1100; ++i) {
+    const double x = 360.0 * share(random), y = 500.0 * share(random), radius = 2.0 + 4.0 * share(random);
+    if (std::hypot(x - 180.0, y - 250.0) > kDiscPx + radius) addRing(x, y, radius);
+  }
+  addRing(180.0, 250.0, kRingPx);
+  for (double& here : ink) here *= 0.7;
+  // Black cells: next to their edges those of the lines are weak.
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < page.width; ++x)
+      if (x % 14 > 2 && y % 14 > 2) ink[std::ptrdiff_t{y} * page.width + x] = 1.2;
+  for (std::size_t i = 0; i < ink.size(); ++i)
+    page.pixels[i] = static_cast<std::uint16_t>(std::lround((250.0 - 200.0 * ink[i]) * 257.0));
+  return page;
+}
+
+/// Most lines of a page full of them are no edges there: what was taken for noise of the paper is lines.
+TEST(Thresholds, FindOrnamentsThatFillThePage) {
+  const GreyImage page = ornamentPage();
+  const BitImage found = thresholded(page, {}, {});
+  int ink = 0, missing = 0, bright = 0, wrong = 0;
+  for (int y = 130; y < page.height; ++y) {
+    for (int x = 0; x < page.width; ++x) {
+      const bool isInk = page.level(x, y)<120.0, isPaper = page.level(x, y)> 240.0;
+      ink += isInk ? 1 : 0;
+      missing += isInk && !found.at(x, y) ? 1 : 0;
+      bright += isPaper ? 1 : 0;
+      wrong += isPaper && found.at(x, y) ? 1 : 0;
+    }
+  }
+  EXPECT_LT(missing, ink / 20);
+  EXPECT_LT(wrong, bright / 20);
 }
 
 TEST(Thresholds, FindNetsWhoseLinesAreWiderThanThePaperBetweenThem) {
