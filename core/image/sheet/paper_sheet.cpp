@@ -16,6 +16,7 @@
 #include "core/image/sheet/sheet_on_table.h"
 #include "core/image/sheet/sheet_step.h"
 #include "core/image/sheet/straight_sheet_edges.h"
+#include "core/image/sheet/straight_sided_sheet.h"
 
 namespace batten {
 namespace {
@@ -23,13 +24,14 @@ namespace {
 constexpr double kMostRoughness = 9.0;                   // [grey] between neighbours within a cell: carpet, wood, cloth
 constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
 constexpr double kMostBesideTable = 0.997;               // of it, where a corner of the table tells the sheet
-constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
-constexpr double kLeastAlongSide = 0.2;                  // of a side of the picture that a patch beside the sheet takes
-constexpr double kSheetContrast = 12.0;                  // [grey] of the patch against the sheet beside it
-constexpr double kMostKnown = 0.5;                       // of a side of the picture
-constexpr int kBesideEdgeCells = 61;                     // 30 to either side
-constexpr double kSheetRimShare = 0.006;                 // of the diagonal: the sheet's edge and its shadow
-constexpr double kOutlineCells = 1.5;  // [cells] of the outline of the sheet: steps of its cells are none of it
+constexpr double kLeastFreeSheet = 0.1, kLeastFreeEven = 0.05;  // of the picture; of its paper a drawing takes some
+constexpr double kLeastSolid = 0.92;                            // of the convex hull: a torn edge is nearly convex
+constexpr double kLeastAlongSide = 0.2;   // of a side of the picture that a patch beside the sheet takes
+constexpr double kSheetContrast = 12.0;   // [grey] of the patch against the sheet beside it
+constexpr double kMostKnown = 0.5;        // of a side of the picture
+constexpr int kBesideEdgeCells = 61;      // 30 to either side
+constexpr double kSheetRimShare = 0.006;  // of the diagonal: the sheet's edge and its shadow
+constexpr double kOutlineCells = 1.5;     // [cells] of the outline of the sheet: steps of its cells are none of it
 // Of the hull's length: what its simplification to four corners may leave out, tried from the finest on.
 constexpr double kFinestQuadrilateral = 0.005, kCoarsestQuadrilateral = 0.08, kQuadrilateralStep = 0.0025;
 constexpr double kLeastQuadrilateral = 0.93;  // of the hull's area: else the sheet has other corners than these four
@@ -243,6 +245,31 @@ cv::Mat1b withSlowChanges(const cv::Mat1b& even, const SheetCells& cells) {
   return filledSheet(even | added);
 }
 
+/// The sheet that a straight-sided even area is, without what reaches in from outside: things that lie half on it.
+cv::Mat1b straightSided(const cv::Mat1b& sides, const cv::Mat1b& even, const SheetCells& cells) {
+  const cv::Mat1b paper = filledSheet(even & sides), outside = sides == 0;
+  // Lines that run off the sheet are narrow, tones do not go on beside it.
+  cv::Mat1b things = withoutTonesAtEdge(paper == 0, paper, cells);
+  cv::morphologyEx(things, things, cv::MORPH_OPEN, discOf(things.size(), kNeckShare), {-1, -1}, 1,
+                   cv::BORDER_REPLICATE);
+  return sheetWithoutNecks(withoutPockets(outside | things));
+}
+
+/// A sheet that lies free: one of the large even areas, with straight sides.
+std::optional<cv::Mat1b> freeSheet(const cv::Mat1i& labels, const std::vector<int>& areas, const SheetCells& cells) {
+  std::vector<int> large;
+  for (int label = 0; label < std::ssize(areas); ++label)
+    if (areas[label] >= kLeastFreeEven * static_cast<double>(labels.total())) large.push_back(label);
+  std::ranges::stable_sort(large, [&](int a, int b) { return areas[a] > areas[b]; });
+  for (const int label : large) {
+    const cv::Mat1b even = filledSheet(labels == label);
+    const double share = cv::countNonZero(even) / static_cast<double>(even.total());
+    if (share < kLeastFreeSheet || share > kMostSheet) continue;
+    if (const auto sides = straightSidedSheet(even, cells)) return straightSided(*sides, even, cells);
+  }
+  return std::nullopt;
+}
+
 /// The sheet is the largest even area of the picture, with the facing page where it is a page of an open book, or lies
 /// upon it, where that is a table.
 std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& context) {
@@ -256,7 +283,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
   if (auto onTable = sheetOnTable(labels, areas, largest, cells)) return onTable;
   cv::Mat1b even = filledSheet(labels == largest);
   const int area = cv::countNonZero(even);
-  if (area < kLeastSheet * static_cast<double>(even.total())) return std::nullopt;
+  if (area < kLeastSheet * static_cast<double>(even.total())) return freeSheet(labels, areas, cells);
   if (area < kMostSheet * static_cast<double>(even.total())) even = withSlowChanges(even, cells);
   BesideSheet found = cellsBeside(even, cells, context);
   if (found.isDoubtful) {
@@ -264,7 +291,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
     even = filledSheet(sheetBehindLines(even, labels, areas, cells));
     found = cellsBeside(even, cells, context);
   }
-  if (!found.cells) return std::nullopt;
+  if (!found.cells) return freeSheet(labels, areas, cells);
   for (int label = 0; label < std::ssize(areas); ++label) {
     if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
     const cv::Mat1b page = filledSheet(labels == label);

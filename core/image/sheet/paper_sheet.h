@@ -29,7 +29,8 @@ struct PaperSheet {
 /// convex. Absent where the paper fills the picture, and where that is doubtful: a drawing with a dark ground is no
 /// table, nor is paper behind a fold or in a shadow, which is darker but has the sheet's colour and grain. Of an open
 /// book both pages are the sheet if there is a drawing on each. White paper on a white table is found by its straight
-/// edges (straight_sheet_edges.h), unless the drawing goes on beyond them.
+/// edges (straight_sheet_edges.h), unless the drawing goes on beyond them; a sheet that lies free among other things,
+/// however small, by its four sides (straight_sided_sheet.h).
 std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
 std::optional<PaperSheet> findPaperSheet(const SheetCells&, const RunContext&);
 
