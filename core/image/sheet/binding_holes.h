@@ -22,4 +22,8 @@ struct BindingHoles {
 /// drawn or printed.
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells);
 
+/// The same along the straight sides of a sheet that fills a part of the picture, however it lies.
+/// @param sheet the cells of the sheet.
+std::optional<BindingHoles> findBindingHoles(const SheetCells& cells, const BitImage& sheet);
+
 }  // namespace batten

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/sheet/sheet_and_holes.h"
 
+#include <optional>
+#include <utility>
+
 #include "core/image/sheet/blank_margins.h"
 #include "core/image/sheet/sheet_cells.h"
 
@@ -11,6 +14,10 @@ SheetAndHoles findSheetAndHoles(const GreyImage& grey, const ColourImage& colour
   if (context.isCancelled()) return {};
   SheetAndHoles found{.holes = findBindingHoles(cells), .sheet = findPaperSheet(cells, context)};
   if (context.isCancelled()) return {};
+  if (found.sheet) {
+    std::optional<BindingHoles> along = findBindingHoles(cells, found.sheet->inside);
+    if (along && (!found.holes || along->count > found.holes->count)) found.holes = std::move(along);
+  }
   if (!found.sheet) found.sheet = sheetWithinMargins(grey);
   return found;
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/image/page_preparation.h"
+#include "tests/support/photo_page.h"
 
 namespace batten {
 namespace {
@@ -105,6 +106,64 @@ TEST(BindingHoles, AreNoLettersOfAPageOfText) {
   ASSERT_TRUE(page);
   EXPECT_EQ(page->bindingHoles, 0);
   EXPECT_FALSE(page->sheet);
+}
+
+/// A sheet torn off its pad on a table, askew, with a ring drawn upon it.
+test::PhotoCamera askewSheet() {
+  return {{.widthMm = 297.0, .heightMm = 210.0, .rollDeg = 5.0, .fill = 0.85}, 900, 700};
+}
+bool isRingOnSheet(const Vec2& mm) { return std::fabs(std::hypot(mm.x() - 150.0, mm.y() - 110.0) - 50.0) < 1.5; }
+Scan askewPhoto(const std::function<bool(const Vec2&)>& isHole) {
+  return renderPhoto(askewSheet(), [&](const Vec2& mm) { return isRingOnSheet(mm) || isHole(mm) ? 0.8 : 0.0; });
+}
+/// Holes of 6 mm a side, every 12 mm along the upper edge.
+bool isHoleOfSheet(const Vec2& mm) {
+  return std::fabs(mm.y() - 12.0) < 3.0 && std::fabs(std::remainder(mm.x() - 10.5, 12.0)) < 3.0;
+}
+int darkOnSheet(const GreyImage& page, double fromMm, double toMm) {
+  const test::PhotoCamera camera = askewSheet();
+  int dark = 0;
+  for (int y = 0; y < page.height; ++y) {
+    for (int x = 0; x < page.width; ++x) {
+      const Vec2 mm = camera.toSheet({x + 0.5, y + 0.5});
+      if (mm.x() > 5.0 && mm.x() < 292.0 && mm.y() > fromMm && mm.y() < toMm) dark += page.level(x, y) < 150.0 ? 1 : 0;
+    }
+  }
+  return dark;
+}
+
+TEST(BindingHoles, AreFoundAlongTheEdgeOfASheetThatLiesAskew) {
+  const Scan scan = askewPhoto(isHoleOfSheet);
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page && page->sheet && page->grey);
+  EXPECT_EQ(page->bindingHoles, 24);
+  EXPECT_EQ(darkOnSheet(*page->grey, 6.0, 30.0), 0);
+  EXPECT_EQ(darkOnSheet(*page->grey, 30.0, 200.0), darkOnSheet(scan.grey, 30.0, 200.0));
+}
+
+// A line that was drawn into two of the holes stays, up to them.
+TEST(BindingHoles, ThatALineIsJoinedToArePaintedOver) {
+  const auto isLine = [](const Vec2& mm) { return std::fabs(mm.x() - 130.5) < 1.2 && mm.y() > 12.0 && mm.y() < 60.0; };
+  const Scan scan = askewPhoto([&](const Vec2& mm) { return isHoleOfSheet(mm) || isLine(mm); });
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page && page->grey);
+  EXPECT_EQ(page->bindingHoles, 24);
+  EXPECT_EQ(darkOnSheet(*page->grey, 6.0, 14.0), 0);
+  EXPECT_EQ(darkOnSheet(*page->grey, 18.0, 200.0), darkOnSheet(scan.grey, 18.0, 200.0));
+}
+
+// What is drawn along the edge of the sheet: marks that are neither equal nor even, a row far from the edge, two rows.
+TEST(BindingHoles, AreNoMarksDrawnAlongTheEdgeOfASheet) {
+  const Scan letters = askewPhoto([](const Vec2& mm) {
+    const int place = static_cast<int>(mm.x() / 12.0);
+    return std::fabs(mm.y() - 12.0) < 3.0 && mm.x() < 280.0 &&
+           std::fabs(mm.x() - 12.0 * place - 5.0 - place * 5 % 4) < 1.5 + place * 7 % 3;
+  });
+  EXPECT_EQ(preparePage(letters, {}, {})->bindingHoles, 0) << "letters";
+  const Scan inside = askewPhoto([](const Vec2& mm) { return isHoleOfSheet(mm - Vec2(0.0, 24.0)); });
+  EXPECT_EQ(preparePage(inside, {}, {})->bindingHoles, 0) << "far from the edge";
+  const Scan rows = askewPhoto([](const Vec2& mm) { return isHoleOfSheet(mm) || isHoleOfSheet(mm - Vec2(6.0, 9.0)); });
+  EXPECT_EQ(preparePage(rows, {}, {})->bindingHoles, 0) << "a border of two rows";
 }
 
 }  // namespace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/sheet/straight_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+namespace batten {
+namespace {
+
+constexpr double kOnSideCells = 1.5;      // of a side: its course in cells
+constexpr double kLeastOfOutline = 0.06;  // of the outline of an even area: fewer of its cells make no side
+constexpr double kMostBeyond = 0.06;  // of an even area may lie beyond one side: it goes on into something as bright
+
+std::vector<Vec2> outlineCells(const cv::Mat1b& even) {
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(even.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::vector<Vec2> places;
+  const auto largest = std::max_element(outlines.begin(), outlines.end(), [](const auto& a, const auto& b) {
+    return cv::contourArea(a) < cv::contourArea(b);
+  });
+  if (largest == outlines.end()) return places;
+  for (const cv::Point& p : *largest) {
+    if (p.x > 1 && p.y > 1 && p.x < even.cols - 2 && p.y < even.rows - 2) places.emplace_back(p.x, p.y);
+  }
+  return places;
+}
+
+/// Every few cells of a mask.
+std::vector<Vec2> sampledCells(const cv::Mat1b& even) {
+  constexpr int kStep = 4;
+  std::vector<Vec2> places;
+  for (int j = 0; j < even.rows; j += kStep) {
+    for (int i = 0; i < even.cols; i += kStep)
+      if (even(j, i) != 0) places.emplace_back(i, j);
+  }
+  return places;
+}
+
+StraightSide through(const Vec2& a, const Vec2& b) {
+  const Vec2 along = (b - a).normalized();
+  const Vec2 inward(-along.y(), along.x());
+  return {inward, inward.dot(a), 0};
+}
+
+int countOn(const StraightSide& side, const std::vector<Vec2>& places) {
+  return static_cast<int>(
+      std::ranges::count_if(places, [&](const Vec2& p) { return std::fabs(side.depth(p)) <= kOnSideCells; }));
+}
+
+/// The line through most places of the outline, with hardly any of the area beyond it.
+std::optional<StraightSide> bestSide(const std::vector<Vec2>& outline, const std::vector<Vec2>& area, int fewest) {
+  constexpr int kTried = 240;
+  const int n = static_cast<int>(outline.size()), step = std::max(1, n / kTried);
+  std::vector<StraightSide> sides;
+  for (const int span : {n / 24, n / 10}) {
+    for (int i = 0; span > 0 && i < n; i += step) {
+      const Vec2 &a = outline[i], &b = outline[(i + span) % n];
+      if ((b - a).norm() < 0.8 * span) continue;  // the outline bends between them
+      StraightSide side = through(a, b);
+      side.count = countOn(side, outline);
+      if (side.count >= fewest) sides.push_back(side);
+    }
+  }
+  std::ranges::stable_sort(sides, [](const StraightSide& a, const StraightSide& b) { return a.count > b.count; });
+  for (StraightSide side : sides) {
+    const auto beyond = std::ranges::count_if(area, [&](const Vec2& p) { return side.depth(p) < -kOnSideCells; });
+    const auto within = std::ranges::count_if(area, [&](const Vec2& p) { return side.depth(p) > kOnSideCells; });
+    if (static_cast<double>(std::min(beyond, within)) > kMostBeyond * static_cast<double>(area.size())) continue;
+    if (beyond > within) side = {-side.inward, -side.offset, side.count};
+    return side;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<StraightSide> straightSides(const cv::Mat1b& area) {
+  std::vector<Vec2> outline = outlineCells(area);
+  const std::vector<Vec2> cells = sampledCells(area);
+  const int fewest = std::max(8, static_cast<int>(kLeastOfOutline * static_cast<double>(outline.size())));
+  std::vector<StraightSide> sides;
+  while (std::ssize(sides) < kMostSides) {
+    const std::optional<StraightSide> side = bestSide(outline, cells, fewest);
+    if (!side) break;
+    sides.push_back(*side);
+    std::erase_if(outline, [&](const Vec2& p) { return std::fabs(side->depth(p)) <= 2.0 * kOnSideCells; });
+  }
+  return sides;
+}
+
+}  // namespace batten
