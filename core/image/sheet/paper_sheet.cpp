@@ -30,6 +30,7 @@ constexpr double kLeastAlongSide = 0.2;   // of a side of the picture that a pat
 constexpr double kSheetContrast = 12.0;   // [grey] of the patch against the sheet beside it
 constexpr double kMostKnown = 0.5;        // of a side of the picture
 constexpr int kBesideEdgeCells = 61;      // 30 to either side
+constexpr double kLineShare = 0.004;      // of the diagonal: half the width of lines that run off the sheet
 constexpr double kSheetRimShare = 0.006;  // of the diagonal: the sheet's edge and its shadow
 constexpr double kOutlineCells = 1.5;     // [cells] of the outline of the sheet: steps of its cells are none of it
 // Of the hull's length: what its simplification to four corners may leave out, tried from the finest on.
@@ -238,6 +239,17 @@ BesideSheet cellsBeside(const cv::Mat1b& even, const SheetCells& cells, const Ru
   return {cv::Mat1b(withoutTonesAtEdge(table, even, cells) | (beside & (table == 0))), false, most};
 }
 
+/// A sheet with the lines that run off it, and what is drawn on them: what lies beside it was reached through them.
+/// Nothing beyond its hull is added.
+cv::Mat1b withLinesToEdge(const cv::Mat1b& sheet) {
+  const cv::Mat disc = discOf(sheet.size(), kLineShare);
+  const int rim = disc.rows;
+  cv::Mat1b around;
+  cv::copyMakeBorder(sheet, around, rim, rim, rim, rim, cv::BORDER_CONSTANT, 0);
+  cv::morphologyEx(around, around, cv::MORPH_CLOSE, disc);
+  return filledSheet(around(cv::Rect(cv::Point(rim, rim), sheet.size())));
+}
+
 /// An even area with what it becomes slowly, but for narrow parts: the blur along its edge.
 cv::Mat1b withSlowChanges(const cv::Mat1b& even, const SheetCells& cells) {
   cv::Mat1b added = slowlyContinued(even, cells) & (even == 0);
@@ -292,16 +304,19 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
     found = cellsBeside(even, cells, context);
   }
   if (!found.cells) return freeSheet(labels, areas, cells);
+  bool isBook = false;  // its gutter is as narrow as a line
   for (int label = 0; label < std::ssize(areas); ++label) {
     if (label == largest || areas[label] < kLeastFacingPage * areas[largest]) continue;
     const cv::Mat1b page = filledSheet(labels == label);
     // Within the sheet it is a shape that was drawn.
     if (cv::countNonZero(page & even) > 0 || !isFacingPage(page, even, cells, ShadedPaper(even, cells))) continue;
     BesideSheet both = cellsBeside(even | page, cells, context);
-    if (both.cells) found = std::move(both);
+    isBook = both.cells.has_value();
+    if (isBook) found = std::move(both);
     break;
   }
-  const cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(*found.cells));
+  cv::Mat1b sheet = sheetWithoutNecks(withoutPockets(*found.cells));
+  if (!isBook) sheet = withLinesToEdge(withTonesThatBulge(sheet));
   if (cv::countNonZero(sheet) > found.mostSheet * static_cast<double>(sheet.total())) return std::nullopt;
   return sheet;
 }

@@ -6,12 +6,15 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/image/grown_mask.h"
 #include "core/image/sheet/sheet_step.h"
 
 namespace batten {
 namespace {
 
 constexpr double kPocketNeckShare = 0.02;  // of the diagonal: what hangs on the table by narrower parts is paper
+constexpr int kAlongHullCells = 4;         // to either side
+constexpr double kLeastOnHull = 0.3;       // of the edge between a sheet and what lies beside it
 
 /// The parts of a mask that touch another one.
 cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
@@ -53,6 +56,33 @@ cv::Mat1b withoutPockets(const cv::Mat1b& beside) {
   cv::dilate(core, broad, disc);
   const cv::Mat1b narrow = beside & (broad == 0);
   return table | partsTouching(narrow, table | border);
+}
+
+cv::Mat1b withTonesThatBulge(const cv::Mat1b& sheet) {
+  std::vector<cv::Point> places, hull;
+  cv::findNonZero(sheet, places);
+  if (places.empty()) return sheet;
+  cv::convexHull(places, hull);
+  cv::Mat1b along(sheet.size(), static_cast<unsigned char>(0));
+  cv::polylines(along, std::vector<std::vector<cv::Point>>{hull}, true, 255, 2 * kAlongHullCells + 1);
+  cv::Mat1i labels;
+  cv::Mat stats, centres;
+  const int count = cv::connectedComponentsWithStats(sheet == 0, labels, stats, centres, 8, CV_32S);
+  const cv::Mat1b edge = grownMask(sheet, 1) & (sheet == 0);
+  std::vector<int> all(count, 0), onHull(count, 0);
+  for (int j = 0; j < sheet.rows; ++j) {
+    for (int i = 0; i < sheet.cols; ++i) {
+      if (edge(j, i) == 0) continue;
+      ++all[labels(j, i)];
+      onHull[labels(j, i)] += along(j, i) != 0 ? 1 : 0;
+    }
+  }
+  cv::Mat1b with = sheet.clone();
+  for (int k = 1; k < count; ++k) {
+    const bool isLarge = stats.at<int>(k, cv::CC_STAT_AREA) >= kLeastPatch * static_cast<double>(sheet.total());
+    if (isLarge && onHull[k] < kLeastOnHull * all[k]) with.setTo(255, labels == k);
+  }
+  return with;
 }
 
 cv::Mat1b withoutTonesAtEdge(const cv::Mat1b& beside, const cv::Mat1b& even, const SheetCells& cells) {

@@ -20,6 +20,10 @@ cv::Mat1b borderOf(const cv::Size& size);
 /// edge of the sheet encloses paper. Masks are of the size of the cells, not 0 inside.
 cv::Mat1b withoutPockets(const cv::Mat1b& beside);
 
+/// The sheet with the large parts beside it that bulge into it: a sheet is about convex, so its edge runs along its
+/// hull where a table is beside it. A shape that was shaded up to the border of the picture is convex itself.
+cv::Mat1b withTonesThatBulge(const cv::Mat1b& sheet);
+
 /// What lies beside the sheet without tones that were drawn up to its edge: broad parts within the hull of its even
 /// area that the table does not go on in.
 cv::Mat1b withoutTonesAtEdge(const cv::Mat1b& beside, const cv::Mat1b& even, const SheetCells& cells);

@@ -205,6 +205,34 @@ TEST(PaperSheet, AToneDrawnUpToTheEdgeOfTheSheetStays) {
   EXPECT_FALSE(sheet->inside.at(800 / sheet->cellPx, 320 / sheet->cellPx));
 }
 
+// A tone that was shaded up to a corner of the picture bulges into the paper; a table would leave it convex.
+TEST(PaperSheet, AToneThatBulgesFromACornerOfThePictureIsNoTable) {
+  const auto bulge = [](double x, double y) -> PhotoPixel {
+    if (std::hypot(x, y) < 290.0) return {180.0, 7.0};
+    return {isRing(x, y) ? 40.0 : 235.0, 1.5};
+  };
+  EXPECT_FALSE(sheetOf(photo(bulge)).has_value());
+  const auto table = [](double x, double y) -> PhotoPixel {
+    if (x + 0.8 * y < 290.0) return {180.0, 7.0};
+    return {isRing(x, y) ? 40.0 : 235.0, 1.5};
+  };
+  EXPECT_TRUE(sheetOf(photo(table)).has_value());
+}
+
+// Figures on lines that run off the sheet hang on the table by them.
+TEST(PaperSheet, WhatIsDrawnOnLinesThatRunOffTheSheetStays) {
+  const auto figure = [](double x, double y) {
+    const double u = std::fabs(std::remainder(x, 100.0)), v = std::fabs(y - 200.0);
+    const bool isLine = u < 2.5 && y < 175.0, isBox = std::max(u, v) < 30.0 && std::max(u, v) > 25.0;
+    return isLine || (isBox && x > 150.0 && x < 650.0);
+  };
+  const Scan scan = photo([&](double x, double y) -> PhotoPixel {
+    if (depthInSheet(x, y) < 0.0) return {80.0, 25.0};
+    return {figure(x, y) ? 60.0 : 235.0, 1.5};
+  });
+  expectCutAtTheSheet(scan, "figures on lines");
+}
+
 // What lies across the edge of the sheet, or where it is torn away, is no part of it.
 TEST(PaperSheet, ANotchThroughWhichTheTableShowsIsCutOff) {
   const Scan scan = photo([](double x, double y) -> PhotoPixel {
