@@ -26,6 +26,7 @@ constexpr double kLeastCorner = 50.0, kMostCorner = 130.0;  // [degrees] a recta
 constexpr double kLeastLean = 1.5;                          // [degrees] of a side against the picture's
 constexpr float kAsBright = 0.85f;                          // of the sheet's brightness
 constexpr double kMostAsBright = 0.1;                       // of the sheet: so much beside it is no glint
+constexpr double kLeastToned = 0.3, kAllToned = 0.9;  // of what is beside the sheet: shapes drawn there take the rest
 constexpr auto kGrain = static_cast<float>(kSameGrain);
 
 std::optional<Vec2> crossing(const StraightSide& a, const StraightSide& b) {
@@ -105,14 +106,21 @@ bool isPaperBeside(const cv::Mat1b& sheet, const cv::Mat1b& beside, const PaperL
   return bright >= kMostAsBright * cv::countNonZero(sheet);
 }
 
-/// Whether the ground about a bright panel is of the same paper, toned, and drawn upon.
+/// Whether a good part of the ground about a bright panel is of the same paper, toned, with something drawn upon it.
 bool isTonedPaper(const cv::Mat1b& sheet, const cv::Mat1b& beside, const PaperLook& paper, const SheetCells& cells) {
-  const PaperLook ground = paperLookOf(beside, cells);
-  if (ground.colour[0] < static_cast<float>(kDarkestOnSheet) * paper.colour[0]) return false;
-  for (const int k : {1, 2})
-    if (std::fabs(ground.colour[k] - paper.colour[k]) > kMostSheetStep) return false;
-  if (ground.rough > kGrain * std::max(paper.rough, static_cast<float>(kLeastGrain))) return false;
-  return ShadedPaper(sheet, cells).isDrawnOn(beside);
+  const float grain = kGrain * std::max(paper.rough, static_cast<float>(kLeastGrain));
+  const float darkest = static_cast<float>(kDarkestOnSheet) * paper.colour[0];
+  int toned = 0;
+  for (int j = 0; j < sheet.rows; ++j) {
+    for (int i = 0; i < sheet.cols; ++i) {
+      if (beside(j, i) == 0 || cells.rough(j, i) > grain || cells.colour(j, i)[0] < darkest) continue;
+      const cv::Vec3f apart = cells.colour(j, i) - paper.colour;
+      toned += std::max(std::fabs(apart[1]), std::fabs(apart[2])) <= kMostSheetStep ? 1 : 0;
+    }
+  }
+  const double share = toned / std::max(1.0, 1.0 * cv::countNonZero(beside));
+  if (share < kLeastToned) return false;
+  return share < kAllToned || ShadedPaper(sheet, cells).isDrawnOn(beside);
 }
 
 /// A camera in the hand is never quite square to the sheet; panels of a layout are.

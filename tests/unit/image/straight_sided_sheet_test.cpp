@@ -142,6 +142,16 @@ TEST(StraightSidedSheet, APanelSquareToThePictureIsNone) {
   EXPECT_FALSE(freeSheetOf(tonedPage(poster)).has_value());
 }
 
+// Toned paper with dark discs about the panel.
+TEST(StraightSidedSheet, ABrightPanelOnTonedPaperThatIsDrawnUponIsNone) {
+  const auto toned = [](double x, double y) {
+    if (isCircleDrawn(x, y)) return 40.0;
+    if (isInBox(x, y, 220.0, 160.0)) return 240.0;
+    return std::hypot(std::fmod(x, 80.0) - 40.0, std::fmod(y, 80.0) - 40.0) < 32.0 ? 60.0 : 180.0;
+  };
+  EXPECT_FALSE(freeSheetOf(tonedPage(toned)).has_value());
+}
+
 // A bright shape that a hand drew: a car body, a leaf.
 TEST(StraightSidedSheet, ABrightShapeWithoutFourStraightSidesIsNone) {
   const auto shape = [](double x, double y) {
