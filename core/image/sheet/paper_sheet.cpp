@@ -267,12 +267,14 @@ cv::Mat1b straightSided(const cv::Mat1b& sides, const cv::Mat1b& even, const She
   return sheetWithoutNecks(withoutPockets(outside | things));
 }
 
-/// A sheet that lies free: one of the large even areas, with straight sides.
+/// A sheet that lies free: one of the largest even areas, with straight sides.
 std::optional<cv::Mat1b> freeSheet(const cv::Mat1i& labels, const std::vector<int>& areas, const SheetCells& cells) {
   std::vector<int> large;
   for (int label = 0; label < std::ssize(areas); ++label)
     if (areas[label] >= kLeastFreeEven * static_cast<double>(labels.total())) large.push_back(label);
   std::ranges::stable_sort(large, [&](int a, int b) { return areas[a] > areas[b]; });
+  constexpr std::size_t kMostAsked = 3;
+  if (large.size() > kMostAsked) large.resize(kMostAsked);
   for (const int label : large) {
     const cv::Mat1b even = filledSheet(labels == label);
     const double share = cv::countNonZero(even) / static_cast<double>(even.total());

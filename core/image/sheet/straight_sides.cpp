@@ -9,10 +9,13 @@
 namespace batten {
 namespace {
 
+constexpr std::size_t kOutlinePlaces = 400;
 constexpr double kOnSideCells = 1.5;      // of a side: its course in cells
+constexpr double kLeastStraight = 0.98;   // of the way along the outline by its middle
 constexpr double kLeastOfOutline = 0.06;  // of the outline of an even area: fewer of its cells make no side
 constexpr double kMostBeyond = 0.06;  // of an even area may lie beyond one side: it goes on into something as bright
 
+/// Places of the outline of the largest part, at equal distances; not at the border of the picture.
 std::vector<Vec2> outlineCells(const cv::Mat1b& even) {
   std::vector<std::vector<cv::Point>> outlines;
   cv::findContours(even.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
@@ -21,7 +24,9 @@ std::vector<Vec2> outlineCells(const cv::Mat1b& even) {
     return cv::contourArea(a) < cv::contourArea(b);
   });
   if (largest == outlines.end()) return places;
-  for (const cv::Point& p : *largest) {
+  const std::size_t step = std::max<std::size_t>(1, largest->size() / kOutlinePlaces);
+  for (std::size_t k = 0; k < largest->size(); k += step) {
+    const cv::Point& p = (*largest)[k];
     if (p.x > 1 && p.y > 1 && p.x < even.cols - 2 && p.y < even.rows - 2) places.emplace_back(p.x, p.y);
   }
   return places;
@@ -29,7 +34,7 @@ std::vector<Vec2> outlineCells(const cv::Mat1b& even) {
 
 /// Every few cells of a mask.
 std::vector<Vec2> sampledCells(const cv::Mat1b& even) {
-  constexpr int kStep = 4;
+  constexpr int kStep = 6;
   std::vector<Vec2> places;
   for (int j = 0; j < even.rows; j += kStep) {
     for (int i = 0; i < even.cols; i += kStep)
@@ -51,19 +56,23 @@ int countOn(const StraightSide& side, const std::vector<Vec2>& places) {
 
 /// The line through most places of the outline, with hardly any of the area beyond it.
 std::optional<StraightSide> bestSide(const std::vector<Vec2>& outline, const std::vector<Vec2>& area, int fewest) {
-  constexpr int kTried = 240;
+  constexpr int kTried = 120;
+  constexpr std::size_t kAsked = 40;  // whether the area lies on one side of them
   const int n = static_cast<int>(outline.size()), step = std::max(1, n / kTried);
   std::vector<StraightSide> sides;
   for (const int span : {n / 24, n / 10}) {
     for (int i = 0; span > 0 && i < n; i += step) {
       const Vec2 &a = outline[i], &b = outline[(i + span) % n];
-      if ((b - a).norm() < 0.8 * span) continue;  // the outline bends between them
+      if (const Vec2& middle = outline[(i + span / 2) % n];  // the outline bends between them
+          (b - a).norm() < kLeastStraight * ((middle - a).norm() + (b - middle).norm()))
+        continue;
       StraightSide side = through(a, b);
       side.count = countOn(side, outline);
       if (side.count >= fewest) sides.push_back(side);
     }
   }
   std::ranges::stable_sort(sides, [](const StraightSide& a, const StraightSide& b) { return a.count > b.count; });
+  if (sides.size() > kAsked) sides.resize(kAsked);
   for (StraightSide side : sides) {
     const auto beyond = std::ranges::count_if(area, [&](const Vec2& p) { return side.depth(p) < -kOnSideCells; });
     const auto within = std::ranges::count_if(area, [&](const Vec2& p) { return side.depth(p) > kOnSideCells; });
