@@ -5,13 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <optional>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/plane.h"
 #include "core/image/ruling/margin_lines.h"
+#include "core/image/ruling/printed_lines.h"
 #include "core/image/ruling/ruling_ink.h"
 #include "core/image/ruling/ruling_lattice.h"
 
@@ -31,6 +31,7 @@ constexpr double kLeastLineSeen = 0.8,
 constexpr double kLeastCoverage = 0.7;                  // of the stretches of the lines that are seen
 constexpr double kAlone = 0.4, kLeastSelective = 0.25;  // of the thin lines over the ruling that belong to it
 constexpr double kLeastInk = 0.8;                       // of the length of the lines: they go on
+constexpr double kLeastInkOfBroken = 0.65;              // likewise, of lines that copying has broken
 constexpr double kLeastAlong = 0.35;                    // of the contrast beside a line: so much lasts along it
 constexpr double kMostBetween = 0.5;                    // of the depth of dark lines, of what lies between two of them
 constexpr double kBetweenPx = 3.0;                      // [grid] between two lines, and as much to either side
@@ -38,11 +39,6 @@ constexpr int kLeastRun = 3;                            // strips of a page that
 constexpr double kMostlyInked = 0.5;                    // of the lines, in a column they run through
 constexpr double kEdgeShare = 0.1;                      // of a lattice: there lines have the direction they end with
 constexpr double kMostWidth = 0.3;                      // of the spacing
-constexpr double kDarkCoverage = 0.85;                  // asked of dark lines that make no grid
-constexpr int kDarkLines = 12;                          // likewise
-constexpr int kBorder = 4;                              // [grid] so near to it a line runs to the border of the page
-constexpr double kLeastAtBorder = 0.5;                  // of the lines that run to the border of the page
-constexpr double kJoined = 0.9;                         // of the spaces between lines that a stroke crosses
 constexpr double kLeastRulingDepth = 0.015;             // of a ruling, below its paper
 
 Plane mirrored(const Plane& in, const RunContext& context) {
@@ -53,10 +49,6 @@ Plane mirrored(const Plane& in, const RunContext& context) {
   });
   return out;
 }
-
-struct LineLook {
-  double width = 0.0, depth = 0.0;  ///< [grid], and share of the paper's light.
-};
 
 /// Width at half depth and depth of a lattice's lines, each the median over places on lines that are seen.
 LineLook lookOf(const Plane& grey, const RulingLattice& lattice) {
@@ -88,12 +80,6 @@ LineLook lookOf(const Plane& grey, const RulingLattice& lattice) {
   return {static_cast<double>(upperMedian(widths)), static_cast<double>(upperMedian(depths))};
 }
 
-struct FoundLattice {
-  RulingLattice lattice;
-  LineLook look;
-  int fromX = 0, toX = 0;  ///< [grid] Columns that its lines run through.
-};
-
 std::optional<FoundLattice> judged(const Plane& grey, RulingLattice lattice, const RunContext& context) {
   FoundLattice found{std::move(lattice), {}, 0, grey.width};
   const RulingLattice& l = found.lattice;
@@ -104,7 +90,10 @@ std::optional<FoundLattice> judged(const Plane& grey, RulingLattice lattice, con
   if (l.seen < (l.selective >= kAlone ? kLeastLineSeenAlone : kLeastLineSeen) || l.coverage < kLeastCoverage ||
       l.selective < kLeastSelective)
     return std::nullopt;
-  if (inkAlongLines(grey, l, context) < kLeastInk) return std::nullopt;  // letters, dots or crossings in rows
+  // Letters, dots or crossings in rows.
+  const double ink = inkAlongLines(grey, l, context);
+  if (ink < kLeastInkOfBroken) return std::nullopt;
+  if (ink < kLeastInk && (found.look.depth <= kDarkRuling || !areUnderTheDrawing(grey, found))) return std::nullopt;
   const LatticeContrast contrast = contrastOf(grey, l);
   if (contrast.along < kLeastAlong) return std::nullopt;
   // As dark lines between them: every other line of a hatching that is too fine for a ruling.
@@ -144,70 +133,13 @@ std::vector<FoundLattice> latticesOf(const RulingStretches& found, PlaneOf plane
       const auto end = isTaken.begin() + first + count;
       if (std::find(isTaken.begin() + first, end, true) != end) continue;
       auto part = latticeOf(found.inStrips(first, count), planeOf, isHopeful, context);
-      if (!part || part->look.depth > kDarkRuling) continue;
+      if (!part || (part->look.depth > kDarkRuling && !areUnderTheDrawing(planeOf(), *part))) continue;
       std::fill_n(isTaken.begin() + first, count, true);
       lattices.push_back(std::move(*part));
     }
   }
   if (static_cast<double>(std::ranges::count(isTaken, true)) < kLeastCoverage * strips) lattices.clear();
   return lattices;
-}
-
-/// Share of the seen lines that hold ink at a side of the page.
-double shareOfLinesAtBorder(const Plane& grey, const FoundLattice& found, bool isLeft) {
-  const RulingLattice& l = found.lattice;
-  const int first = isLeft ? 0 : std::max(0, grey.width - kBorder), past = std::min(grey.width, first + kBorder);
-  const int half = std::max(2, static_cast<int>(0.5 * l.spacing));
-  int seen = 0, inked = 0;
-  for (std::size_t i = 0; i < l.isSeen.size(); ++i) {
-    if (!l.isSeen[i]) continue;
-    float darkest = std::numeric_limits<float>::max(), paper = 0.0f;
-    for (int x = first; x < past; ++x) {
-      const int middle = static_cast<int>(l.at(l.first + static_cast<double>(i), x + 0.5));
-      for (int y = std::max(0, middle - half); y <= std::min(grey.height - 1, middle + half); ++y) {
-        paper = std::max(paper, grey.row(y)[x]);
-        if (std::abs(y - middle) <= 1) darkest = std::min(darkest, grey.row(y)[x]);
-      }
-    }
-    ++seen;
-    inked += static_cast<double>(darkest) < (1.0 - 0.5 * found.look.depth) * static_cast<double>(paper) ? 1 : 0;
-  }
-  return seen > 0 ? inked / static_cast<double>(seen) : 0.0;
-}
-
-/// The largest share of the spaces between lines that one straight stroke square to them crosses.
-double shareJoined(const Plane& grey, const FoundLattice& found) {
-  const RulingLattice& l = found.lattice;
-  const int spaces = static_cast<int>(l.isSeen.size()) - 1;
-  std::vector<int> crossed(grey.width, 0);
-  for (int i = 0; i < spaces; ++i) {
-    const auto rowAt = [&](int x) { return static_cast<int>(l.at(l.first + i + 0.5, x + 0.5)); };
-    float paper = 0.0f;
-    for (int x = 0; x < grey.width; ++x) {
-      const int y = rowAt(x);
-      if (y >= 0 && y < grey.height) paper = std::max(paper, grey.row(y)[x]);
-    }
-    for (int x = 0; x < grey.width; ++x) {
-      const int y = rowAt(x);
-      if (y < 0 || y >= grey.height) continue;
-      crossed[x] += static_cast<double>(grey.row(y)[x]) < (1.0 - 0.5 * found.look.depth) * static_cast<double>(paper);
-    }
-  }
-  return spaces > 0 ? *std::max_element(crossed.begin(), crossed.end()) / static_cast<double>(spaces) : 0.0;
-}
-
-/// Lines that end on the page and are joined by a stroke across: the teeth of a comb. Ruled lines run to the border of
-/// the page, whatever crosses them, or stand by themselves.
-bool isComb(const Plane& grey, const FoundLattice& found) {
-  const double border = std::min(shareOfLinesAtBorder(grey, found, true), shareOfLinesAtBorder(grey, found, false));
-  return border < kLeastAtBorder && shareJoined(grey, found) >= kJoined;
-}
-
-/// Dark lines are a drawing unless they make a grid or fill the page without a gap.
-bool isPrinted(const Plane& grey, const FoundLattice& found, bool isGrid) {
-  if (found.look.depth <= kDarkRuling || isGrid) return true;
-  if (isComb(grey, found)) return false;
-  return found.lattice.coverage >= kDarkCoverage && std::ssize(found.lattice.isSeen) >= kDarkLines;
 }
 
 /// Where a line runs. Those farther than kHidden from the seen ones follow the outermost of them at the distance that
@@ -311,8 +243,10 @@ void addFamilies(std::vector<FoundLattice>& lattices, const Plane& grey, bool ru
     const auto columnOf = [&](double x) { return std::clamp(static_cast<int>(std::lround(x)), 0, grey.width); };
     const int before = i == 0 ? 0 : columnOf(lattices[i - 1].lattice.toX());
     const int after = i + 1 == lattices.size() ? grey.width : columnOf(lattices[i + 1].lattice.fromX);
-    found.fromX = endOf(grey, found, columnOf(found.lattice.fromX), before);
-    found.toX = endOf(grey, found, columnOf(found.lattice.toX()), after);
+    // Dark ones fade in a copy, one here and one there.
+    const bool isDark = found.look.depth > kDarkRuling;
+    found.fromX = isDark ? before : endOf(grey, found, columnOf(found.lattice.fromX), before);
+    found.toX = isDark ? after : endOf(grey, found, columnOf(found.lattice.toX()), after);
     families.push_back(familyOf(found, grey, runsDown, shrink));
   }
 }
@@ -325,8 +259,6 @@ std::optional<FoundLattice> judgedMargin(const Plane& along, const RulingLattice
   if (look.width > std::max(2.0, kMostWidth * line.spacing) || look.depth < kLeastRulingDepth) return std::nullopt;
   if (look.depth > std::max(kDarkRuling, depthOfRuling)) return std::nullopt;  // drawn with a pen
   if (inkAlongLines(along, line, context) < kLeastInk) return std::nullopt;
-  if (std::min(shareOfLinesAtBorder(along, found, true), shareOfLinesAtBorder(along, found, false)) < kLeastAtBorder)
-    return std::nullopt;
   return found;
 }
 
@@ -358,7 +290,7 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
     const bool runsDown = families.front().runsDown;
     const double depth = families.front().depth;
     const auto lines = findMarginLines({across, !runsDown}, runsDown ? ofRows : ofColumns,
-                                       (runsDown ? columns : rows).front().lattice.spacing, context);
+                                       (runsDown ? columns : rows).front().lattice, context);
     if (!lines.empty() && !runsDown && down.width == 0) down = mirrored(across, context);
     const Plane& along = runsDown ? across : down;
     std::vector<RulingFamily> margins;

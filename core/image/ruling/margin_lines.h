@@ -9,10 +9,11 @@
 
 namespace batten {
 
-/// Lines that may be the margin of ruled paper, each as a lattice of one line: they run along x through the whole
-/// plane, nearly straight, in the outer three tenths.
-/// @param found the stretches of the plane. @param spacing [grid] of the ruled lines across them.
-std::vector<RulingLattice> findMarginLines(const PlaneView& grey, const RulingStretches& found, double spacing,
-                                           const RunContext& context);
+/// Lines that may be the margin of ruled paper, each as a lattice of one line: they run along x, nearly straight, in
+/// the outer three tenths of the plane, across all the ruled lines and on beyond the first and the last of these. The
+/// plane may show more than the sheet.
+/// @param found the stretches of the plane. @param ruled the ruled lines, whose place is x of the plane.
+std::vector<RulingLattice> findMarginLines(const PlaneView& grey, const RulingStretches& found,
+                                           const RulingLattice& ruled, const RunContext& context);
 
 }  // namespace batten

@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/line_runs.h"
+#include "core/image/ruling/ruling_course.h"
 
 namespace batten {
 namespace {
 
-constexpr int kBlockPx = 32;              // [px] along a line: one paper level, one place and one profile
 constexpr int kSampledBlocks = 3;         // one in so many tells the noise
 constexpr int kProfileBlocks = 2;         // to either side, for the profile of a line
 constexpr int kBinsPerPx = 2;             // of the profile across a line
@@ -21,6 +23,11 @@ constexpr double kLeastOfColumns = 0.15;  // that must meet a place of a profile
 constexpr int kMostReachPx = 24;          // [px] across a line
 constexpr double kRimShare = 0.25;        // of the spacing: beyond lies paper
 constexpr double kPaperRank = 0.7;        // of the pixels beside a line: ink is darker
+constexpr double kMostOfFamily = 2.0;     // of its depth: a block of a pale line that is darker is drawn on
+constexpr double kOwnRank = 0.15;         // of the blocks of a line, by depth: some are not drawn on
+constexpr double kWiderThanLine = 1.5;    // than a dark line, of ink that is not its own
+constexpr double kPaperAlong = 0.9;       // rank along a dark line, of its blocks: some show paper
+constexpr double kDarkestPaper = 0.5;     // of that: what is darker is ink
 constexpr double kFoot = 0.1;             // of the depth: where a line ends across
 constexpr double kMostSupport = 0.4;      // of the spacing: wider is no ruled line
 constexpr double kLeastDepthSeen = 0.01;  // of the paper: a fainter line is left alone
@@ -51,42 +58,26 @@ GreyImage transposedGrey(const GreyImage& in, const RunContext& context) {
 /// One line that runs along x, taken out of the picture.
 class RulingEraser {
  public:
-  RulingEraser(GreyImage& image, const RulingFamily& family, const RulingLine& line) : image_(image), family_(family) {
+  RulingEraser(GreyImage& image, const RulingFamily& family, const RulingLine& line)
+      : image_(image), family_(family), course_(image, family, line) {
     const double limit = std::min<double>(kMostReachPx, 0.5 * family.spacingPx - 0.5);
     reach_ = std::max(2, static_cast<int>(limit));
     rim_ =
         std::min(static_cast<double>(reach_) - 1.0, std::max(0.5 * family.widthPx + 1.5, kRimShare * family.spacingPx));
-    const auto place = [&](std::size_t i) {
-      const Vec2& p = line.coursePx[i];
-      return family.runsDown ? Vec2(p.y(), p.x()) : p;
-    };
-    course_.resize(image.width);
-    std::size_t at = 0;
-    for (int x = 0; x < image.width; ++x) {
-      while (at + 2 < line.coursePx.size() && place(at + 1).x() < x + 0.5) ++at;
-      const Vec2 a = place(at), b = place(std::min(at + 1, line.coursePx.size() - 1));
-      const double share = b.x() > a.x() ? (x + 0.5 - a.x()) / (b.x() - a.x()) : 0.0;
-      course_[x] = a.y() + share * (b.y() - a.y());
-    }
-    from_ = std::clamp(static_cast<int>(std::lround(place(0).x())), 0, image.width - 1);
-    to_ = std::clamp(static_cast<int>(std::lround(place(line.coursePx.size() - 1).x())), from_ + 1, image.width);
-    blocks_ = std::max(1, (to_ - from_) / kBlockPx);
   }
 
   void erase() {
-    straightenCourse();
+    course_.straighten();
     measurePaper();
-    LineLight all = lightOf(0, blocks_);
-    whole_ = profileOf(all, kPaperRank);
-    depth_ = depthOf(whole_);
+    measureWhole();
     if (depth_ < kLeastDepthSeen || !findSupport()) return;
     measureRims();
-    isSolid_ = 1.0 - depth_ < kSolidLight;
+    isSolid_ = 1.0 - depth_ < kSolidLight || family_.depth > kDarkRuling;
     if (isSolid_) findOtherInk();
     std::vector<LinePart> parts;  // all before the first pixel changes
     std::vector<double> darker;
-    for (int b = 0; b < blocks_; ++b) {
-      LineLight light = lightOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1));
+    for (int b = 0; b < course_.blocks(); ++b) {
+      LineLight light = lightOf(std::max(0, b - kProfileBlocks), std::min(course_.blocks(), b + kProfileBlocks + 1));
       parts.push_back({profileOf(light, kPaperRank), profileOf(light, kDarkRank)});
       const double usual = depthOf(parts.back().usual);
       if (usual >= kLeastDepthSeen) darker.push_back(depthOf(parts.back().dark) / usual);
@@ -96,10 +87,36 @@ class RulingEraser {
       part.usual = ofLineAlone(std::move(part.usual), kMostOfWhole);
       part.dark = ofLineAlone(std::move(part.dark), std::clamp(varies, kMostOfWhole, kMostOfDark));
     }
-    for (int b = 0; b < blocks_; ++b) eraseBlock(b, parts[b]);
+    for (int b = 0; b < course_.blocks(); ++b) eraseBlock(b, parts[b]);
   }
 
  private:
+  /// What the line takes of the light as a rule. Of a dark one only ink that stands between paper tells: where copying
+  /// has broken it it is no paler, and where a shape lies over it no wider. Of a pale one, not what is drawn along it:
+  /// blocks that are much darker than both the lines of its family and most others of its own.
+  void measureWhole() {
+    const bool isDark = family_.depth > kDarkRuling;
+    const auto measure = [&](const std::vector<char>& isTaken) {
+      LineLight all = lightOf(0, course_.blocks(), isTaken);
+      whole_ = profileOf(all, kPaperRank);
+      depth_ = depthOf(whole_);
+    };
+    std::vector<char> isTaken(image_.width, 1);
+    for (int x = course_.from(); isDark && x < course_.to(); ++x) isTaken[x] = standsAlone(x) ? 1 : 0;
+    measure(isTaken);
+    if (isDark || depth_ <= kMostOfFamily * family_.depth) return;
+    std::vector<double> depths;
+    for (int b = 0; b < course_.blocks(); ++b) {
+      LineLight light = lightOf(b, b + 1, isTaken);
+      depths.push_back(depthOf(profileOf(light, kPaperRank)));
+    }
+    const double own = lowerQuantile(std::vector<double>(depths), kOwnRank);
+    const double most = kMostOfFamily * std::max(own, family_.depth);
+    for (int b = 0; b < course_.blocks(); ++b)
+      if (depths[b] > most) std::fill(isTaken.begin() + course_.begin(b), isTaken.begin() + course_.end(b), 0);
+    measure(isTaken);
+  }
+
   double depthOf(const std::vector<double>& profile) const {
     const auto [nearFrom, nearTo] = middleOf(profile);
     return 1.0 - *std::min_element(nearFrom, nearTo);
@@ -110,105 +127,59 @@ class RulingEraser {
     std::vector<double> usual, dark;
   };
 
-  int begin(int block) const { return from_ + block * kBlockPx; }
-  int end(int block) const { return block + 1 == blocks_ ? to_ : from_ + (block + 1) * kBlockPx; }
   int bins() const { return 2 * kBinsPerPx * reach_ + 1; }
 
   /// Calls f(x, y, offset of the pixel's centre from the line) for the pixels of a strip.
   template <class F>
   void forStrip(int fromX, int toX, double low, double high, F&& f) const {
     for (int x = fromX; x < toX; ++x) {
-      const int y0 = std::max(0, static_cast<int>(std::ceil(course_[x] + low - 0.5)));
-      const int y1 = std::min(image_.height - 1, static_cast<int>(std::floor(course_[x] + high - 0.5)));
-      for (int y = y0; y <= y1; ++y) f(x, y, y + 0.5 - course_[x]);
+      const int y0 = std::max(0, static_cast<int>(std::ceil(course_.at(x) + low - 0.5)));
+      const int y1 = std::min(image_.height - 1, static_cast<int>(std::floor(course_.at(x) + high - 0.5)));
+      for (int y = y0; y <= y1; ++y) f(x, y, y + 0.5 - course_.at(x));
     }
-  }
-
-  /// Grey at a place across the line, between pixel centres; absent beyond the picture.
-  std::optional<float> greyAt(int x, double offset) const {
-    const double place = course_[x] + offset - 0.5;
-    const int y = static_cast<int>(std::floor(place));
-    if (y < 0 || y + 1 >= image_.height) return std::nullopt;
-    const auto share = static_cast<float>(place - y);
-    return (1.0f - share) * static_cast<float>(image_.row(y)[x]) + share * static_cast<float>(image_.row(y + 1)[x]);
-  }
-
-  /// Where the line lies off its course in one block: the middle of what is at least half as dark as its darkest place.
-  double shiftOf(int block) const {
-    const int steps = std::max(2, static_cast<int>(2.0 * std::min(0.25 * family_.spacingPx, 3.0 + family_.widthPx)));
-    std::vector<float> levels, column;
-    for (int o = -steps; o <= steps; ++o) {
-      column.clear();
-      for (int x = begin(block); x < end(block); ++x) {
-        if (const auto level = greyAt(x, 0.5 * o)) column.push_back(*level);
-      }
-      levels.push_back(column.empty() ? 65535.0f : upperMedian(column));
-    }
-    const auto darkest = std::min_element(levels.begin(), levels.end());
-    const float paper = *std::max_element(levels.begin(), levels.end()), half = 0.5f * (paper + *darkest);
-    if (paper <= *darkest) return 0.0;
-    auto from = darkest, to = darkest;
-    while (from != levels.begin() && *(from - 1) < half) --from;
-    while (to + 1 != levels.end() && *(to + 1) < half) ++to;
-    double sum = 0.0, weight = 0.0;
-    for (auto it = from; it <= to; ++it) {
-      const double darker = static_cast<double>(half - *it) + 1.0;
-      sum += darker * static_cast<double>(it - levels.begin());
-      weight += darker;
-    }
-    return 0.5 * (sum / weight - steps);
-  }
-
-  /// Moves the course to where the line is darkest, block by block, smoothly.
-  void straightenCourse() {
-    std::vector<double> shifts, calm;
-    for (int b = 0; b < blocks_; ++b) shifts.push_back(shiftOf(b));
-    for (std::ptrdiff_t i = 0; i < std::ssize(shifts); ++i) {
-      const auto from = shifts.begin() + std::max<std::ptrdiff_t>(0, i - 3);
-      const auto to = shifts.begin() + std::min(std::ssize(shifts), i + 4);
-      calm.push_back(upperMedian(std::vector<double>(from, to)));
-    }
-    for (int x = 0; x < image_.width; ++x) course_[x] += atBlocks(calm, x);
-  }
-
-  /// Values at the blocks' middles, linear between them.
-  double atBlocks(const std::vector<double>& values, int x) const {
-    const double place = (x - from_ + 0.5) / kBlockPx - 0.5;
-    const double low = std::clamp(std::floor(place), 0.0, static_cast<double>(values.size() - 1));
-    const int i = static_cast<int>(low), j = std::min(i + 1, static_cast<int>(values.size()) - 1);
-    return values[i] + std::clamp(place - low, 0.0, 1.0) * (values[j] - values[i]);
   }
 
   void measurePaper() {
     std::vector<float> levels;
-    for (int b = 0; b < blocks_; ++b) {
+    for (int b = 0; b < course_.blocks(); ++b) {
       levels.clear();
-      forStrip(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
+      forStrip(course_.begin(b), course_.end(b), -reach_, reach_, [&](int x, int y, double offset) {
         if (std::fabs(offset) >= rim_) levels.push_back(static_cast<float>(image_.row(y)[x]));
       });
       const double level = levels.empty() ? 0.0 : static_cast<double>(lowerQuantile(levels, kPaperRank));
       paper_.push_back(level > 1.0 ? level : paper_.empty() ? 65535.0 : paper_.back());
     }
-    for (int b = 0; b < blocks_; b += kSampledBlocks) {
-      forStrip(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
-        if (std::fabs(offset) >= rim_) noise_.push_back(lightAt(x, y) - 1.0);
+    if (family_.depth > kDarkRuling) {
+      // Where ink fills all about the line no paper is seen.
+      const double bright = lowerQuantile(std::vector<double>(paper_), kPaperAlong);
+      for (double& level : paper_) level = level < kDarkestPaper * bright ? bright : level;
+    }
+    for (int b = 0; b < course_.blocks(); b += kSampledBlocks) {
+      forStrip(course_.begin(b), course_.end(b), -reach_, reach_, [&](int x, int y, double offset) {
+        const double light = lightAt(x, y);
+        const bool isInk = family_.depth > kDarkRuling && light < 1.0 - 0.5 * family_.depth;
+        if (std::fabs(offset) >= rim_ && !isInk) noise_.push_back(light - 1.0);
       });
     }
     noiseLevel_ = robustSigma(noise_);
   }
 
-  double lightAt(int x, int y) const { return image_.row(y)[x] / atBlocks(paper_, x); }
+  double lightAt(int x, int y) const { return image_.row(y)[x] / course_.atBlocks(paper_, x); }
 
   /// The light of the pixels about some blocks.
   struct LineLight {
     std::vector<std::vector<float>> values;  ///< Per half pixel across.
     int columns = 0;                         ///< In which the line is on the page.
   };
-  LineLight lightOf(int fromBlock, int toBlock) const {
-    const int from = begin(fromBlock), to = end(toBlock - 1);
+  /// @param isTaken per column of the picture, 0 for those that are left out; empty: none is.
+  LineLight lightOf(int fromBlock, int toBlock, const std::vector<char>& isTaken = {}) const {
+    const int from = course_.begin(fromBlock), to = course_.end(toBlock - 1);
     LineLight light{std::vector<std::vector<float>>(bins()), 0};
-    for (int x = from; x < to; ++x) light.columns += course_[x] >= 0.0 && course_[x] < image_.height ? 1 : 0;
+    const auto isLeftOut = [&](int x) { return !isTaken.empty() && isTaken[x] == 0; };
+    for (int x = from; x < to; ++x)
+      light.columns += !isLeftOut(x) && course_.at(x) >= 0.0 && course_.at(x) < image_.height ? 1 : 0;
     forStrip(from, to, -reach_, reach_, [&](int x, int y, double offset) {
+      if (isLeftOut(x)) return;
       const auto bin = std::lround((offset + reach_) * kBinsPerPx);
       light.values[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));
     });
@@ -286,8 +257,8 @@ class RulingEraser {
   /// What strokes take of the light just above and just below the line.
   void measureRims() {
     const auto darkness = [&](int x, double offset) {
-      const auto level = greyAt(x, offset);
-      return level ? std::clamp(1.0 - static_cast<double>(*level) / atBlocks(paper_, x), 0.0, 1.0) : 0.0;
+      const auto level = course_.greyAt(x, offset);
+      return level ? std::clamp(1.0 - static_cast<double>(*level) / course_.atBlocks(paper_, x), 0.0, 1.0) : 0.0;
     };
     for (int x = 0; x < image_.width; ++x) {
       above_.push_back(darkness(x, low_ - 0.5));
@@ -316,16 +287,40 @@ class RulingEraser {
     return profile;
   }
 
+  /// Whether the middle of the line is at least half as dark as a line of that depth.
+  bool isInked(int x, double depth, double offset = 0.0) const {
+    const auto level = course_.greyAt(x, offset);
+    return level && static_cast<double>(*level) < (1.0 - 0.5 * depth) * course_.atBlocks(paper_, x);
+  }
+  /// [px] of black that take as much light as the ink across the line at a column.
+  double inkAcross(int x) const {
+    double sum = 0.0;
+    forStrip(x, x + 1, low_, high_, [&](int, int y, double) { sum += std::max(0.0, 1.0 - lightAt(x, y)); });
+    return sum;
+  }
+  bool standsAlone(int x) const {
+    const double depth = family_.depth;
+    return isInked(x, depth) && !isInked(x, depth, -rim_) && !isInked(x, depth, rim_);
+  }
+
   /// Which columns of a solid line's course hold ink that is not its own.
   void findOtherInk() {
     std::vector<char> inked;
-    for (int x = from_; x < to_; ++x) {
-      const auto level = greyAt(x, 0.0);
-      inked.push_back(level && static_cast<double>(*level) < (1.0 - 0.5 * depth_) * atBlocks(paper_, x) ? 1 : 0);
+    for (int x = course_.from(); x < course_.to(); ++x) inked.push_back(isInked(x, depth_) ? 1 : 0);
+    std::vector<char> other = otherInkOnLine(inked, family_.spacingPx);
+    // What is no wider than the line is a piece of it, of a copy that has broken it.
+    const double ofLine =
+        std::accumulate(whole_.begin(), whole_.end(), 0.0, [](double sum, double light) { return sum + 1.0 - light; }) /
+        kBinsPerPx;
+    for (std::ptrdiff_t i = 0, end = 0; i < std::ssize(other); i = end) {
+      std::vector<double> widths;
+      for (end = i; end < std::ssize(other) && other[end] == other[i]; ++end)
+        if (other[i] != 0) widths.push_back(inkAcross(course_.from() + static_cast<int>(end)));
+      if (!widths.empty() && upperMedian(widths) < kWiderThanLine * ofLine)
+        std::fill(other.begin() + i, other.begin() + end, 0);
     }
-    const std::vector<char> other = otherInkOnLine(inked, family_.spacingPx);
     isOther_.assign(image_.width, 0);
-    std::copy(other.begin(), other.end(), isOther_.begin() + from_);
+    std::copy(other.begin(), other.end(), isOther_.begin() + course_.from());
   }
 
   double leastStroke() const { return std::max(kLeastStroke, 3.0 * noiseLevel_); }
@@ -335,9 +330,9 @@ class RulingEraser {
   void eraseBlock(int block, const LinePart& line) {
     if (isGap(line.usual)) return;
     const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
-    forStrip(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
+    forStrip(course_.begin(block), course_.end(block), low_, high_, [&](int x, int y, double offset) {
       if (isSolid_ && isOther_[x] != 0) return;
-      const double paper = atBlocks(paper_, x), light = image_.row(y)[x] / paper;
+      const double paper = course_.atBlocks(paper_, x), light = image_.row(y)[x] / paper;
       const double stroke = strokeAt(x, offset);
       double left = 1.0;
       if (isSolid_) {
@@ -355,11 +350,10 @@ class RulingEraser {
 
   GreyImage& image_;
   const RulingFamily& family_;
-  int from_ = 0, to_ = 1;  ///< [px] Columns that the line runs through.
-  int reach_ = 2, blocks_ = 1;
+  RulingCourse course_;
+  int reach_ = 2;
   double rim_ = 1.0;
-  std::vector<double> course_;  ///< [px] The line's middle at every column.
-  std::vector<double> paper_;   ///< [0..65535] per block.
+  std::vector<double> paper_;  ///< [0..65535] per block.
   std::vector<double> noise_, whole_, above_, below_;
   double noiseLevel_ = 0.0, depth_ = 0.0;
   double low_ = 0.0, high_ = 0.0;  ///< [px] What the line covers, from its middle.

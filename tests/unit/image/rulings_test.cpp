@@ -96,6 +96,37 @@ TEST(Rulings, LinesDownThePageThatEndOnItOrLieInTheMiddleAreDrawn) {
     EXPECT_EQ(findRulings(paperWith({{ruled, light(0.8)}, {drawn, kPen}, {drawing(), kPen}}).grey, {}).size(), 1u);
 }
 
+// A photograph shows more than the sheet, and a pencil runs along a part of the margin.
+TEST(Rulings, AMarginIsFollowedBesideStrokesToTheEndOfItsSheet) {
+  constexpr double kTop = 0.12, kBottom = 0.93;
+  const auto ofSheet = [&](std::vector<float> ink) {
+    for (int y = 0; y < kRuledHeight; ++y) {
+      if (y > kTop * kRuledHeight && y < kBottom * kRuledHeight) continue;
+      std::fill_n(ink.begin() + std::ptrdiff_t{y} * kRuledWidth, kRuledWidth, 0.0f);
+    }
+    return ink;
+  };
+  const std::vector<float> pencil =
+      layer([](double x, double y) { return y > 250.0 && y < 420.0 ? covered(x - 87.5 - 0.03 * y, 3.0) : 0.0f; });
+  const auto found = findRulings(paperWith({{ofSheet(ruling({.turnedDeg = -0.6})), light(0.8)},
+                                            {layer([&](double x, double y) {
+                                               const bool isOnSheet = y > (kTop - 0.05) * kRuledHeight &&
+                                                                      y < (kBottom + 0.05) * kRuledHeight;
+                                               return isOnSheet ? covered(x - 84.0 - 0.035 * y, 2.0) : 0.0f;
+                                             }),
+                                             light(0.6)},
+                                            {pencil, light(0.4)},
+                                            {drawing(), kPen}})
+                                     .grey,
+                                 {});
+  ASSERT_EQ(found.size(), 2u);
+  ASSERT_EQ(found[1].lines.size(), 1u);
+  for (const Vec2& p : found[1].lines[0].coursePx) {
+    if (p.y() < 0.1 * kRuledHeight || p.y() > 0.95 * kRuledHeight) continue;
+    EXPECT_NEAR(p.x(), 84.0 + 0.035 * p.y(), 2.5);
+  }
+}
+
 TEST(Rulings, AreTakenOutWithoutCuttingStrokes) {
   for (const double passes : {0.9, 0.75, 0.6}) {
     for (const double turned : {0.0, 2.5}) {
@@ -145,6 +176,31 @@ TEST(Rulings, KeepPencilThatRunsAlongThem) {
     }
   }
   EXPECT_GT(kept, 0.9 * all);
+}
+
+// A box drawn with a ruler on lines of a grid, and a pixel beside them.
+TEST(Rulings, KeepABoxThatIsDrawnOnAGrid) {
+  const Ruling across{.width = 2.4}, down{.width = 2.4, .runsDown = true};
+  // Of lines 2 and 20 across, and 3 and 17 down, from the middle line of each.
+  const double x0 = 380.0 - 7.0 * 31.0, x1 = 380.0 + 8.0 * 31.0, y0 = 450.0 - 11.0 * 31.0, y1 = 450.0 + 10.0 * 31.0;
+  const auto offBox = [&](double x, double y) {
+    const double u = std::max(x0 - x, x - x1), v = std::max(y0 - y, y - y1);
+    return std::fabs(std::max(u, v));
+  };
+  const auto box = layer([&](double x, double y) { return covered(offBox(x - 1.0, y - 1.0), 1.8); });
+  const Scan scan = paperWith({{ruling(across), light(0.93)}, {ruling(down), light(0.93)}, {box, light(0.55)}});
+  const auto found = findRulings(scan.grey, {});
+  ASSERT_EQ(found.size(), 2u);
+  const GreyImage cleaned = withoutRulings(scan.grey, found, {});
+  int all = 0, kept = 0;
+  for (int y = 5; y < kRuledHeight - 5; ++y) {
+    for (int x = 5; x < kRuledWidth - 5; ++x) {
+      if (offBox(x - 0.5, y - 0.5) > 0.6) continue;
+      ++all;
+      kept += cleaned.level(x, y) < 180.0;
+    }
+  }
+  EXPECT_GT(kept, 0.95 * all);
 }
 
 TEST(Rulings, StrokesKeepTheirGreyAcrossThem) {
