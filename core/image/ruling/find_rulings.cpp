@@ -243,11 +243,12 @@ void addFamilies(std::vector<FoundLattice>& lattices, const Plane& grey, bool ru
     const auto columnOf = [&](double x) { return std::clamp(static_cast<int>(std::lround(x)), 0, grey.width); };
     const int before = i == 0 ? 0 : columnOf(lattices[i - 1].lattice.toX());
     const int after = i + 1 == lattices.size() ? grey.width : columnOf(lattices[i + 1].lattice.fromX);
-    // Dark ones fade in a copy, one here and one there.
-    const bool isDark = found.look.depth > kDarkRuling;
-    found.fromX = isDark ? before : endOf(grey, found, columnOf(found.lattice.fromX), before);
-    found.toX = isDark ? after : endOf(grey, found, columnOf(found.lattice.toX()), after);
+    // Those of a copy fade, one here and one there.
+    const bool isBroken = found.look.depth > kDarkRuling && !isGrid;
+    found.fromX = isBroken ? before : endOf(grey, found, columnOf(found.lattice.fromX), before);
+    found.toX = isBroken ? after : endOf(grey, found, columnOf(found.lattice.toX()), after);
     families.push_back(familyOf(found, grey, runsDown, shrink));
+    families.back().isBroken = isBroken;
   }
 }
 

@@ -29,7 +29,7 @@ constexpr int kMostRun = 60;            // [grid] of ink: longer runs are shapes
 constexpr double kBesideLine = 3.0;     // [grid] beyond the line's rim: what is there is not the line
 constexpr int kShallowest = 2;          // [px along / px across] of the strokes that are looked for
 constexpr double kLeastCrossed = 0.5;   // of the lines, by strokes
-constexpr double kLeastDrawn = 0.002;   // of the places between lines: with less ink there is no drawing over them
+constexpr double kLeastInkBetween = 0.002;  // of the places between lines: with less ink there is no drawing over them
 // Between two lines, of their distance.
 constexpr std::array<double, 5> kBetween{0.2, 0.35, 0.5, 0.65, 0.8};
 
@@ -189,11 +189,11 @@ bool areUnderTheDrawing(const Plane& grey, const FoundLattice& found) {
   if (evidenceOf(found.lattice) < kLeastEvidence || isComb(grey, found)) return false;
   InkWidths widths = inkWidths(grey, found);
   if (widths.ofLines.empty() || widths.ofStrokes.empty() ||
-      static_cast<double>(std::ssize(widths.ofStrokes)) < kLeastDrawn * static_cast<double>(widths.places))
+      static_cast<double>(std::ssize(widths.ofStrokes)) < kLeastInkBetween * static_cast<double>(widths.places))
     return false;
   // Where a stroke runs into a line its ink is longer.
-  constexpr double kLineRank = 0.25;
-  const double ofLines = lowerQuantile(widths.ofLines, kLineRank), ofStrokes = upperMedian(widths.ofStrokes);
+  constexpr double kThinRank = 0.25;
+  const double ofLines = lowerQuantile(widths.ofLines, kThinRank), ofStrokes = upperMedian(widths.ofStrokes);
   return ofStrokes >= kPenWidths * ofLines && shareCrossed(grey, found, ofLines) >= kLeastCrossed;
 }
 

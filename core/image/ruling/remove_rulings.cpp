@@ -9,7 +9,6 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
-#include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/line_runs.h"
 #include "core/image/ruling/ruling_course.h"
 
@@ -27,7 +26,7 @@ constexpr double kMostOfFamily = 2.0;     // of its depth: a block of a pale lin
 constexpr double kOwnRank = 0.15;         // of the blocks of a line, by depth: some are not drawn on
 constexpr double kWiderThanLine = 1.5;    // than a dark line, of ink that is not its own
 constexpr double kPaperAlong = 0.9;       // rank along a dark line, of its blocks: some show paper
-constexpr double kDarkestPaper = 0.5;     // of that: what is darker is ink
+constexpr double kLeastPaperAlong = 0.5;  // of that: what is darker is ink
 constexpr double kFoot = 0.1;             // of the depth: where a line ends across
 constexpr double kMostSupport = 0.4;      // of the spacing: wider is no ruled line
 constexpr double kLeastDepthSeen = 0.01;  // of the paper: a fainter line is left alone
@@ -72,7 +71,7 @@ class RulingEraser {
     measureWhole();
     if (depth_ < kLeastDepthSeen || !findSupport()) return;
     measureRims();
-    isSolid_ = 1.0 - depth_ < kSolidLight || family_.depth > kDarkRuling;
+    isSolid_ = 1.0 - depth_ < kSolidLight || family_.isBroken;
     if (isSolid_) findOtherInk();
     std::vector<LinePart> parts;  // all before the first pixel changes
     std::vector<double> darker;
@@ -95,16 +94,16 @@ class RulingEraser {
   /// has broken it it is no paler, and where a shape lies over it no wider. Of a pale one, not what is drawn along it:
   /// blocks that are much darker than both the lines of its family and most others of its own.
   void measureWhole() {
-    const bool isDark = family_.depth > kDarkRuling;
+    const bool isBroken = family_.isBroken;
     const auto measure = [&](const std::vector<char>& isTaken) {
       LineLight all = lightOf(0, course_.blocks(), isTaken);
       whole_ = profileOf(all, kPaperRank);
       depth_ = depthOf(whole_);
     };
     std::vector<char> isTaken(image_.width, 1);
-    for (int x = course_.from(); isDark && x < course_.to(); ++x) isTaken[x] = standsAlone(x) ? 1 : 0;
+    for (int x = course_.from(); isBroken && x < course_.to(); ++x) isTaken[x] = standsAlone(x) ? 1 : 0;
     measure(isTaken);
-    if (isDark || depth_ <= kMostOfFamily * family_.depth) return;
+    if (isBroken || depth_ <= kMostOfFamily * family_.depth) return;
     std::vector<double> depths;
     for (int b = 0; b < course_.blocks(); ++b) {
       LineLight light = lightOf(b, b + 1, isTaken);
@@ -149,15 +148,15 @@ class RulingEraser {
       const double level = levels.empty() ? 0.0 : static_cast<double>(lowerQuantile(levels, kPaperRank));
       paper_.push_back(level > 1.0 ? level : paper_.empty() ? 65535.0 : paper_.back());
     }
-    if (family_.depth > kDarkRuling) {
+    if (family_.isBroken) {
       // Where ink fills all about the line no paper is seen.
       const double bright = lowerQuantile(std::vector<double>(paper_), kPaperAlong);
-      for (double& level : paper_) level = level < kDarkestPaper * bright ? bright : level;
+      for (double& level : paper_) level = level < kLeastPaperAlong * bright ? bright : level;
     }
     for (int b = 0; b < course_.blocks(); b += kSampledBlocks) {
       forStrip(course_.begin(b), course_.end(b), -reach_, reach_, [&](int x, int y, double offset) {
         const double light = lightAt(x, y);
-        const bool isInk = family_.depth > kDarkRuling && light < 1.0 - 0.5 * family_.depth;
+        const bool isInk = family_.isBroken && light < 1.0 - 0.5 * family_.depth;
         if (std::fabs(offset) >= rim_ && !isInk) noise_.push_back(light - 1.0);
       });
     }
@@ -295,7 +294,7 @@ class RulingEraser {
   /// [px] of black that take as much light as the ink across the line at a column.
   double inkAcross(int x) const {
     double sum = 0.0;
-    forStrip(x, x + 1, low_, high_, [&](int, int y, double) { sum += std::max(0.0, 1.0 - lightAt(x, y)); });
+    forStrip(x, x + 1, -rim_, rim_, [&](int, int y, double) { sum += std::max(0.0, 1.0 - lightAt(x, y)); });
     return sum;
   }
   bool standsAlone(int x) const {
@@ -308,11 +307,11 @@ class RulingEraser {
     std::vector<char> inked;
     for (int x = course_.from(); x < course_.to(); ++x) inked.push_back(isInked(x, depth_) ? 1 : 0);
     std::vector<char> other = otherInkOnLine(inked, family_.spacingPx);
-    // What is no wider than the line is a piece of it, of a copy that has broken it.
+    // What is no wider than the line is a piece of it, where a copy has broken it.
     const double ofLine =
         std::accumulate(whole_.begin(), whole_.end(), 0.0, [](double sum, double light) { return sum + 1.0 - light; }) /
         kBinsPerPx;
-    for (std::ptrdiff_t i = 0, end = 0; i < std::ssize(other); i = end) {
+    for (std::ptrdiff_t i = 0, end = 0; family_.isBroken && i < std::ssize(other); i = end) {
       std::vector<double> widths;
       for (end = i; end < std::ssize(other) && other[end] == other[i]; ++end)
         if (other[i] != 0) widths.push_back(inkAcross(course_.from() + static_cast<int>(end)));

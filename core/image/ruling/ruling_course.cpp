@@ -5,19 +5,31 @@
 #include <cmath>
 
 #include "core/base/statistics.h"
+#include "core/image/ruling/find_rulings.h"
 
 namespace batten {
 namespace {
 
-constexpr int kBlockPx = 32;           // [px] along a line: one paper level, one place and one profile
-constexpr int kCalmBlocks = 3;         // to either side, which say where the line lies
-constexpr int kCalmBlocksAtEnd = 2;    // likewise: most of them lie where the line bends away
-constexpr double kBeyondBlocks = 1.0;  // from the middle of the last one
+constexpr int kBlockPx = 32;             // [px] along a line: one paper level, one place and one profile
+constexpr int kCalmBlocks = 3;           // to either side, which say where the line lies
+constexpr int kCalmBlocksAtEnd = 2;      // likewise: most of them lie where the line bends away
+constexpr double kLeastSeenDepth = 0.2;  // of the depth of its family: what is fainter is not the line
+constexpr double kBeyondBlocks = 1.0;    // from the middle of the last one
+
+double medianY(std::span<const Vec2> points) {
+  std::vector<double> values;
+  for (const Vec2& p : points) values.push_back(p.y());
+  return upperMedian(values);
+}
 
 }  // namespace
 
 RulingCourse::RulingCourse(const GreyImage& image, const RulingFamily& family, const RulingLine& line)
-    : image_(image), spacingPx_(family.spacingPx), widthPx_(family.widthPx) {
+    : image_(image),
+      spacingPx_(family.spacingPx),
+      widthPx_(family.widthPx),
+      depth_(family.depth),
+      isDark_(family.depth > kDarkRuling && !family.isBroken) {
   const auto place = [&](std::size_t i) {
     const Vec2& p = line.coursePx[i];
     return family.runsDown ? Vec2(p.y(), p.x()) : p;
@@ -48,7 +60,8 @@ std::optional<float> RulingCourse::greyAt(int x, double offset) const {
 }
 
 /// Where the line lies off its course in one block: the middle of what is at least half as dark as its darkest place.
-double RulingCourse::shiftOf(int block) const {
+/// Absent where nothing is dark enough for the line.
+std::optional<double> RulingCourse::shiftOf(int block) const {
   const int steps = std::max(2, static_cast<int>(2.0 * std::min(0.25 * spacingPx_, 3.0 + widthPx_)));
   std::vector<float> levels, column;
   for (int o = -steps; o <= steps; ++o) {
@@ -60,7 +73,8 @@ double RulingCourse::shiftOf(int block) const {
   }
   const auto darkest = std::min_element(levels.begin(), levels.end());
   const float paper = *std::max_element(levels.begin(), levels.end()), half = 0.5f * (paper + *darkest);
-  if (paper <= *darkest) return 0.0;
+  const float least = isDark_ ? 0.0f : static_cast<float>(kLeastSeenDepth * depth_) * paper;
+  if (paper - *darkest <= least) return std::nullopt;
   auto from = darkest, to = darkest;
   while (from != levels.begin() && *(from - 1) < half) --from;
   while (to + 1 != levels.end() && *(to + 1) < half) ++to;
@@ -87,24 +101,29 @@ double onLineThrough(std::span<const Vec2> points, double x) {
 }
 
 void RulingCourse::straighten() {
-  // Of a rotated page many lines leave the picture: what they have there tells nothing.
+  // Blocks that the line has left, as of a rotated page, or in which it is not seen, tell nothing.
   std::vector<Vec2> shifts;
   for (int b = 0; b < blocks_; ++b) {
     const double middle = course_[(begin(b) + end(b)) / 2];
-    if (middle > 0.0 && middle < image_.height) shifts.emplace_back(b, shiftOf(b));
+    const auto shift = isDark_ || (middle > 0.0 && middle < image_.height) ? shiftOf(b) : std::nullopt;
+    if (shift || isDark_) shifts.emplace_back(b, shift.value_or(0.0));
   }
   if (shifts.empty()) return;
   std::vector<double> calm;
-  const auto known = static_cast<int>(shifts.size()), first = static_cast<int>(shifts.front().x());
-  for (int b = 0; b < blocks_; ++b) {
-    const int place = b - first, toEnd = std::min(place, known - 1 - place);
-    const int half = std::clamp(toEnd, kCalmBlocksAtEnd, kCalmBlocks);
-    const int from = std::clamp(place - half, 0, std::max(0, known - 2 * half - 1));
-    const int to = std::min(known, from + 2 * half + 1);
+  const auto known = static_cast<int>(shifts.size());
+  for (int b = 0, place = 0; b < blocks_; ++b) {
+    while (place + 1 < known && shifts[place].x() < b) ++place;
+    const int atEnd = std::min(place, known - 1 - place);
+    // Ink beside a dark line of a grid is as dark as the line: a direction of few blocks may be that of a box.
+    const int half = isDark_ ? kCalmBlocks : std::clamp(atEnd, kCalmBlocksAtEnd, kCalmBlocks);
+    const int most = isDark_ ? known - 1 : std::max(0, known - 2 * half - 1);
+    const int from = std::clamp(place - half, 0, most);
+    const int to = std::min(known, isDark_ ? place + half + 1 : from + 2 * half + 1);
+    const auto around = std::span(shifts).subspan(from, to - from);
     const double inside = std::clamp<double>(b, shifts.front().x(), shifts.back().x());
-    calm.push_back(onLineThrough(std::span(shifts).subspan(from, to - from), inside));
+    calm.push_back(isDark_ ? medianY(around) : onLineThrough(around, inside));
   }
-  for (int x = 0; x < image_.width; ++x) course_[x] += beyondBlocks(calm, x);
+  for (int x = 0; x < image_.width; ++x) course_[x] += isDark_ ? atBlocks(calm, x) : beyondBlocks(calm, x);
 }
 
 /// As atBlocks, straight on beyond the middle of the first and of the last block.

@@ -34,11 +34,12 @@ class RulingCourse {
   void straighten();
 
  private:
-  double shiftOf(int block) const;
+  std::optional<double> shiftOf(int block) const;
   double beyondBlocks(const std::vector<double>& values, int x) const;
 
   const GreyImage& image_;
-  double spacingPx_, widthPx_;
+  double spacingPx_, widthPx_, depth_;
+  bool isDark_ = false;  ///< And whole, as of a grid.
   int from_ = 0, to_ = 1, blocks_ = 1;
   std::vector<double> course_;  ///< [px] Per column.
 };

@@ -18,6 +18,7 @@ struct RulingFamily {
   double spacingPx = 0.0;  ///< Mean distance of neighbours.
   double widthPx = 0.0;    ///< Median over the lines.
   double depth = 0.0;      ///< 0..1: how much of the paper's light a line takes, at its middle.
+  bool isBroken = false;   ///< As dark as ink, and copied: lines fade and break off, and shapes lie over them.
   std::vector<RulingLine> lines;
 };
 
