@@ -37,6 +37,7 @@ constexpr double kMostBetween = 0.5;                    // of the depth of dark 
 constexpr double kBetweenPx = 3.0;                      // [grid] between two lines, and as much to either side
 constexpr int kLeastRun = 3;                            // strips of a page that lies beside others
 constexpr double kMostlyInked = 0.5;                    // of the lines, in a column they run through
+constexpr double kMarginWidths = 2.5;                   // of the ruled lines: a margin is hardly wider
 constexpr double kEdgeShare = 0.1;                      // of a lattice: there lines have the direction they end with
 constexpr double kMostWidth = 0.3;                      // of the spacing
 constexpr double kLeastRulingDepth = 0.015;             // of a ruling, below its paper
@@ -253,12 +254,13 @@ void addFamilies(std::vector<FoundLattice>& lattices, const Plane& grey, bool ru
 }
 
 /// A line across ruled ones that is their margin: thin, whole, from border to border, and no darker than a ruling.
-std::optional<FoundLattice> judgedMargin(const Plane& along, const RulingLattice& line, double depthOfRuling,
+std::optional<FoundLattice> judgedMargin(const Plane& along, const RulingLattice& line, const LineLook& ruling,
                                          const RunContext& context) {
   FoundLattice found{line, lookOf(along, line), 0, along.width};
   const LineLook& look = found.look;
   if (look.width > std::max(2.0, kMostWidth * line.spacing) || look.depth < kLeastRulingDepth) return std::nullopt;
-  if (look.depth > std::max(kDarkRuling, depthOfRuling)) return std::nullopt;  // drawn with a pen
+  if (look.width > kMarginWidths * std::max(ruling.width, 2.0)) return std::nullopt;  // the gutter of a book
+  if (look.depth > std::max(kDarkRuling, ruling.depth)) return std::nullopt;          // drawn with a pen
   if (inkAlongLines(along, line, context) < kLeastInk) return std::nullopt;
   return found;
 }
@@ -289,14 +291,14 @@ std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& 
   addFamilies(columns, down, true, !rows.empty(), shrink, families);
   if (families.size() == 1) {
     const bool runsDown = families.front().runsDown;
-    const double depth = families.front().depth;
+    const LineLook ruling{families.front().widthPx / shrink, families.front().depth};
     const auto lines = findMarginLines({across, !runsDown}, runsDown ? ofRows : ofColumns,
                                        (runsDown ? columns : rows).front().lattice, context);
     if (!lines.empty() && !runsDown && down.width == 0) down = mirrored(across, context);
     const Plane& along = runsDown ? across : down;
     std::vector<RulingFamily> margins;
     for (const RulingLattice& line : lines) {
-      if (auto margin = judgedMargin(along, line, depth, context))
+      if (auto margin = judgedMargin(along, line, ruling, context))
         margins.push_back(familyOf(*margin, along, !runsDown, shrink));
     }
     if (margins.size() <= kMostMargins) std::ranges::move(margins, std::back_inserter(families));
