@@ -29,7 +29,7 @@ constexpr double kLeastEven = 0.8;                              // of the distan
 constexpr int kMostMissingHoles = 2;                            // holes between two that were found
 constexpr double kMarginDepths = 2.0;                           // of a hole: the margin is no narrower
 constexpr double kMostBeside = 0.5;                             // of the dark of the holes: what a drawing leaves there
-constexpr int kPaperCells = 15;                                 // paper shows within them, whatever is drawn
+constexpr int kPaperAcross = 15;                                // paper shows within them, whatever is drawn
 constexpr double kLeastEmpty = 0.5;  // of the places between holes along the edge of a sheet: drawings reach it
 constexpr int kRimCells = 1;         // of a hole: its blurred edge
 
@@ -242,7 +242,8 @@ void mark(const cv::Rect& box, BitImage& cells) {
 cv::Mat1b darkOnSheet(const SheetCells& cells, const cv::Mat1b& sheet) {
   cv::Mat1f grey, paper;
   cv::extractChannel(cells.colour, grey, 0);
-  cv::morphologyEx(grey, paper, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {kPaperCells, kPaperCells}));
+  cv::morphologyEx(grey, paper, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_RECT, {kPaperAcross, kPaperAcross}));
   cv::Mat1b dark(cells.rows, cells.columns, static_cast<std::uint8_t>(0));
   for (int j = 0; j < cells.rows; ++j) {
     for (int i = 0; i < cells.columns; ++i)

@@ -17,7 +17,7 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastFilled = 0.75;                       // of the quadrilateral: things lie on the sheet, too
+constexpr double kLeastEvenShare = 0.75;                    // of the quadrilateral: things lie on the sheet, too
 constexpr double kLeastSeenOfSide = 0.3;                    // of a side's length; things hide the rest
 constexpr double kLeastSeen = 0.6;                          // of all sides
 constexpr double kLeastDarkerBeside = 0.8;                  // of the places that are seen
@@ -142,7 +142,7 @@ std::optional<cv::Mat1b> straightSidedSheet(const cv::Mat1b& even, const SheetCe
   for (const Vec2& p : corners) four.emplace_back(cvRound(p.x()), cvRound(p.y()));
   cv::Mat1b sheet(even.size(), static_cast<unsigned char>(0));
   cv::fillConvexPoly(sheet, four, 255);
-  if (cv::countNonZero(even & sheet) < kLeastFilled * cv::countNonZero(sheet)) return std::nullopt;
+  if (cv::countNonZero(even & sheet) < kLeastEvenShare * cv::countNonZero(sheet)) return std::nullopt;
   SeenSides seen{even, cells};
   bool areAllSeen = true;
   for (int k = 0; k < kMostSides; ++k)
