@@ -17,6 +17,7 @@
 #include "core/image/ruling/ruling_count.h"
 #include "core/image/sheet/paint_over.h"
 #include "core/image/sheet/sheet_and_holes.h"
+#include "core/image/threshold/bright_lines.h"
 #include "core/image/threshold/region_values.h"
 #include "core/image/tones/shading.h"
 #include "core/image/tones/tone_areas.h"
@@ -188,6 +189,40 @@ void takeInks(const Scan& scan, const InkChoice& choice, PreparedPage& page, con
   page.droppedShare = static_cast<double>(dropped->pixels) / static_cast<double>(scan.grey.pixels.size());
 }
 
+/// The scan with black for white. Its colours serve to find coloured ink only: their hues are not those of the inks.
+Scan invertedScan(const Scan& scan) {
+  Scan inverted = scan;
+  for (std::uint16_t& value : inverted.grey.pixels) value = static_cast<std::uint16_t>(~value);
+  const auto other = [](std::uint8_t value) { return static_cast<std::uint8_t>(~value); };
+  for (Rgb8& pixel : inverted.colour.pixels) pixel = {other(pixel.red), other(pixel.green), other(pixel.blue)};
+  return inverted;
+}
+
+/// Whatever is to be left out is taken out of the page.
+void leaveOut(const Scan& scan, const PreparationParams& params, PreparedPage& page, const RunContext& context) {
+  if (params.colour == ColourUse::Darkest && !scan.colour.isEmpty()) takeColouredInk(scan, page, context);
+  if (context.isCancelled()) return;
+  if (!scan.colour.isEmpty() && !page.isInverted) takeInks(scan, params.inks, page, context);
+  if (context.isCancelled()) return;
+  addRectifyNotes(scan, page);
+  if (params.sheet == SheetUse::CutOff) cutOffTable(scan, page, context);
+  if (context.isCancelled()) return;
+  if (params.rulings == RulingUse::LeaveOut) leaveOutRulings(scan, page, context);
+  if (context.isCancelled()) return;
+  if (params.shading == ShadingUse::LeaveOut) leaveOutShading(scan, page, context);
+}
+
+void prepareInverted(const Scan& scan, const PreparationParams& params, PreparedPage& page, const RunContext& context) {
+  page.isInverted = true;
+  page.notes.emplace_back(
+      "The lines are brighter than the paper, so the page was inverted; paper.lines=darker keeps it as it is.");
+  if (!params.inks.isAll())
+    page.notes.emplace_back("On an inverted page inks are not told apart: inks.keep and inks.drop have no effect.");
+  Scan inverted = invertedScan(scan);
+  leaveOut(inverted, params, page, context);
+  if (!page.grey) page.grey = std::move(inverted.grey);
+}
+
 }  // namespace
 
 std::optional<Error> validate(const PreparationParams& params) {
@@ -201,16 +236,13 @@ Result<PreparedPage> preparePage(const Scan& scan, const PreparationParams& para
   [[maybe_unused]] static const bool isAlone = (cv::setNumThreads(0), true);
   try {
     PreparedPage page;
-    if (params.colour == ColourUse::Darkest && !scan.colour.isEmpty()) takeColouredInk(scan, page, context);
+    const bool isInverted =
+        params.lines == LineTone::Brighter || (params.lines == LineTone::Auto && areLinesBrighter(scan.grey, context));
     if (context.isCancelled()) return cancelled();
-    if (!scan.colour.isEmpty()) takeInks(scan, params.inks, page, context);
-    if (context.isCancelled()) return cancelled();
-    addRectifyNotes(scan, page);
-    if (params.sheet == SheetUse::CutOff) cutOffTable(scan, page, context);
-    if (context.isCancelled()) return cancelled();
-    if (params.rulings == RulingUse::LeaveOut) leaveOutRulings(scan, page, context);
-    if (context.isCancelled()) return cancelled();
-    if (params.shading == ShadingUse::LeaveOut) leaveOutShading(scan, page, context);
+    if (isInverted)
+      prepareInverted(scan, params, page, context);
+    else
+      leaveOut(scan, params, page, context);
     if (context.isCancelled()) return cancelled();
     return page;
   } catch (const std::bad_alloc&) {

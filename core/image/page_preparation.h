@@ -40,8 +40,16 @@ enum class ShadingUse {
   Keep,      ///< They are ink as any other.
 };
 
+/// What the lines are to the paper.
+enum class LineTone {
+  Auto,      ///< Found by the page (bright_lines.h).
+  Darker,    ///< As pencil and ink on paper.
+  Brighter,  ///< As chalk on a blackboard, or a blueprint: the page is inverted.
+};
+
 /// What is done to a scan before its thresholds.
 struct PreparationParams {
+  LineTone lines = LineTone::Auto;
   ColourUse colour = ColourUse::Darkest;
   RulingUse rulings = RulingUse::LeaveOut;
   SheetUse sheet = SheetUse::CutOff;
@@ -62,6 +70,7 @@ struct PreparedPage {
   std::vector<FoundInk> inks;         ///< Of a colour scan: all of them, also those that were dropped.
   double droppedShare = 0.0;          ///< 0..1 of the page: inks painted over.
   double shadedShare = 0.0;           ///< 0..1 of the page, clearly shaded: its ground was made paper.
+  bool isInverted = false;            ///< Its lines were brighter than the paper; inks are not told apart on it.
   std::vector<std::string> notes;     ///< What the user should know, one line each.
   bool isUntouched() const { return !grey; }
 };

@@ -232,6 +232,15 @@ void appendLog(std::vector<Parameter>& table) {
 // What is kept of the page before thresholds are looked for.
 void appendPage(std::vector<Parameter>& table) {
   constexpr StageId kThresholds = StageId::Thresholds;  // a short name for the entries below
+  table.push_back(choice<LineTone>(
+      kThresholds,
+      {"paper.lines", "Lines", "",
+       "Whether the lines are darker than the paper, or brighter, as chalk on a blackboard and the lines of a "
+       "blueprint: then the page is inverted. Automatic: found by the page."},
+      {{"auto", "Automatic", LineTone::Auto},
+       {"darker", "Darker than the paper", LineTone::Darker},
+       {"brighter", "Brighter than the paper", LineTone::Brighter}},
+      [](auto& r) -> auto& { return r.preparation.lines; }));
   table.push_back(choice<ColourUse>(
       kThresholds,
       {"paper.colour", "Coloured ink", "",

@@ -85,6 +85,7 @@ ContentHash preparedKey(const ContentHash& scan, const PreparationParams& params
   HashBuilder h;
   h.text("prepared page")
       .hash(scan)
+      .integer(static_cast<int>(params.lines))
       .integer(static_cast<int>(params.colour))
       .integer(static_cast<int>(params.rulings))
       .integer(static_cast<int>(params.sheet))
@@ -216,7 +217,10 @@ ContentHash withStrokes(const ContentHash& traced, const Recipe& recipe) {
 
 PreparationParams preparationOf(const Recipe& recipe) {
   PreparationParams params = recipe.preparation;
-  if (!recipe.paper.flatten || recipe.threshold.mode == ThresholdMode::Manual) params.shading = ShadingUse::Keep;
+  if (recipe.paper.flatten && recipe.threshold.mode != ThresholdMode::Manual) return params;
+  params.shading = ShadingUse::Keep;
+  // The user's levels are those of the scan.
+  if (params.lines == LineTone::Auto) params.lines = LineTone::Darker;
   return params;
 }
 

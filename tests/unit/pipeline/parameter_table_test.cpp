@@ -102,6 +102,7 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                                           "paper.flatten",
                                           "paper.folds",
                                           "paper.format",
+                                          "paper.lines",
                                           "paper.rectify",
                                           "paper.rulings",
                                           "paper.shading",

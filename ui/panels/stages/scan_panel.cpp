@@ -163,7 +163,8 @@ void ScanPanel::buildScale(ViewSettings& view) {
 void ScanPanel::buildPaper(ViewSettings& view) {
   column()->addWidget(caption(tr("Paper"), this));
   column()->addWidget(new ParameterEditor(
-      session_, {"paper.colour", "paper.rulings", "paper.sheet", "paper.shading", "paper.flatten", "paper.folds"},
+      session_,
+      {"paper.lines", "paper.colour", "paper.rulings", "paper.sheet", "paper.shading", "paper.flatten", "paper.folds"},
       this));
   paperNote_->setObjectName(QStringLiteral("scan.paperNote"));
   column()->addWidget(paperNote_);
