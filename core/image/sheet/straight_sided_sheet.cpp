@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kLeastEvenShare = 0.75;                    // of the quadrilateral: things lie on the sheet, too
 constexpr double kLeastSeenOfSide = 0.3;                    // of a side's length; things hide the rest
-constexpr double kLeastSeen = 0.6;                          // of all sides
+constexpr double kLeastSeenOfAll = 0.6;                     // of all sides
 constexpr double kLeastDarkerBeside = 0.8;                  // of the places that are seen
 constexpr int kNearSideCells = 3, kBesideSideCells = 9;     // from a side: what is looked at on both
 constexpr double kLeastCorner = 50.0, kMostCorner = 130.0;  // [degrees] a rectangle seen at an angle
@@ -147,7 +147,7 @@ std::optional<cv::Mat1b> straightSidedSheet(const cv::Mat1b& even, const SheetCe
   bool areAllSeen = true;
   for (int k = 0; k < kMostSides; ++k)
     areAllSeen = seen.add(sides[k], corners[(k + kMostSides - 1) % kMostSides], corners[k]) && areAllSeen;
-  if (!areAllSeen || seen.seen < kLeastSeen * seen.all || seen.darker < kLeastDarkerBeside * seen.seen)
+  if (!areAllSeen || seen.seen < kLeastSeenOfAll * seen.all || seen.darker < kLeastDarkerBeside * seen.seen)
     return std::nullopt;
   const cv::Mat1b beside = grownMask(sheet, kSheetEdgeCells) == 0;
   const PaperLook paper = paperLookOf(even & sheet, cells);

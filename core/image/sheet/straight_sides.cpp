@@ -11,9 +11,10 @@ namespace {
 
 constexpr std::size_t kOutlinePlaces = 400;
 constexpr double kOnSideCells = 1.5;      // of a side: its course in cells
-constexpr double kLeastStraight = 0.98;   // of the way along the outline by its middle
+constexpr double kLeastDirect = 0.98;     // of the way along the outline by its middle
 constexpr double kLeastOfOutline = 0.06;  // of the outline of an even area: fewer of its cells make no side
-constexpr double kMostBeyond = 0.06;  // of an even area may lie beyond one side: it goes on into something as bright
+constexpr double kMostBeyondSide =
+    0.06;  // of an even area may lie beyond one side: it goes on into something as bright
 
 /// Places of the outline of the largest part, at equal distances; not at the border of the picture.
 std::vector<Vec2> outlineCells(const cv::Mat1b& even) {
@@ -64,7 +65,7 @@ std::optional<StraightSide> bestSide(const std::vector<Vec2>& outline, const std
     for (int i = 0; span > 0 && i < n; i += step) {
       const Vec2 &a = outline[i], &b = outline[(i + span) % n];
       if (const Vec2& middle = outline[(i + span / 2) % n];  // the outline bends between them
-          (b - a).norm() < kLeastStraight * ((middle - a).norm() + (b - middle).norm()))
+          (b - a).norm() < kLeastDirect * ((middle - a).norm() + (b - middle).norm()))
         continue;
       StraightSide side = through(a, b);
       side.count = countOn(side, outline);
@@ -76,7 +77,7 @@ std::optional<StraightSide> bestSide(const std::vector<Vec2>& outline, const std
   for (StraightSide side : sides) {
     const auto beyond = std::ranges::count_if(area, [&](const Vec2& p) { return side.depth(p) < -kOnSideCells; });
     const auto within = std::ranges::count_if(area, [&](const Vec2& p) { return side.depth(p) > kOnSideCells; });
-    if (static_cast<double>(std::min(beyond, within)) > kMostBeyond * static_cast<double>(area.size())) continue;
+    if (static_cast<double>(std::min(beyond, within)) > kMostBeyondSide * static_cast<double>(area.size())) continue;
     if (beyond > within) side = {-side.inward, -side.offset, side.count};
     return side;
   }

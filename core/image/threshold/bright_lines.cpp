@@ -12,12 +12,12 @@
 namespace batten {
 namespace {
 
-constexpr int kFirstStep = 16;                   // [px] of the first look
-constexpr double kDarkPage = 128.0;              // [grey] the median of a dark page is less
-constexpr std::int64_t kMostPixels = 1'000'000;  // of the page as it is looked at closely
-constexpr int kGroundCell = 32;                  // pixels of that a side: the ground is the median
-constexpr float kClearly = 24.0f;                // [grey] from the ground
-constexpr double kOfBrighter = 3.0;              // times what is darker: grain and a picture with tones have less
+constexpr int kFirstStep = 16;                     // [px] of the first look
+constexpr double kDarkPage = 128.0;                // [grey] the median of a dark page is less
+constexpr std::int64_t kMostLookedAt = 1'000'000;  // of the page as it is looked at closely
+constexpr int kGroundCell = 32;                    // pixels of that a side: the ground is the median
+constexpr float kClearly = 24.0f;                  // [grey] from the ground
+constexpr double kOfBrighter = 3.0;                // times what is darker: grain and a picture with tones have less
 constexpr double kLeastBright = 0.002, kMostBright = 0.35;  // of the pixels
 
 double medianOf(const GreyImage& page) {
@@ -60,7 +60,7 @@ Contrast contrastOfCells(const Plane& grey, int top) {
 bool areLinesBrighter(const GreyImage& page, const RunContext& context) {
   if (page.pixels.empty() || medianOf(page) >= kDarkPage) return false;
   int shrink = 1;
-  while (std::int64_t{page.width} * page.height / (shrink * shrink) > kMostPixels) shrink *= 2;
+  while (std::int64_t{page.width} * page.height / (shrink * shrink) > kMostLookedAt) shrink *= 2;
   const Plane grey = shrinkGrey(page, shrink, context);
   if (context.isCancelled()) return false;
   std::vector<Contrast> rows((grey.height + kGroundCell - 1) / kGroundCell);
