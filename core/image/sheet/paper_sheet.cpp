@@ -328,7 +328,7 @@ std::optional<cv::Mat1b> sheetOf(const SheetCells& cells, const RunContext& cont
 std::optional<PaperSheet> findPaperSheet(const SheetCells& cells, const RunContext& context) {
   if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestSheetCells) return std::nullopt;
   const std::optional<cv::Mat1b> sheet = sheetOf(cells, context);
-  if (context.isCancelled() || !sheet) return std::nullopt;
+  if (context.isCancelled() || !sheet || isDrawnFrame(*sheet, cells)) return std::nullopt;
   PaperSheet found;
   found.cellPx = cells.sizePx;
   found.cornersPx = cornersOf(*sheet, cells.sizePx);

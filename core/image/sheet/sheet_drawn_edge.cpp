@@ -2,10 +2,15 @@
 #include "core/image/sheet/sheet_drawn_edge.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "core/base/statistics.h"
+#include "core/base/vec2.h"
 #include "core/image/grown_mask.h"
 #include "core/image/sheet/sheet_step.h"
 
@@ -15,6 +20,10 @@ namespace {
 constexpr double kPocketNeckShare = 0.02;  // of the diagonal: what hangs on the table by narrower parts is paper
 constexpr int kAlongHullCells = 4;         // to either side
 constexpr double kLeastOnHull = 0.3;       // of the edge between a sheet and what lies beside it
+constexpr int kEdgeStep = 3, kAlongEdgeCells = 6;  // between two places of an edge; to either side for its direction
+constexpr int kInLineCells = 3, kBesideLineCells = 9;  // to either side of an edge: a line on it, and paper beside that
+constexpr float kSamePaper = 0.1f, kLeastLineDepth = 0.25f;  // of the brightness of the paper
+constexpr double kLeastFramed = 0.6;                         // of the places
 
 /// The parts of a mask that touch another one.
 cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
@@ -32,6 +41,29 @@ cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
     for (int i = 0; i < mask.cols; ++i) out(j, i) = labels(j, i) > 0 && touches[labels(j, i)] ? 255 : 0;
   }
   return out;
+}
+
+/// Whether a dark line runs between paper of about the same brightness. Absent: one side lies outside the picture.
+std::optional<bool> isLineAcross(const SheetCells& cells, const cv::Point& at, const Vec2& normal) {
+  const auto cellAt = [&](int d) -> std::optional<cv::Point> {
+    const cv::Point p(cvRound(at.x + d * normal.x()), cvRound(at.y + d * normal.y()));
+    const bool isInside = p.x >= 0 && p.y >= 0 && p.x < cells.columns && p.y < cells.rows;
+    return isInside ? std::optional(p) : std::nullopt;
+  };
+  std::array<float, 2> paper{};
+  for (const int side : {0, 1}) {
+    std::vector<float> levels;
+    for (int d = kInLineCells + 1; d <= kBesideLineCells; ++d)
+      if (const auto p = cellAt(side == 0 ? d : -d)) levels.push_back(cells.colour(*p)[0]);
+    if (std::ssize(levels) < (kBesideLineCells - kInLineCells) / 2) return std::nullopt;
+    paper[side] = upperMedian(std::move(levels));
+  }
+  const float darker = std::min(paper[0], paper[1]);
+  if (std::max(paper[0], paper[1]) > (1.0f + kSamePaper) * darker) return false;
+  float darkest = darker;
+  for (int d = -kInLineCells; d <= kInLineCells; ++d)
+    if (const auto p = cellAt(d)) darkest = std::min(darkest, static_cast<float>(cells.dark(*p)));
+  return darkest <= (1.0f - kLeastLineDepth) * darker;
 }
 
 }  // namespace
@@ -107,6 +139,24 @@ cv::Mat1b withoutTonesAtEdge(const cv::Mat1b& beside, const cv::Mat1b& even, con
       left.setTo(0, labels == k);
   }
   return left;
+}
+
+bool isDrawnFrame(const cv::Mat1b& sheet, const SheetCells& cells) {
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(sheet.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  int edges = 0, lines = 0;
+  for (const std::vector<cv::Point>& outline : outlines) {
+    const int n = static_cast<int>(outline.size());
+    for (int i = 0; n > 2 * kAlongEdgeCells && i < n; i += kEdgeStep) {
+      const cv::Point chord = outline[(i + kAlongEdgeCells) % n] - outline[(i + n - kAlongEdgeCells) % n];
+      const double length = std::hypot(chord.x, chord.y);
+      if (!(length > 0.0)) continue;
+      const std::optional<bool> isLine = isLineAcross(cells, outline[i], Vec2(-chord.y / length, chord.x / length));
+      edges += isLine ? 1 : 0;
+      lines += isLine && *isLine ? 1 : 0;
+    }
+  }
+  return edges > 0 && lines >= kLeastFramed * edges;
 }
 
 }  // namespace batten

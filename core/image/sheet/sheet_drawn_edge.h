@@ -28,4 +28,8 @@ cv::Mat1b withTonesThatBulge(const cv::Mat1b& sheet);
 /// area that the table does not go on in.
 cv::Mat1b withoutTonesAtEdge(const cv::Mat1b& beside, const cv::Mat1b& even, const SheetCells& cells);
 
+/// Whether what was taken for a sheet is paper within a drawn frame: along most of its edge a dark line runs between
+/// paper of about the same brightness. The edge of a sheet is a step, and its shadow is paler.
+bool isDrawnFrame(const cv::Mat1b& sheet, const SheetCells& cells);
+
 }  // namespace batten

@@ -324,6 +324,19 @@ TEST(PaperSheet, ABrightPanelOfADrawingIsNone) {
 }
 
 // The sheet fills nearly all of the picture.
+/// Of a napkin that is embossed along its edges: the paper is rougher there, but it is the same on both sides of the
+/// line.
+TEST(PaperSheet, PaperWithinADrawnFrameIsNone) {
+  const auto napkin = [](double x, double y, bool isFramed) {
+    const double depth = depthInSheet(x, y);
+    if (isFramed && std::fabs(depth) < 4.0) return PhotoPixel{60.0, 1.5};
+    if (isRing(x, y)) return PhotoPixel{60.0, 1.5};
+    return depth < 0.0 ? PhotoPixel{228.0, 16.0} : PhotoPixel{235.0, 1.5};
+  };
+  EXPECT_FALSE(sheetOf(photo([&](double x, double y) { return napkin(x, y, true); })).has_value());
+  EXPECT_TRUE(sheetOf(photo([&](double x, double y) { return napkin(x, y, false); })).has_value()) << "a rough table";
+}
+
 TEST(PaperSheet, ACornerOfTheTableIsCutOff) {
   const Scan scan = photo([](double x, double y) -> PhotoPixel {
     if (x > 780.0 + 0.17 * y) return {90.0, 25.0};
