@@ -25,6 +25,7 @@ constexpr int kBesidePx = 3;  // across the direction, where the paper beside a 
 // Of the depth of the fainter side. Two lines are told apart from .26 on (Rayleigh); the grain of a pencil that blur
 // has smoothed rises by as much.
 constexpr float kLeastPaperRise = 0.4f;
+constexpr float kLeastPenRise = 0.28f;  // likewise, of a pen, which has no grain
 constexpr float kLeastRiseGrey = 4.0f;  // [grey] noise of the page rises less
 constexpr float kThinBarShare = 0.5f;   // of the rise: what is so much darker than both its other sides is a bar
 constexpr int kLeastPaperArea = 8;      // [px^2] two pixels of the page
@@ -223,7 +224,7 @@ BitImage withoutClosedPaper(BitImage ink, const GreyImage& image, const PaperBac
   if (context.isCancelled() || thick.count() == 0) return ink;
   const BitImage candidates = both(grown(thick, steps, context), ink);
   if (context.isCancelled()) return ink;
-  return opened(std::move(ink), candidates, image, paper, {reachPx, leastPx}, context);
+  return opened(std::move(ink), candidates, image, paper, {reachPx, leastPx, kLeastPenRise}, context);
 }
 
 BitImage clearPaper(const BitImage& ink, const GreyImage& image, const PaperBackground& paper, double penPx,

@@ -109,11 +109,12 @@ TEST(NarrowPaper, EndsAtTheBorderOfThePage) {
 constexpr double kPenPx = 6.0;  // of a stroke as the threshold leaves it
 
 /// Two strokes, and between them paper so dark that the threshold takes it for ink.
-FineInk shadedPair(double pitch) {
+/// @param shade of the depth of the ink, 0..1.
+FineInk shadedPair(double pitch, double shade = 0.2) {
   return fineInkOf([=](double x, double y) {
     const double off = y - 60.0;
     const bool isBetween = std::abs(off) < 0.5 * pitch && x > 20.0 && x < 100.0;
-    return std::max(strokeCover(off - 0.5 * pitch) + strokeCover(off + 0.5 * pitch), isBetween ? 0.2 : 0.0);
+    return std::max(strokeCover(off - 0.5 * pitch) + strokeCover(off + 0.5 * pitch), isBetween ? shade : 0.0);
   });
 }
 
@@ -124,6 +125,16 @@ TEST(ClosedPaper, OpensAStrokesWidthBetweenTwoStrokes) {
   EXPECT_FALSE(ink.at(60, 60));
   EXPECT_TRUE(ink.at(60, 53));
   EXPECT_TRUE(ink.at(60, 67));
+}
+
+// A pen has no grain that would rise as much; less is no paper.
+TEST(ClosedPaper, OpensPaperAThirdOfTheInksDepthAboveIt) {
+  const auto isOpen = [](double shade) {
+    const FineInk page = shadedPair(16.0, shade);
+    return !withoutClosedPaper(page.ink, page.grey, evenPaper(), kPenPx, {}).at(60, 60);
+  };
+  EXPECT_TRUE(isOpen(0.55));
+  EXPECT_FALSE(isOpen(0.68));
 }
 
 TEST(ClosedPaper, LeavesWhatIsNarrowerThanThat) {
