@@ -12,6 +12,7 @@
 #include "core/base/number_text.h"
 #include "core/image/bits/run_pieces.h"
 #include "core/image/colour/coloured_ink.h"
+#include "core/image/ruling/dot_grid.h"
 #include "core/image/ruling/find_rulings.h"
 #include "core/image/ruling/remove_rulings.h"
 #include "core/image/ruling/ruling_count.h"
@@ -114,6 +115,15 @@ void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& con
   page.notes.push_back(rulingNote(page.rulings));
 }
 
+void leaveOutDots(const Scan& scan, PreparedPage& page, const RunContext& context) {
+  page.dots = findDotGrid(greyOf(scan, page), context);
+  if (page.dots.empty()) return;
+  if (!page.grey) page.grey = scan.grey;
+  page.grey = withoutDots(std::move(*page.grey), page.dots);
+  page.notes.push_back(std::to_string(page.dots.size()) +
+                       " dots of dotted paper were removed; paper.rulings=keep restores them.");
+}
+
 void paintOverHoles(const Scan& scan, const BindingHoles& holes, PreparedPage& page, const RunContext& context) {
   BitImage inside(holes.cells.width, holes.cells.height);
   for (int j = 0; j < inside.height; ++j) {
@@ -208,6 +218,8 @@ void leaveOut(const Scan& scan, const PreparationParams& params, PreparedPage& p
   if (params.sheet == SheetUse::CutOff) cutOffTable(scan, page, context);
   if (context.isCancelled()) return;
   if (params.rulings == RulingUse::LeaveOut) leaveOutRulings(scan, page, context);
+  if (context.isCancelled()) return;
+  if (params.rulings == RulingUse::LeaveOut) leaveOutDots(scan, page, context);
   if (context.isCancelled()) return;
   if (params.shading == ShadingUse::LeaveOut) leaveOutShading(scan, page, context);
 }

@@ -10,6 +10,7 @@
 #include "core/base/run_context.h"
 #include "core/image/colour/inks.h"
 #include "core/image/rectified_scan.h"
+#include "core/image/ruling/dot_grid.h"
 #include "core/image/ruling/rulings.h"
 #include "core/image/scan.h"
 #include "core/image/sheet/paper_sheet.h"
@@ -22,9 +23,9 @@ enum class ColourUse {
   Grey,     ///< The luma of Rec. 601 everywhere.
 };
 
-/// What becomes of printed lines of the paper.
+/// What becomes of printed lines and dots of the paper.
 enum class RulingUse {
-  LeaveOut,  ///< Ruled lines and grids are found and taken out of the page.
+  LeaveOut,  ///< Ruled lines, grids and dots of dotted paper are found and taken out of the page.
   Keep,      ///< They are ink as any other.
 };
 
@@ -64,6 +65,7 @@ struct PreparedPage {
   std::optional<GreyImage> grey;      ///< Of the scan's size; absent: the scan's own grey, untouched.
   double colouredShare = 0.0;         ///< 0..1 of the page, taken by its darkest channel.
   std::vector<RulingFamily> rulings;  ///< What was taken out of it.
+  std::vector<PrintedDot> dots;       ///< Of dotted paper, likewise.
   std::optional<PaperSheet> sheet;    ///< What lies beside it was painted over.
   int bindingHoles = 0;               ///< Painted over.
   std::optional<SheetView> view;      ///< How the sheet lies on a picture that is not rectified, where it is angled.

@@ -251,8 +251,8 @@ void appendPage(std::vector<Parameter>& table) {
   table.push_back(choice<RulingUse>(
       kThresholds,
       {"paper.rulings", "Ruled lines", "",
-       "Detects printed rulings and grids by their even spacing and removes them, and the margin of ruled paper; "
-       "strokes across them are kept."},
+       "Detects printed rulings, grids and dots by their even spacing and removes them, and the margin of ruled "
+       "paper; strokes across them are kept."},
       {{"leave-out", "Remove", RulingUse::LeaveOut}, {"keep", "Keep", RulingUse::Keep}},
       [](auto& r) -> auto& { return r.preparation.rulings; }));
   table.push_back(choice<SheetUse>(

@@ -222,10 +222,11 @@ class PipelineRun {
     };
     if (recipe_.regions.empty()) {
       auto set = trace(out_.filtered->ink, fine ? &*fine : nullptr);
-      if (!set && set.error().code == ErrorCode::NoCurve && !out_.page->rulings.empty())
+      const bool isRuled = !out_.page->rulings.empty();
+      if (!set && set.error().code == ErrorCode::NoCurve && (isRuled || !out_.page->dots.empty()))
         return fail(ErrorCode::NoCurve,
-                    "No line was found beside the ruled lines: if these are the drawing, keep them "
-                    "(Ruled lines, paper.rulings=keep). " +
+                    std::string("No line was found beside the ") + (isRuled ? "ruled lines" : "printed dots") +
+                        ": if these are the drawing, keep them (Ruled lines, paper.rulings=keep). " +
                         set.error().message);
       return set;
     }

@@ -10,7 +10,8 @@ namespace batten {
 
 void paintRulings(QPainter& painter, const CanvasScene& scene) {
   const auto& page = scene.session.output().page;
-  if (!page || page->rulings.empty() || scene.session.recipe().preparation.rulings == RulingUse::Keep) return;
+  if (!page || scene.session.recipe().preparation.rulings == RulingUse::Keep) return;
+  if (page->rulings.empty() && page->dots.empty()) return;
   constexpr double kChoiceStepPx = 12.0;  // [widget px] the lines are nearly straight
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
@@ -26,6 +27,9 @@ void paintRulings(QPainter& painter, const CanvasScene& scene) {
       painter.drawPolyline(shown);
     }
   }
+  constexpr double kDotRadiusPx = 3.0;  // [widget px]
+  for (const PrintedDot& dot : page->dots)
+    painter.drawEllipse(scene.transform.toWidget(dot.atPx), kDotRadiusPx, kDotRadiusPx);
   painter.restore();
 }
 

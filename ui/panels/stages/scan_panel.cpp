@@ -221,6 +221,7 @@ void ScanPanel::refreshPaper() {
       said << (runsDown ? tr("%1 vertical ruled lines were removed.") : tr("%1 horizontal ruled lines were removed."))
                   .arg(count);
   }
+  if (page && !page->dots.empty()) said << tr("%1 dots of dotted paper were removed.").arg(page->dots.size());
   if (page && page->bindingHoles > 0) said << tr("%1 binding holes were removed.").arg(page->bindingHoles);
   if (page && page->shadedShare > 0.0)
     said << tr("Shading on %1 % of the page was left out.").arg(QString::fromStdString(percentText(page->shadedShare)));
