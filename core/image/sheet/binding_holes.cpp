@@ -30,8 +30,10 @@ constexpr int kMostMissingHoles = 2;                            // holes between
 constexpr double kMarginDepths = 2.0;                           // of a hole: the margin is no narrower
 constexpr double kMostBeside = 0.5;                             // of the dark of the holes: what a drawing leaves there
 constexpr int kPaperAcross = 15;                                // paper shows within them, whatever is drawn
-constexpr double kLeastEmpty = 0.5;  // of the places between holes along the edge of a sheet: drawings reach it
-constexpr int kRimCells = 1;         // of a hole: its blurred edge
+// Of the places between holes along the edge of a sheet, and along a side of the picture, which may be anything:
+// drawings reach them here and there. Letters have others beside them all along.
+constexpr double kLeastEmpty = 0.5, kLeastEmptyAlongPicture = 0.85;
+constexpr int kRimCells = 1;  // of a hole: its blurred edge
 
 struct Hole {
   double along = 0.0, deep = 0.0;  ///< [cells] Its middle.
@@ -310,7 +312,7 @@ std::optional<BindingHoles> findBindingHoles(const SheetCells& cells) {
   }
   HoleRow found;
   for (int side = 0; side < 4; ++side) {
-    HoleRow row = rowAlong(dark, side, 1.0);
+    HoleRow row = rowAlong(dark, side, kLeastEmptyAlongPicture);
     if (row.holes.empty()) continue;
     if (!found.holes.empty()) return std::nullopt;
     found = std::move(row);

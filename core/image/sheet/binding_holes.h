@@ -17,9 +17,9 @@ struct BindingHoles {
 };
 
 /// Finds a row of at least eight dark holes of one size at one distance, straight along one side of the page and near
-/// it, in a margin that is empty otherwise: letters have others beside them. What joins them along the side, as the
-/// edge of the sheet or a shadow, does not count. Absent where two sides have such a row: that is a frame that was
-/// drawn or printed.
+/// it, in a margin that is empty otherwise but where a drawing reaches it: letters have others beside them all along.
+/// What joins them along the side, as the edge of the sheet or a shadow, does not count. Absent where two sides have
+/// such a row: that is a frame that was drawn or printed.
 std::optional<BindingHoles> findBindingHoles(const SheetCells& cells);
 
 /// The same along the straight sides of a sheet that fills a part of the picture, however it lies.

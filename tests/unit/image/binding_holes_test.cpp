@@ -73,6 +73,24 @@ TEST(BindingHoles, ArePaintedOverWithTheEdgeThatJoinsThem) {
   EXPECT_EQ(darkPixelsOf(*page->grey, 60, kBoundWidth), darkPixelsOf(scan.grey, 60, kBoundWidth));
 }
 
+/// A filled shape that lies in the margin beside the holes from y = 300 on.
+bool isShapeBesideHoles(double x, double y, double until) { return x > 22.0 && x < 90.0 && y > 300.0 && y < until; }
+
+TEST(BindingHoles, ArePaintedOverWhereTheDrawingReachesThemInPlaces) {
+  const Scan scan =
+      boundPage([](double x, double y) { return isBindingHole(x, y) || isShapeBesideHoles(x, y, 390.0); });
+  const auto page = preparePage(scan, {}, {});
+  ASSERT_TRUE(page && page->grey);
+  EXPECT_EQ(page->bindingHoles, 29);
+  EXPECT_EQ(darkPixelsOf(*page->grey, 24, kBoundWidth), darkPixelsOf(scan.grey, 24, kBoundWidth)) << "the drawing";
+}
+
+TEST(BindingHoles, AreNoMarksWithOthersBesideManyOfThem) {
+  const auto page = preparePage(
+      boundPage([](double x, double y) { return isBindingHole(x, y) || isShapeBesideHoles(x, y, 540.0); }), {}, {});
+  EXPECT_EQ(page->bindingHoles, 0);
+}
+
 TEST(BindingHoles, AreAtOneSideOfThePageOnly) {
   const Scan frame = boundPage([](double x, double y) { return isBindingHole(x, y) || isBindingHole(640.0 - x, y); });
   EXPECT_TRUE(preparePage(frame, {}, {})->isUntouched());
