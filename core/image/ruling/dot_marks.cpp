@@ -18,8 +18,8 @@ constexpr double kMostOblong = 2.2;          // seen from the side
 constexpr int kLeastMarkArea = 3;            // [px]
 constexpr int kPartOfSide = 9;               // a part that is looked at is the ninth of the page across and down,
 constexpr int kParts = 4;                    // of four by four at even distances: a fifth of the page
-constexpr int kFewestMarkedParts = 4;        // that hold a mark
-constexpr double kStillPaper = 0.85;         // of the paper beside: a shadow; less is another thing
+constexpr int kFewestMarkedParts = 5, kFewestMarksOfPart = 2;  // of them, with so many marks
+constexpr double kStillPaper = 0.85;                           // of the paper beside: a shadow; less is another thing
 
 cv::Mat1b bytesOf(const Plane& grey, const RunContext& context) {
   const Plane smoothed = smooth(grey, gaussianKernel(kSmoothing), context);
@@ -138,7 +138,7 @@ bool hasMarksAllOver(const Plane& grey, const RunContext& context) {
     for (int y = 0; y < height; ++y) std::copy_n(grey.row(y0 + y) + x0, width, seen.row(y));
     const DotMarks found = dotMarksOf(seen, reachOn(grey), context);
     if (context.isCancelled()) return false;
-    marked += std::ranges::any_of(found.marks, &DotMark::isAlone) ? 1 : 0;
+    marked += std::ranges::count_if(found.marks, &DotMark::isAlone) >= kFewestMarksOfPart ? 1 : 0;
   }
   return marked >= kFewestMarkedParts;
 }
