@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was found on the paper before anything is traced: rulings and inks.
+// What was found on the paper before anything is traced: rulings, inks and bright lines.
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QComboBox>
 #include <QLabel>
 #include <QPainter>
 
@@ -51,6 +52,32 @@ TEST_F(PaperWindow, RulingsAndInksAreShownInTheScanPanel) {
   session().undoStack()->undo();
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().curves().size(), 2u);
+}
+
+TEST_F(PaperWindow, BrightLinesAreFoundUnlessTheListSaysOtherwise) {
+  QImage board(480, 400, QImage::Format_Grayscale8);
+  board.fill(35);
+  QPainter painter(&board);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(Qt::white, 5.0));
+  painter.drawEllipse(QPointF(240.0, 200.0), 120.0, 120.0);
+  painter.drawLine(40, 60, 430, 40);
+  painter.end();
+  const QString path = folder_.filePath(QStringLiteral("blackboard.png"));
+  ASSERT_TRUE(board.save(path));
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  ASSERT_NO_FATAL_FAILURE(openFile(path));
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Scan);
+  EXPECT_EQ(session().curves().size(), 2u);
+  EXPECT_TRUE(find<QLabel>("scan.paperNote")->text().contains(QStringLiteral("inverted")));
+  auto* lines = find<QComboBox>("paper.lines");
+  ASSERT_NE(lines, nullptr);
+  lines->setFocus();
+  QTest::keyClick(lines, Qt::Key_Down);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().recipe().preparation.lines, LineTone::Darker);
+  EXPECT_FALSE(find<QLabel>("scan.paperNote")->text().contains(QStringLiteral("inverted")));
 }
 
 }  // namespace

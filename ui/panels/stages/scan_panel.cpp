@@ -209,6 +209,7 @@ void ScanPanel::refreshPage(const Scan* scan) {
 void ScanPanel::refreshPaper() {
   QStringList said;
   const auto& page = session_.output().page;
+  if (page && page->isInverted) said << tr("The lines are brighter than the paper: the page was inverted.");
   if (page && page->colouredShare > 0.0)
     said << tr("Coloured ink was made darker on %1 % of the page.")
                 .arg(QString::fromStdString(percentText(page->colouredShare)));
