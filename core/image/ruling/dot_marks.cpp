@@ -132,6 +132,8 @@ bool hasMarksAllOver(const Plane& grey, const RunContext& context) {
   if (std::min(width, height) < kLeastMarkReach) return false;
   int marked = 0;
   for (int part = 0; part < kParts * kParts; ++part) {
+    if (marked >= kFewestMarkedParts) return true;
+    if (marked + kParts * kParts - part < kFewestMarkedParts) return false;
     const int x0 = (2 * (part % kParts) + 1) * grey.width / (2 * kParts) - width / 2;
     const int y0 = (2 * (part / kParts) + 1) * grey.height / (2 * kParts) - height / 2;
     Plane seen(width, height);
