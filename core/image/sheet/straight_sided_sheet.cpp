@@ -139,6 +139,7 @@ std::optional<cv::Mat1b> straightSidedSheet(const cv::Mat1b& even, const SheetCe
   const std::vector<Vec2> corners = cornersBetween(sides, even.size());
   if (corners.empty() || isSquareToPicture(sides)) return std::nullopt;
   std::vector<cv::Point> four;
+  four.reserve(corners.size());
   for (const Vec2& p : corners) four.emplace_back(cvRound(p.x()), cvRound(p.y()));
   cv::Mat1b sheet(even.size(), static_cast<unsigned char>(0));
   cv::fillConvexPoly(sheet, four, 255);
