@@ -30,6 +30,20 @@ class PaperWindow : public test::WindowFixture {
     EXPECT_TRUE(page.save(path));
     return path;
   }
+  /// A board of grey 35 with two white lines.
+  QString blackboard() const {
+    QImage board(480, 400, QImage::Format_Grayscale8);
+    board.fill(35);
+    QPainter painter(&board);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(Qt::white, 5.0));
+    painter.drawEllipse(QPointF(240.0, 200.0), 120.0, 120.0);
+    painter.drawLine(40, 60, 430, 40);
+    painter.end();
+    const QString path = folder_.filePath(QStringLiteral("blackboard.png"));
+    EXPECT_TRUE(board.save(path));
+    return path;
+  }
 };
 
 TEST_F(PaperWindow, RulingsAndInksAreShownInTheScanPanel) {
@@ -55,18 +69,8 @@ TEST_F(PaperWindow, RulingsAndInksAreShownInTheScanPanel) {
 }
 
 TEST_F(PaperWindow, BrightLinesAreFoundUnlessTheListSaysOtherwise) {
-  QImage board(480, 400, QImage::Format_Grayscale8);
-  board.fill(35);
-  QPainter painter(&board);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(Qt::white, 5.0));
-  painter.drawEllipse(QPointF(240.0, 200.0), 120.0, 120.0);
-  painter.drawLine(40, 60, 430, 40);
-  painter.end();
-  const QString path = folder_.filePath(QStringLiteral("blackboard.png"));
-  ASSERT_TRUE(board.save(path));
   ASSERT_NO_FATAL_FAILURE(openWindow());
-  ASSERT_NO_FATAL_FAILURE(openFile(path));
+  ASSERT_NO_FATAL_FAILURE(openFile(blackboard()));
   ASSERT_TRUE(settle());
   window_->setStage(PanelStage::Scan);
   EXPECT_EQ(session().curves().size(), 2u);
@@ -78,6 +82,28 @@ TEST_F(PaperWindow, BrightLinesAreFoundUnlessTheListSaysOtherwise) {
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().recipe().preparation.lines, LineTone::Darker);
   EXPECT_FALSE(find<QLabel>("scan.paperNote")->text().contains(QStringLiteral("inverted")));
+}
+
+/// The histogram of a region has the levels of its threshold: those of the inverted page.
+TEST_F(PaperWindow, TheHistogramOfAnInvertedPageIsInverted) {
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  ASSERT_NO_FATAL_FAILURE(openFile(blackboard()));
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Threshold);
+  window_->view().setSelectedRegion(63);
+  auto* histogram = find<QWidget>("threshold.histogram");
+  ASSERT_NE(histogram, nullptr);
+  const auto isBarAt = [&](int grey) {
+    const QImage image = histogram->grab().toImage();
+    const auto colourAt = [&](int level) {
+      const double ratio = image.devicePixelRatio();
+      const double x = 6.0 + (level + 0.5) * (histogram->width() - 12) / 256.0, y = histogram->height() - 22;
+      return image.pixelColor(static_cast<int>(x * ratio), static_cast<int>(y * ratio));
+    };
+    return colourAt(grey) != colourAt(100);
+  };
+  EXPECT_TRUE(isBarAt(220)) << "the board";
+  EXPECT_FALSE(isBarAt(35));
 }
 
 }  // namespace

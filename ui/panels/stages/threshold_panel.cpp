@@ -241,8 +241,11 @@ void ThresholdPanel::refreshRegion() {
     counts_ = regionHistogram(session_.scan()->grey, region);
   }
   std::array<std::uint32_t, 256> shown{};
+  const auto& page = session_.output().page;
+  const bool isInverted = page && page->isInverted;  // then so are the levels
   for (std::size_t grey = 0; grey < counts_.size(); ++grey)
-    shown[std::lround(scale_.shown(static_cast<double>(grey)))] += counts_[grey];
+    shown[std::lround(scale_.shown(static_cast<double>(isInverted ? counts_.size() - 1 - grey : grey)))] +=
+        counts_[grey];
   histogram_->show(shown, scale_.shown(levelOf(region)));
 }
 
