@@ -47,17 +47,20 @@ bool isNarrower(const BitImage& ink, double limitPx, const RunContext& context) 
   return width > 0.0 && width < limitPx;
 }
 
+// [px] What noise makes is as large in pixels of either page; what is asked for beyond it are pixels of the page.
+int beyondNoise(int area, int ofNoise) {
+  const int noise = std::min(area, ofNoise);
+  return noise + kFineArea * (area - noise);
+}
+
 ThresholdParams finer(ThresholdParams params) {
   params.speckArea *= kFineArea;
-  // Holes that noise makes are as large in pixels of either page; what is asked for beyond them are pixels of the page.
-  const int noise = std::min(params.holeArea, ThresholdParams{}.holeArea);
-  params.holeArea = noise + kFineArea * (params.holeArea - noise);
+  params.holeArea = beyondNoise(params.holeArea, ThresholdParams{}.holeArea);
   return params;
 }
 
 FilterParams finer(FilterParams params) {
-  const int noise = std::min(params.maxChangePx, FilterParams{}.maxChangePx);
-  params.maxChangePx = std::min(noise + kFineArea * (params.maxChangePx - noise), kMostChangePx);
+  params.maxChangePx = std::min(beyondNoise(params.maxChangePx, FilterParams{}.maxChangePx), kMostChangePx);
   return params;
 }
 

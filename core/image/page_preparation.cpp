@@ -217,9 +217,11 @@ void leaveOut(const Scan& scan, const PreparationParams& params, PreparedPage& p
   addRectifyNotes(scan, page);
   if (params.sheet == SheetUse::CutOff) cutOffTable(scan, page, context);
   if (context.isCancelled()) return;
-  if (params.rulings == RulingUse::LeaveOut) leaveOutRulings(scan, page, context);
-  if (context.isCancelled()) return;
-  if (params.rulings == RulingUse::LeaveOut) leaveOutDots(scan, page, context);
+  if (params.rulings == RulingUse::LeaveOut) {
+    leaveOutRulings(scan, page, context);
+    if (context.isCancelled()) return;
+    leaveOutDots(scan, page, context);
+  }
   if (context.isCancelled()) return;
   if (params.shading == ShadingUse::LeaveOut) leaveOutShading(scan, page, context);
 }

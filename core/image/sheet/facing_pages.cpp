@@ -13,6 +13,7 @@
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/grown_mask.h"
+#include "core/image/sheet/mask_outline.h"
 #include "core/image/sheet/sheet_levels.h"
 
 namespace batten {
@@ -45,10 +46,7 @@ bool areAlike(const cv::Mat1b& page, const cv::Mat1b& other, const cv::Rect& gut
   const int shared =
       isUpright ? std::min(a.br().y, b.br().y) - std::max(a.y, b.y) : std::min(a.br().x, b.br().x) - std::max(a.x, b.x);
   if (shared < kLeastAlike * (isUpright ? both.height : both.width)) return false;
-  std::vector<cv::Point> places, hull;
-  cv::findNonZero(page, places);
-  cv::convexHull(places, hull);
-  return area >= kLeastConvex * cv::contourArea(hull);
+  return area >= kLeastConvex * cv::contourArea(hullOf(page));
 }
 
 struct TwoPages {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/image/sheet/facing_pages.h"
+#include "core/image/sheet/mask_outline.h"
 #include "core/image/sheet/shaded_paper.h"
 #include "core/image/sheet/sheet_behind_lines.h"
 #include "core/image/sheet/sheet_cells.h"
@@ -165,25 +166,20 @@ void addBeyondEdges(cv::Mat1b& beside, const SheetCells& cells, const RunContext
 }
 
 std::vector<Vec2> outlineOf(const cv::Mat1b& inside, double cellPx) {
-  std::vector<std::vector<cv::Point>> outlines;
-  cv::findContours(inside.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  const std::vector<cv::Point> outline = largestOutline(inside);
   std::vector<Vec2> polygon;
-  const auto largest = std::max_element(outlines.begin(), outlines.end(), [](const auto& a, const auto& b) {
-    return cv::contourArea(a) < cv::contourArea(b);
-  });
-  if (largest == outlines.end()) return polygon;
+  if (outline.empty()) return polygon;
   std::vector<cv::Point> rough;
-  cv::approxPolyDP(*largest, rough, kOutlineCells, true);
+  cv::approxPolyDP(outline, rough, kOutlineCells, true);
   for (const cv::Point& p : rough) polygon.emplace_back((p.x + 0.5) * cellPx, (p.y + 0.5) * cellPx);
   return polygon;
 }
 
 /// The four corners of the sheet's hull, from the top left clockwise; none if it is no quadrilateral.
 std::vector<Vec2> cornersOf(const cv::Mat1b& sheet, double cellPx) {
-  std::vector<cv::Point> places, hull, four;
-  cv::findNonZero(sheet, places);
-  if (places.size() < 4) return {};
-  cv::convexHull(places, hull);
+  if (cv::countNonZero(sheet) < 4) return {};
+  const std::vector<cv::Point> hull = hullOf(sheet);
+  std::vector<cv::Point> four;
   const double length = cv::arcLength(hull, true);
   for (double share = kFinestQuadrilateral; share < kCoarsestQuadrilateral && four.size() != 4;
        share += kQuadrilateralStep)
@@ -232,10 +228,7 @@ BesideSheet cellsBeside(const cv::Mat1b& even, const SheetCells& cells, const Ru
   const double share = cv::countNonZero(sheet) / static_cast<double>(sheet.total());
   const double most = isBroad(table) ? kMostBesideTable : kMostSheet;
   if (share < kLeastSheet || share > most) return {std::nullopt, true};
-  std::vector<cv::Point> places, hull;
-  cv::findNonZero(sheet, places);
-  cv::convexHull(places, hull);
-  if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return {std::nullopt, true};
+  if (cv::countNonZero(sheet) < kLeastSolid * cv::contourArea(hullOf(sheet))) return {std::nullopt, true};
   return {cv::Mat1b(withoutTonesAtEdge(table, even, cells) | (beside & (table == 0))), false, most};
 }
 

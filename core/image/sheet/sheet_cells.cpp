@@ -129,4 +129,17 @@ SheetCells sheetCellsOf(const GreyImage& grey, const ColourImage& colour, const 
   return cells;
 }
 
+std::optional<cv::Point> cellAt(const SheetCells& cells, const Vec2& place) {
+  const cv::Point at(cvRound(place.x()), cvRound(place.y()));
+  const bool isInside = at.x >= 0 && at.y >= 0 && at.x < cells.columns && at.y < cells.rows;
+  return isInside ? std::optional(at) : std::nullopt;
+}
+
+std::vector<float> levelsAlong(const SheetCells& cells, const Vec2& place, const Vec2& towards, const CellRange& at) {
+  std::vector<float> levels;
+  for (int d = at.from; d <= at.to; ++d)
+    if (const auto cell = cellAt(cells, place + d * towards)) levels.push_back(cells.colour(*cell)[0]);
+  return levels;
+}
+
 }  // namespace batten

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/base/run_context.h"
+#include "core/base/vec2.h"
 #include "core/image/colour_image.h"
 #include "core/image/grey_image.h"
 
@@ -22,5 +25,14 @@ inline constexpr int kSheetCells = 400;       ///< Along the longer side of the 
 inline constexpr int kFewestSheetCells = 40;  ///< Along the shorter side: on fewer nothing is sought.
 /// At least 2 px a cell, about 400 of them along the longer side. An empty colour image: the picture is grey.
 SheetCells sheetCellsOf(const GreyImage&, const ColourImage&, const RunContext&);
+
+/// The cell at a place [cells]; absent outside the picture.
+std::optional<cv::Point> cellAt(const SheetCells&, const Vec2& place);
+/// [cells] From a place, both included.
+struct CellRange {
+  int from = 0, to = 0;
+};
+/// [grey] Brightness of the cells of the picture at these distances from a place. @param towards a unit vector.
+std::vector<float> levelsAlong(const SheetCells&, const Vec2& place, const Vec2& towards, const CellRange& at);
 
 }  // namespace batten

@@ -12,6 +12,7 @@
 #include "core/base/statistics.h"
 #include "core/base/vec2.h"
 #include "core/image/grown_mask.h"
+#include "core/image/sheet/mask_outline.h"
 #include "core/image/sheet/sheet_step.h"
 
 namespace batten {
@@ -45,16 +46,11 @@ cv::Mat1b partsTouching(const cv::Mat1b& mask, const cv::Mat1b& other) {
 
 /// Whether a dark line runs between paper of about the same brightness. Absent: one side lies outside the picture.
 std::optional<bool> isLineAcross(const SheetCells& cells, const cv::Point& at, const Vec2& normal) {
-  const auto cellAt = [&](int d) -> std::optional<cv::Point> {
-    const cv::Point p(cvRound(at.x + d * normal.x()), cvRound(at.y + d * normal.y()));
-    const bool isInside = p.x >= 0 && p.y >= 0 && p.x < cells.columns && p.y < cells.rows;
-    return isInside ? std::optional(p) : std::nullopt;
-  };
+  const Vec2 place(at.x, at.y);
   std::array<float, 2> paper{};
   for (const int side : {0, 1}) {
-    std::vector<float> levels;
-    for (int d = kInLineCells + 1; d <= kBesideLineCells; ++d)
-      if (const auto p = cellAt(side == 0 ? d : -d)) levels.push_back(cells.colour(*p)[0]);
+    std::vector<float> levels =
+        levelsAlong(cells, place, side == 0 ? normal : Vec2(-normal), {kInLineCells + 1, kBesideLineCells});
     if (std::ssize(levels) < (kBesideLineCells - kInLineCells) / 2) return std::nullopt;
     paper[side] = upperMedian(std::move(levels));
   }
@@ -62,7 +58,8 @@ std::optional<bool> isLineAcross(const SheetCells& cells, const cv::Point& at, c
   if (std::max(paper[0], paper[1]) > (1.0f + kSamePaper) * darker) return false;
   float darkest = darker;
   for (int d = -kInLineCells; d <= kInLineCells; ++d)
-    if (const auto p = cellAt(d)) darkest = std::min(darkest, static_cast<float>(cells.dark(*p)));
+    if (const auto p = cellAt(cells, place + d * normal))
+      darkest = std::min(darkest, static_cast<float>(cells.dark(*p)));
   return darkest <= (1.0f - kLeastLineDepth) * darker;
 }
 
@@ -91,10 +88,8 @@ cv::Mat1b withoutPockets(const cv::Mat1b& beside) {
 }
 
 cv::Mat1b withTonesThatBulge(const cv::Mat1b& sheet) {
-  std::vector<cv::Point> places, hull;
-  cv::findNonZero(sheet, places);
-  if (places.empty()) return sheet;
-  cv::convexHull(places, hull);
+  const std::vector<cv::Point> hull = hullOf(sheet);
+  if (hull.empty()) return sheet;
   cv::Mat1b along(sheet.size(), static_cast<unsigned char>(0));
   cv::polylines(along, std::vector<std::vector<cv::Point>>{hull}, true, 255, 2 * kAlongHullCells + 1);
   cv::Mat1i labels;
@@ -119,10 +114,8 @@ cv::Mat1b withTonesThatBulge(const cv::Mat1b& sheet) {
 
 cv::Mat1b withoutTonesAtEdge(const cv::Mat1b& beside, const cv::Mat1b& even, const SheetCells& cells) {
   cv::Mat1b left = beside.clone();
-  std::vector<cv::Point> places, hull;
-  cv::findNonZero(even, places);
-  if (places.empty()) return left;
-  cv::convexHull(places, hull);
+  const std::vector<cv::Point> hull = hullOf(even);
+  if (hull.empty()) return left;
   cv::Mat1b within(even.size(), static_cast<unsigned char>(0));
   cv::fillConvexPoly(within, hull, 255);
   const cv::Mat1b table = slowlyContinued(beside & (within == 0), cells);

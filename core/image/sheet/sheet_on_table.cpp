@@ -7,6 +7,7 @@
 
 #include "core/base/statistics.h"
 #include "core/image/grown_mask.h"
+#include "core/image/sheet/mask_outline.h"
 #include "core/image/sheet/shaded_paper.h"
 #include "core/image/sheet/sheet_step.h"
 
@@ -50,9 +51,7 @@ std::optional<cv::Mat1b> sheetOnTable(const cv::Mat1i& areas, const std::vector<
   const cv::Mat1b& paper = *found;
   const double paperCells = cv::countNonZero(paper), all = static_cast<double>(areas.total());
   if (paperCells < kLeastPaperOfSheet * kLeastOnTable * all) return std::nullopt;
-  std::vector<cv::Point> places, hull;
-  cv::findNonZero(paper, places);
-  cv::convexHull(places, hull);
+  const std::vector<cv::Point> hull = hullOf(paper);
   cv::Mat1b sheet(areas.size(), 0);
   cv::fillConvexPoly(sheet, hull, 255);
   const double sheetCells = cv::countNonZero(sheet);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/base/angle.h"
@@ -62,20 +63,14 @@ struct SeenSides {
 
   /// The median brightness from near a place to far from it. Absent: outside the picture.
   std::optional<float> levelFrom(const Vec2& p, const Vec2& towards) const {
-    std::vector<float> values;
-    for (int d = kNearSideCells; d <= kBesideSideCells; ++d) {
-      const Vec2 q = p + d * towards;
-      const cv::Point at(cvRound(q.x()), cvRound(q.y()));
-      if (at.x >= 0 && at.y >= 0 && at.x < even.cols && at.y < even.rows) values.push_back(cells.colour(at)[0]);
-    }
+    std::vector<float> values = levelsAlong(cells, p, towards, {kNearSideCells, kBesideSideCells});
     if (values.empty()) return std::nullopt;
-    return upperMedian(values);
+    return upperMedian(std::move(values));
   }
   bool isOutline(const Vec2& p, const Vec2& inward) const {
     const auto isEven = [&](double d) {
-      const Vec2 q = p + d * inward;
-      const cv::Point at(cvRound(q.x()), cvRound(q.y()));
-      return at.x >= 0 && at.y >= 0 && at.x < even.cols && at.y < even.rows && even(at) != 0;
+      const std::optional<cv::Point> at = cellAt(cells, p + d * inward);
+      return at && even(*at) != 0;
     };
     return isEven(kNearSideCells) && !isEven(-kNearSideCells);
   }

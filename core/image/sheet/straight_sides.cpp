@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "core/image/sheet/mask_outline.h"
+
 namespace batten {
 namespace {
 
@@ -18,16 +20,11 @@ constexpr double kMostBeyondSide =
 
 /// Places of the outline of the largest part, at equal distances; not at the border of the picture.
 std::vector<Vec2> outlineCells(const cv::Mat1b& even) {
-  std::vector<std::vector<cv::Point>> outlines;
-  cv::findContours(even.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  const std::vector<cv::Point> outline = largestOutline(even);
   std::vector<Vec2> places;
-  const auto largest = std::max_element(outlines.begin(), outlines.end(), [](const auto& a, const auto& b) {
-    return cv::contourArea(a) < cv::contourArea(b);
-  });
-  if (largest == outlines.end()) return places;
-  const std::size_t step = std::max<std::size_t>(1, largest->size() / kOutlinePlaces);
-  for (std::size_t k = 0; k < largest->size(); k += step) {
-    const cv::Point& p = (*largest)[k];
+  const std::size_t step = std::max<std::size_t>(1, outline.size() / kOutlinePlaces);
+  for (std::size_t k = 0; k < outline.size(); k += step) {
+    const cv::Point& p = outline[k];
     if (p.x > 1 && p.y > 1 && p.x < even.cols - 2 && p.y < even.rows - 2) places.emplace_back(p.x, p.y);
   }
   return places;
