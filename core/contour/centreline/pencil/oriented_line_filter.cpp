@@ -2,16 +2,17 @@
 #include "core/contour/centreline/pencil/oriented_line_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <vector>
 
-#include "core/base/avx2.h"
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/contour/centreline/pencil/step_folds.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
 
@@ -49,9 +50,9 @@ using Direction = PlacesOfLine<int>;  // where they stand in a tile, from the pi
 
 struct LineFilter {
   std::vector<Direction> directions;
-  int ridgeSides = 1;           // of the places at the sides: up to 1.5 widths
-  int halfPx = 8, reachPx = 0;  // of a line, of the places at its sides
-  double grains = 1.0;          // along a line
+  std::size_t ridgeSides = 1;                     // of the places at the sides: up to 1.5 widths
+  int halfPx = 8, reachPx = 0, ridgeReachPx = 0;  // of a line, of the places at its sides, of those of a ridge
+  double grains = 1.0;                            // along a line
   int margin() const { return halfPx + reachPx; }
   int side() const { return kTile + 2 * margin(); }  // of a tile and what lies round it
 };
@@ -89,11 +90,17 @@ LineFilter filterFor(double widthPx, int pixelsPerPx) {
         const Step s = step(side * off * n);
         if (!places.empty() && places.back().x == s.x && places.back().y == s.y) continue;
         places.push_back(s);
-        if (off <= kRidgeTo * widthPx) filter.ridgeSides = std::max(filter.ridgeSides, static_cast<int>(places.size()));
+        if (off <= kRidgeTo * widthPx) filter.ridgeSides = std::max(filter.ridgeSides, places.size());
         filter.reachPx = std::max({filter.reachPx, std::abs(s.x), std::abs(s.y)});
       }
     }
     directions.push_back(std::move(d));
+  }
+  for (const DirectionSteps& d : directions) {
+    for (const std::vector<Step>* places : {&d.left, &d.right}) {
+      for (std::size_t k = 0; k < std::min(filter.ridgeSides, places->size()); ++k)
+        filter.ridgeReachPx = std::max({filter.ridgeReachPx, std::abs((*places)[k].x), std::abs((*places)[k].y)});
+    }
   }
   const int side = filter.side();
   for (const DirectionSteps& d : directions) {
@@ -103,46 +110,28 @@ LineFilter filterFor(double widthPx, int pixelsPerPx) {
   return filter;
 }
 
-void sumStepsPlain(const float* grey, const int* steps, int stepCount, int count, float* to) {
-  for (int i = 0; i < count; ++i) to[i] = 0.0f;
-  for (int k = 0; k < stepCount; ++k) {
-    const float* from = grey + steps[k];
-    for (int i = 0; i < count; ++i) to[i] += from[i];
-  }
-}
-
-#ifdef BATTEN_HAS_AVX2
-
-constexpr int kPixelLanes = 8;  // floats that a processor works on at once
-
-// Eight times kVectors pixels at once, whose sums stay in registers.
-template <int kVectors>
-BATTEN_AVX2 inline void sumBlock(const float* grey, const int* steps, int stepCount, float* to) {
-  __m256 sums[kVectors];
-  BATTEN_UNROLL
-  for (int v = 0; v < kVectors; ++v) sums[v] = _mm256_setzero_ps();
-  for (int k = 0; k < stepCount; ++k) {
-    const float* from = grey + steps[k];
-    BATTEN_UNROLL
-    for (int v = 0; v < kVectors; ++v) sums[v] = _mm256_add_ps(sums[v], _mm256_loadu_ps(from + kPixelLanes * v));
-  }
-  BATTEN_UNROLL
-  for (int v = 0; v < kVectors; ++v) _mm256_storeu_ps(to + kPixelLanes * v, sums[v]);
-}
-
-BATTEN_AVX2 void sumStepsAvx2(const float* grey, const int* steps, int stepCount, int count, float* to) {
-  int i = 0;
-  for (; i + 8 * kPixelLanes <= count; i += 8 * kPixelLanes) sumBlock<8>(grey + i, steps, stepCount, to + i);
-  for (; i + 4 * kPixelLanes <= count; i += 4 * kPixelLanes) sumBlock<4>(grey + i, steps, stepCount, to + i);
-  for (; i + 2 * kPixelLanes <= count; i += 2 * kPixelLanes) sumBlock<2>(grey + i, steps, stepCount, to + i);
-  for (; i + kPixelLanes <= count; i += kPixelLanes) sumBlock<1>(grey + i, steps, stepCount, to + i);
-  if (i < count) sumStepsPlain(grey + i, steps, stepCount, count - i, to + i);
-}
-
-#endif
-
 BATTEN_HOT_LOOP void darkestOf(const float* values, int count, float* __restrict darkest) {
   for (int i = 0; i < count; ++i) darkest[i] = values[i] < darkest[i] ? values[i] : darkest[i];
+}
+
+struct Pixel {
+  int x, y;
+};
+
+// The part of a tile that is looked at.
+struct TilePart {
+  int x0 = kTile, y0 = kTile, x1 = 0, y1 = 0;
+};
+
+TilePart partWith(const std::vector<Pixel>& pixels) {
+  TilePart part;
+  for (const Pixel& p : pixels) {
+    part.x0 = std::min(part.x0, p.x);
+    part.y0 = std::min(part.y0, p.y);
+    part.x1 = std::max(part.x1, p.x + 1);
+    part.y1 = std::max(part.y1, p.y + 1);
+  }
+  return part;
 }
 
 // Brightness of one tile and what lies round it, and its means along lines.
@@ -155,7 +144,8 @@ class Tile {
         mean_(area()),
         best_(area()),
         ahead_(area()),
-        back_(area()) {
+        back_(area()),
+        noted_(area()) {
     for (int y = 0; y < side_; ++y) {
       const std::uint16_t* row = grey.row(std::clamp(y0 - margin_ + y, 0, grey.height - 1));
       for (int x = 0; x < side_; ++x) {
@@ -174,14 +164,15 @@ class Tile {
     for (float& grey : grey_) grey = std::max(grey, darkest);
   }
 
-  void meanAlong(const Direction& d, int reach) {
-    const int from = margin_ - reach, count = kTile + 2 * reach;
+  // Of a part of the tile, and as far round it as `reach`.
+  void meanAlong(const Direction& d, int reach, const TilePart& part) {
+    const int from = margin_ + part.x0 - reach, count = part.x1 - part.x0 + 2 * reach;
     const auto weight = 1.0f / static_cast<float>(d.ahead.size());
-    for (int y = from; y < from + count; ++y) {
+    for (int y = margin_ + part.y0 - reach; y < margin_ + part.y1 + reach; ++y) {
       const float* grey = grey_.data() + index(from, y);
       float *ahead = ahead_.data() + index(from, y), *back = back_.data() + index(from, y);
-      stepSums()(grey, d.ahead.data(), static_cast<int>(d.ahead.size()), count, ahead);
-      stepSums()(grey, d.back.data(), static_cast<int>(d.back.size()), count, back);
+      folds_.sum(grey, d.ahead.data(), static_cast<int>(d.ahead.size()), count, ahead);
+      folds_.sum(grey, d.back.data(), static_cast<int>(d.back.size()), count, back);
       float* mean = mean_.data() + index(from, y);
       for (int i = 0; i < count; ++i) {
         mean[i] = 0.5f * weight * (ahead[i] + back[i]);
@@ -190,40 +181,47 @@ class Tile {
     }
   }
 
-  // Darkest mean of all directions at every pixel.
-  void noteDarkest() {
-    for (int y = margin_; y < margin_ + kTile; ++y)
-      darkestOf(mean_.data() + index(margin_, y), kTile, best_.data() + index(margin_, y));
+  // Darkest mean of all directions at every pixel of a part.
+  void noteDarkest(const TilePart& part) {
+    const int from = margin_ + part.x0, count = part.x1 - part.x0;
+    for (int y = margin_ + part.y0; y < margin_ + part.y1; ++y)
+      darkestOf(mean_.data() + index(from, y), count, best_.data() + index(from, y));
   }
 
-  // Whether lines darker than `limit` lie at both sides of pixel (x, y) of the tile.
-  bool isFlanked(const Direction& d, float limit, int x, int y) const {
-    const float* here = mean_.data() + index(margin_ + x, margin_ + y);
-    const auto isDark = [&](int offset) { return here[offset] < limit; };
-    return std::any_of(d.left.begin(), d.left.end(), isDark) && std::any_of(d.right.begin(), d.right.end(), isDark);
+  // At every pixel of a part the brighter of its sides: of each the darkest mean.
+  void noteFlanks(const Direction& d, const TilePart& part) {
+    noteSides(d, part, std::max(d.left.size(), d.right.size()), folds_.least,
+              [](float left, float right, float) { return std::max(left, right); });
   }
-  // [grey] How much darker than both its sides a line is at pixel (x, y), where it is fainter: ahead or behind.
-  float ridge(const Direction& d, int sides, int x, int y) const {
-    const float* here = mean_.data() + index(margin_ + x, margin_ + y);
-    const auto brightest = [&](const std::vector<int>& places) {
-      float most = 0.0f;
-      for (int k = 0; k < std::min(sides, static_cast<int>(places.size())); ++k) most = std::max(most, here[places[k]]);
-      return most;
-    };
-    return std::min(brightest(d.left), brightest(d.right)) - ahead_[index(margin_ + x, margin_ + y)];
+  // At every pixel of a part, how much darker than both its sides a line is where it is fainter: ahead or behind.
+  void noteRidges(const Direction& d, std::size_t sides, const TilePart& part) {
+    noteSides(d, part, sides, folds_.most,
+              [](float left, float right, float ahead) { return std::min(left, right) - ahead; });
   }
+  // [grey] What was noted at pixel (x, y) of the tile.
+  float noted(int x, int y) const { return noted_[index(margin_ + x, margin_ + y)]; }
   float best(int x, int y) const { return best_[index(margin_ + x, margin_ + y)]; }
 
  private:
   int area() const { return side_ * side_; }  // a tile and what lies round it: some 10^4 pixels
   int index(int x, int y) const { return y * side_ + x; }
 
-  int margin_, side_;
-  std::vector<float> grey_, mean_, best_, ahead_, back_;
-};
+  template <class Note>
+  void noteSides(const Direction& d, const TilePart& part, std::size_t most, StepFold ofPlaces, const Note& note) {
+    const int count = part.x1 - part.x0;
+    std::array<float, kTile> left, right;
+    for (int y = part.y0; y < part.y1; ++y) {
+      const int from = index(margin_ + part.x0, margin_ + y);
+      const float *mean = mean_.data() + from, *ahead = ahead_.data() + from;
+      ofPlaces(mean, d.left.data(), static_cast<int>(std::min(most, d.left.size())), count, left.data());
+      ofPlaces(mean, d.right.data(), static_cast<int>(std::min(most, d.right.size())), count, right.data());
+      for (int i = 0; i < count; ++i) noted_[from + i] = note(left[i], right[i], ahead[i]);
+    }
+  }
 
-struct Pixel {
-  int x, y;
+  StepFolds folds_ = stepFolds();
+  int margin_, side_;
+  std::vector<float> grey_, mean_, best_, ahead_, back_, noted_;
 };
 
 std::vector<Pixel> bodyPixels(const BitImage& body, int x0, int y0) {
@@ -255,14 +253,19 @@ struct LineSearch {
     if (pixels.empty()) return found;
     Tile tile(grey, x0, y0, filter);
     const float clear = clearAt(grain, filter, middleOf(x0, y0));
+    const TilePart all = partWith(pixels);
     for (const Direction& d : filter.directions) {
-      tile.meanAlong(d, 0);
-      tile.noteDarkest();
+      tile.meanAlong(d, 0, all);
+      tile.noteDarkest(all);
     }
     for (const Direction& d : filter.directions) {
-      tile.meanAlong(d, filter.reachPx);
+      if (pixels.empty()) break;
+      const TilePart part = partWith(pixels);
+      tile.meanAlong(d, filter.reachPx, part);
+      tile.noteFlanks(d, part);
       std::erase_if(pixels, [&](const Pixel& p) {
-        if (!tile.isFlanked(d, tile.best(p.x, p.y) - clear, p.x, p.y)) return false;
+        // Lines that are clearly darker lie at both sides.
+        if (!(tile.noted(p.x, p.y) < tile.best(p.x, p.y) - clear)) return false;
         found.push_back(p);
         return true;
       });
@@ -280,9 +283,12 @@ struct LineSearch {
     const float least =
         std::max(kHalf * clearAt(grain, filter, middle), static_cast<float>(kLineDepth * grain.depthAt(middle)));
     for (const Direction& d : filter.directions) {
-      tile.meanAlong(d, filter.reachPx);
+      if (pixels.empty()) break;
+      const TilePart part = partWith(pixels);
+      tile.meanAlong(d, filter.ridgeReachPx, part);
+      tile.noteRidges(d, filter.ridgeSides, part);
       std::erase_if(pixels, [&](const Pixel& p) {
-        if (!(tile.ridge(d, filter.ridgeSides, p.x, p.y) > least)) return false;
+        if (!(tile.noted(p.x, p.y) > least)) return false;
         found.push_back(p);
         return true;
       });
@@ -294,15 +300,6 @@ struct LineSearch {
 };
 
 }  // namespace
-
-StepSums plainStepSums() { return sumStepsPlain; }
-
-StepSums stepSums() {
-#ifdef BATTEN_HAS_AVX2
-  if (hasAvx2()) return sumStepsAvx2;
-#endif
-  return sumStepsPlain;
-}
 
 OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
                                   double widthPx, const RunContext& context, int pixelsPerPx) {

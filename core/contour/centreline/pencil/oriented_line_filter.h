@@ -23,11 +23,4 @@ struct OrientedLines {
 OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
                                   double widthPx, const RunContext& context, int pixelsPerPx = 1);
 
-/// to[i] = the sum of grey[i + step] over the steps, in their order, for i < count.
-using StepSums = void (*)(const float* grey, const int* steps, int stepCount, int count, float* to);
-/// For any processor.
-StepSums plainStepSums();
-/// The fastest that this processor has; the same bits.
-StepSums stepSums();
-
 }  // namespace batten

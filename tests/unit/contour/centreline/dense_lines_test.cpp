@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "core/contour/centreline/pencil/grain_closing.h"
 #include "core/contour/centreline/pencil/graininess.h"
 #include "core/contour/centreline/pencil/oriented_line_filter.h"
+#include "core/contour/centreline/pencil/step_folds.h"
 #include "core/contour/centreline/skeleton/skeleton.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/ink_page.h"
@@ -200,7 +202,7 @@ TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
   }
 }
 
-TEST(StepSums, AreThoseOfOnePixelAfterTheOtherToTheLastBit) {
+TEST(StepFolds, AreThoseOfOnePixelAfterTheOtherToTheLastBit) {
   constexpr int kSide = 160;
   std::mt19937 random(4);
   std::uniform_real_distribution<float> level(0.0f, 255.0f);
@@ -210,14 +212,18 @@ TEST(StepSums, AreThoseOfOnePixelAfterTheOtherToTheLastBit) {
     std::vector<int> steps;
     for (int k = 1; k <= 12; ++k) steps.push_back((k % 3 - 1) * k / 2 * kSide + k);
     const float* from = grey.data() + kSide * kSide / 2;
-    std::vector<float> plain(count), fastest(count);
-    plainStepSums()(from, steps.data(), 12, count, plain.data());
-    stepSums()(from, steps.data(), 12, count, fastest.data());
-    for (int i = 0; i < count; ++i) {
-      float sum = 0.0f;
-      for (const int step : steps) sum += from[i + step];
-      ASSERT_EQ(plain[i], sum) << count << " " << i;
-      ASSERT_EQ(fastest[i], sum) << count << " " << i;
+    for (const StepFolds& folds : {plainStepFolds(), stepFolds()}) {
+      std::vector<float> sums(count), least(count), most(count);
+      folds.sum(from, steps.data(), 12, count, sums.data());
+      folds.least(from, steps.data(), 12, count, least.data());
+      folds.most(from, steps.data(), 12, count, most.data());
+      for (int i = 0; i < count; ++i) {
+        std::vector<float> values;
+        for (const int step : steps) values.push_back(from[i + step]);
+        ASSERT_EQ(sums[i], std::accumulate(values.begin(), values.end(), 0.0f)) << count << " " << i;
+        ASSERT_EQ(least[i], *std::ranges::min_element(values)) << count << " " << i;
+        ASSERT_EQ(most[i], *std::ranges::max_element(values)) << count << " " << i;
+      }
     }
   }
 }
