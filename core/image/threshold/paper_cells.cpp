@@ -156,19 +156,35 @@ std::vector<float> levelsOf(const RegionSurface& surface, const Cells& cells) {
   return levels;
 }
 
+/// [grey] Mean absolute deviation within a cell.
+float unevennessOf(const Plane& grey, const Cells& cells, int size, std::size_t cell) {
+  const int x0 = static_cast<int>(cell % cells.columns) * size, y0 = static_cast<int>(cell / cells.columns) * size;
+  const int x1 = std::min(x0 + size, grey.width), y1 = std::min(y0 + size, grey.height);
+  float sum = 0.0f;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) sum += std::fabs(grey.row(y)[x] - cells.mean[cell]);
+  return sum / static_cast<float>((x1 - x0) * (y1 - y0));
+}
+
 /// Takes cells that are brighter than the paper by more than ink is darker from the free ones: white chalk on toned
-/// paper, paint. None where there are so many that they may be the paper themselves.
-void dropHighlights(Cells& cells, const PaperBackground& paper, const std::vector<float>& halfLevels) {
+/// paper, paint. None where they may be the paper themselves: where there are many, and where they are much more even
+/// than what was taken for paper, which is hatching then.
+void dropHighlights(const Plane& grey, int size, Cells& cells, const PaperBackground& paper,
+                    const std::vector<float>& halfLevels) {
   constexpr double kMostHighlights = 0.15;  // of the free cells
   constexpr float kBrighterHalves = 2.0f;   // of the half level: the whole contrast
+  constexpr float kEvenShare = 0.5f;        // of the unevenness of paper: neither chalk nor paint is so even
   std::vector<std::size_t> highlights;
-  double free = 0.0;
+  std::vector<float> ofPaper, ofHighlights;
   for (std::size_t i = 0; i < cells.mean.size(); ++i) {
     if (cells.isFree[i] == 0) continue;
-    free += 1.0;
-    if (cells.mean[i] - paper.grey[i] >= -kBrighterHalves * halfLevels[i]) highlights.push_back(i);
+    const bool isHighlight = cells.mean[i] - paper.grey[i] >= -kBrighterHalves * halfLevels[i];
+    (isHighlight ? ofHighlights : ofPaper).push_back(unevennessOf(grey, cells, size, i));
+    if (isHighlight) highlights.push_back(i);
   }
-  if (static_cast<double>(highlights.size()) > kMostHighlights * free) return;
+  const double free = static_cast<double>(ofPaper.size() + ofHighlights.size());
+  if (highlights.empty() || static_cast<double>(highlights.size()) > kMostHighlights * free) return;
+  if (upperMedian(ofHighlights) < kEvenShare * upperMedian(ofPaper)) return;
   for (const std::size_t i : highlights) cells.isFree[i] = 0;
 }
 
@@ -182,7 +198,7 @@ void correctPaper(const Plane& grey, const InkEdges& edges, int shrink, int roun
   const bool noEdges = std::all_of(half.begin(), half.end(), [](float v) { return v == 0.0f; });
   const std::vector<float> limits = levelsOf(RegionSurface(values, cells.columns, cells.rows, true), cells);
   const std::size_t count = cells.mean.size();
-  if (round == 0 && areMixed) dropHighlights(cells, paper, limits);
+  if (round == 0 && areMixed) dropHighlights(grey, paper.cellPx / shrink, cells, paper, limits);
   std::vector<float> offset(count), weight(count);
   std::vector<std::size_t> darker;  // free cells
   for (std::size_t i = 0; i < count; ++i) {

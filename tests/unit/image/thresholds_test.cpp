@@ -105,6 +105,43 @@ TEST(Thresholds, ChalkOnTonedPaperIsNoPaper) {
   EXPECT_LE(astray, 12);
 }
 
+// A black frame around white paper in an area that is hatched all over: there the hatching is what most of the page
+// shows, and the even paper within the frame is what it was drawn on.
+TEST(Thresholds, EvenPaperBrighterThanHatchingIsPaper) {
+  constexpr int kHatchedWidth = 900, kHatchedHeight = 700;
+  const auto beyond = [](double x, double y, double halfWidth, double halfHeight) {
+    return std::max(std::fabs(x - 470.0) - halfWidth, std::fabs(y - 360.0) - halfHeight);
+  };
+  const auto isPaper = [&](double x, double y) { return beyond(x, y, 150.0, 110.0) < 0.0; };
+  const auto tone = [&](double x, double y) {
+    if (isPaper(x, y)) return 240.0;
+    const double hatch = std::sin(0.9 * x + 1.3 * y + 2.0 * std::sin(0.031 * x - 0.02 * y)) +
+                         std::sin(1.1 * x - 0.7 * y + 3.0 * std::sin(0.017 * y)) + std::sin(0.05 * x + 0.04 * y);
+    return 100.0 + 14.0 * hatch;
+  };
+  const auto frame = [&](double x, double y) {
+    return std::max(beyond(x, y, 180.0, 140.0), -beyond(x, y, 150.0, 110.0));
+  };
+  std::vector<float> coverage;
+  for (int y = 0; y < kHatchedHeight; ++y)
+    for (int x = 0; x < kHatchedWidth; ++x)
+      coverage.push_back(static_cast<float>(std::clamp(0.5 - frame(x + 0.5, y + 0.5), 0.0, 1.0)));
+  const Scan scan = test::renderStress(coverage, kHatchedWidth, kHatchedHeight, tone, {85.0, 2.0, 0.8}, 5);
+  const auto thresholds = findThresholds(scan.grey, {}, {}, {});
+  ASSERT_TRUE(thresholds && thresholds->foundLine);
+  EXPECT_NEAR(thresholds->paper.at(470.0, 360.0), 240.0, 10.0);
+  const BitImage ink = *binarize(scan.grey, *thresholds, {}, {});
+  int seen = 0, drawn = 0;
+  for (int y = 0; y < kHatchedHeight; ++y) {
+    for (int x = 0; x < kHatchedWidth; ++x) {
+      if (frame(x + 0.5, y + 0.5) > -2.0) continue;
+      ++drawn;
+      seen += ink.at(x, y) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(seen, 0.97 * drawn);
+}
+
 TEST(Thresholds, FlatPagesHoldNothing) {
   for (const bool flatten : {true, false}) {
     for (const std::uint16_t fill : {std::uint16_t{0}, std::uint16_t{30000}, std::uint16_t{0xffff}}) {
