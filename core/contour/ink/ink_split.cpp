@@ -19,6 +19,7 @@
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink/painted_ink.h"
 #include "core/contour/ink/pencil_solids.h"
+#include "core/contour/ink/row_vote.h"
 #include "core/contour/label/ink_labels.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/fine_page.h"
@@ -265,11 +266,19 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
   }
   split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(junctions), std::move(grain)});
-  if (!pencil.any()) return split;
+  const auto vote = [&](const BitImage& labelled, const BitImage* ofPencil) {
+    voteInRows({pencil.pieces(), split.known->paths, labelled, ofPencil}, split.strokes, split.shapes, context);
+  };
+  if (!pencil.any()) {
+    vote(BitImage(split.shapes), nullptr);
+    return split;
+  }
   Result<StrokeSplit> byPiece = splitStrokes(ink, context);
   if (!byPiece) return fail(byPiece.error());
   PencilInk drawn;
+  const BitImage labelled = split.shapes;
   drawn.ink = movePencil(ink, pencil, *byPiece, split);
+  vote(labelled, &drawn.ink);
   const StrokesOfInk& known = *split.known;
   const double widthPx = medianWidth(known.paths, [&](int i) { return known.grain.isPencil(i); });
   Result<BitImage> body = withGrainClosed(both(split.strokes, drawn.ink), widthPx, page != nullptr, context);

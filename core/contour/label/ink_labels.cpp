@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "core/contour/centreline/skeleton/skeleton.h"
+#include "core/contour/label/broad_lines.h"
 #include "core/contour/label/ink_graph.h"
 #include "core/contour/label/label_rules.h"
 #include "core/contour/label/label_vote.h"
@@ -289,6 +290,11 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, double pixelsPe
   labels.penPx = penOfStrokes(graph);
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);
+  if (labels.penPx && releaseBroadLines(graph, *labels.penPx, page.widestPenPx, labels.shapes)) {
+    labels.strokes = labels.shapes = BitImage(ink.width, ink.height);
+    paintLabels(graph, labels, context);
+    shareRest(ink, labels, context);
+  }
   releaseBundles(graph, page, mergeWidths, labels, context);
   if (context.isCancelled()) return cancelled();
   std::unordered_map<int, std::int64_t> shapeArea;
