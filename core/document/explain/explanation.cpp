@@ -36,7 +36,7 @@ Result<Reference> makeReference(const GreyImage& page, const Recipe& recipe, con
   ThresholdParams asked;
   auto thresholds = findThresholds(page, {}, asked, context);
   if (!thresholds) return fail(thresholds.error());
-  const auto clear = binarize(page, *thresholds, asked, context);
+  const auto clear = binarizePage(page, *thresholds, asked, context);
   if (!clear) return fail(clear.error());
   // The same part of the half level on every page.
   asked.strength = kReferenceStrength / thresholds->halfLevelShare;

@@ -14,6 +14,7 @@
 #include "core/image/threshold/even_strokes.h"
 #include "core/image/threshold/faint_lines.h"
 #include "core/image/threshold/level_masks.h"
+#include "core/image/threshold/lines_in_grain.h"
 #include "core/image/threshold/region_values.h"
 #include "core/image/threshold/whole_ink.h"
 
@@ -100,6 +101,19 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the mask; scan at a lower resolution or crop.");
   }
+}
+
+Result<BitImage> binarizePage(const GreyImage& image, const RegionThresholds& thresholds, const ThresholdParams& params,
+                              const RunContext& context) {
+  Result<BitImage> ink = binarize(image, thresholds, params, context);
+  if (!ink || image.width <= 0 || image.height <= 0) return ink;
+  try {
+    *ink = addLinesInGrain(std::move(*ink), image, thresholds, params, context);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the mask; scan at a lower resolution or crop.");
+  }
+  if (context.isCancelled()) return cancelled();
+  return ink;
 }
 
 }  // namespace batten

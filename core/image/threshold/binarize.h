@@ -20,5 +20,7 @@ inline constexpr double kMeshShare = 0.25;
 /// pixels of the picture.
 Result<BitImage> binarize(const GreyImage&, const RegionThresholds&, const ThresholdParams&, const RunContext&,
                           int pixelsPerPx = 1);
+/// The same of a whole page, with the lines that the grain of its paper hides from thresholds (lines_in_grain.h).
+Result<BitImage> binarizePage(const GreyImage&, const RegionThresholds&, const ThresholdParams&, const RunContext&);
 
 }  // namespace batten

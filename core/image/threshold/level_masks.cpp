@@ -15,7 +15,6 @@
 namespace batten {
 namespace {
 
-constexpr double kAutomaticReach = 0.4;  // of the region's contrast; never into the noise of the paper
 constexpr float kRounding = 0.01f;       // [grey] more than floats lose on the way to a level or a smoothed pixel
 
 constexpr int kBlockAcross = LevelBlock::kAcross, kBlockDown = LevelBlock::kDown;  // [px]

@@ -10,6 +10,9 @@
 
 namespace batten {
 
+/// ThresholdParams::reach, chosen by the program: never into the noise of the paper.
+inline constexpr double kAutomaticReach = 0.4;
+
 /// The smoothed page compared with three levels: paper plus the contrast of the regions, made deeper or weaker.
 struct LevelMasks {
   BitImage ink;                     ///< Darker than the level of its region.

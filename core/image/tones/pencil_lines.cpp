@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/image/grown_mask.h"
-#include "core/image/tones/line_means.h"
+#include "core/image/line_means.h"
 #include "core/image/tones/tone_look.h"
 
 namespace batten {

@@ -104,7 +104,7 @@ class PipelineRun {
       case StageId::Binary:
         return step(stage, out_.binary, [&]() -> Result<BitImage> {
           if (isBlank(scan_)) return BitImage(scan_.grey.width, scan_.grey.height);
-          return binarize(grey(), *out_.thresholds, recipe_.threshold, context_);
+          return binarizePage(grey(), *out_.thresholds, recipe_.threshold, context_);
         });
       case StageId::Filtered:
         return step(stage, out_.filtered, [&] { return neighbourhoodFilter(*out_.binary, recipe_.filter, context_); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/tones/line_means.h"
+#include "core/image/line_means.h"
 
 #include <algorithm>
 #include <cmath>
