@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <new>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ namespace batten {
 namespace {
 
 /// A speck of the default 20 px has a box of 8 px across; other areas in proportion.
+constexpr const char* kNoMemoryForMask = "Not enough memory for the mask; scan at a lower resolution or crop.";
 constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;
 constexpr int kRowShare = 4;  // a mark that lies in a row may be so many times smaller than a speck
 
@@ -99,7 +101,7 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
     if (context.isCancelled()) return cancelled();
     return ink;
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory for the mask; scan at a lower resolution or crop.");
+    return fail(ErrorCode::OutOfMemory, kNoMemoryForMask);
   }
 }
 
@@ -110,7 +112,10 @@ Result<BitImage> binarizePage(const GreyImage& image, const RegionThresholds& th
   try {
     *ink = addLinesInGrain(std::move(*ink), image, thresholds, params, context);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory for the mask; scan at a lower resolution or crop.");
+    return fail(ErrorCode::OutOfMemory, kNoMemoryForMask);
+  } catch (const cv::Exception& exception) {
+    if (exception.code == cv::Error::StsNoMem) return fail(ErrorCode::OutOfMemory, kNoMemoryForMask);
+    throw;
   }
   if (context.isCancelled()) return cancelled();
   return ink;

@@ -14,6 +14,7 @@
 #include "core/base/statistics.h"
 #include "core/image/bits/bit_steps.h"
 #include "core/image/bits/run_pieces.h"
+#include "core/image/gaussian_mean.h"
 #include "core/image/grown_mask.h"
 #include "core/image/line_means.h"
 #include "core/image/plane.h"
@@ -89,16 +90,14 @@ class BarePaper {
     bare_ = grownMask(ink, static_cast<int>(std::ceil(kBesideInk * widthPx))) == 0;
     bare_.convertTo(weight_, CV_32F, 1.0 / 255.0);
     share_ = cv::mean(weight_)[0];
-    blur(weight_, weightAround_);
+    weightAround_ = gaussianMean(weight_, sigmaPx_);
   }
   bool isSeen() const { return share_ >= kLeastBare; }
   double mean(const cv::Mat1f& of) const { return cv::mean(of.mul(weight_))[0] / share_; }
   /// In the surroundings of each place.
   cv::Mat1f around(const cv::Mat1f& of) const {
-    cv::Mat1f sum;
-    blur(of.mul(weight_), sum);
     constexpr double kHardlyAny = 1e-3;
-    return sum / cv::max(weightAround_, kHardlyAny);
+    return gaussianMean(of.mul(weight_), sigmaPx_) / cv::max(weightAround_, kHardlyAny);
   }
   /// What the grain around each place makes of means along lines.
   cv::Mat1f grainOf(const LineMeans& means) const {
@@ -119,9 +118,6 @@ class BarePaper {
   }
 
  private:
-  void blur(const cv::Mat1f& from, cv::Mat1f& to) const {
-    cv::GaussianBlur(from, to, {}, sigmaPx_, 0.0, cv::BORDER_REPLICATE);
-  }
   double sigmaPx_, share_ = 0.0;
   cv::Mat1b bare_;
   cv::Mat1f weight_, weightAround_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/image/gaussian_mean.h"
 #include "core/image/grown_mask.h"
 #include "core/image/line_means.h"
 #include "core/image/tones/tone_look.h"
@@ -74,22 +75,6 @@ SeenLines seenLines(const PencilPage& page, double alongWidths, const cv::Mat1b&
 
 }  // namespace
 
-cv::Mat1f blurredTone(const cv::Mat1f& picture, double sigmaPx) {
-  // Of a wide mean a smaller picture shows as much, and takes a fraction of the time.
-  constexpr double kLeastSigmaPx = 4.0;  // of the smaller one: what lies between its pixels is a straight line
-  const double factor = std::floor(sigmaPx / kLeastSigmaPx);
-  cv::Mat1f out;
-  if (factor < 2.0) {
-    cv::GaussianBlur(picture, out, {}, sigmaPx, 0.0, cv::BORDER_REPLICATE);
-    return out;
-  }
-  const cv::Size size(ceiled(picture.cols / factor), ceiled(picture.rows / factor));
-  cv::resize(picture, out, size, 0.0, 0.0, cv::INTER_AREA);
-  cv::GaussianBlur(out, out, {}, sigmaPx / factor, 0.0, cv::BORDER_REPLICATE);
-  cv::resize(out, out, picture.size(), 0.0, 0.0, cv::INTER_LINEAR);
-  return out;
-}
-
 cv::Mat1b roundedTone(const cv::Mat1f& picture) {
   cv::Mat1b out;
   picture.convertTo(out, CV_8U);
@@ -99,9 +84,9 @@ cv::Mat1b roundedTone(const cv::Mat1f& picture) {
 cv::Mat1f meanOfMasked(const cv::Mat1f& picture, const cv::Mat1b& mask, double sigmaPx) {
   cv::Mat1f weight;
   mask.convertTo(weight, CV_32F, 1.0 / 255.0);
-  const cv::Mat1f sum = blurredTone(picture.mul(weight), sigmaPx);
+  const cv::Mat1f sum = gaussianMean(picture.mul(weight), sigmaPx);
   constexpr double kHardlyAny = 1e-3;
-  return sum / cv::max(blurredTone(weight, sigmaPx), kHardlyAny);
+  return sum / cv::max(gaussianMean(weight, sigmaPx), kHardlyAny);
 }
 
 std::optional<PencilPage> lookAtPencil(const GreyImage& searched, const RunContext& context) {
@@ -118,13 +103,13 @@ std::optional<PencilPage> lookAtPencil(const GreyImage& searched, const RunConte
   look->flat.convertTo(page.level, CV_32F);
   page.widthPx = std::clamp(*inkPx - kInkBlurPx, kLeastLinePx, kMostLinePx);
   page.brush = brushBeyondLines(page.widthPx);
-  const cv::Mat1b calm = roundedTone(blurredTone(page.level, kMiddleBlur * page.widthPx));
+  const cv::Mat1b calm = roundedTone(gaussianMean(page.level, kMiddleBlur * page.widthPx));
   const cv::Mat1b thin = middle & (distance < kThinWidths * page.widthPx);
   if (cv::countNonZero(thin) < kLeastLinePixels) return std::nullopt;
   page.darkness = darknessQuantile(calm, thin, kLineQuantile);
   page.darknessAlike =
       darknessQuantile(calm, middle, kFaintPart) / std::max(1.0, darknessQuantile(calm, middle, kDarkPart));
-  page.smooth = roundedTone(blurredTone(page.level, kGrainBlur * page.widthPx));
+  page.smooth = roundedTone(gaussianMean(page.level, kGrainBlur * page.widthPx));
   cv::GaussianBlur(withoutNarrow(page.smooth, page.brush), page.ground, {}, kGrainBlur * page.widthPx, 0.0,
                    cv::BORDER_REPLICATE);
   return page;
@@ -143,7 +128,7 @@ cv::Mat1b linesOnTones(const PencilPage& page, const cv::Mat1b& shaded, const Ru
 }
 
 cv::Mat1b levelOfLines(const PencilPage& page, const cv::Mat1b& lines) {
-  cv::Mat1f middle = blurredTone(page.level, kMiddleBlur * page.widthPx);
+  cv::Mat1f middle = gaussianMean(page.level, kMiddleBlur * page.widthPx);
   middle.setTo(255.0f, lines == 0);
   constexpr double kToMiddle = 0.6, kAlongMiddle = 1.5;  // [widths]
   const int radius = std::max(1, static_cast<int>(std::lround(kToMiddle * page.widthPx)));

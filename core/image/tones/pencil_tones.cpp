@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/image/gaussian_mean.h"
 #include "core/image/grown_mask.h"
 #include "core/image/tones/pencil_lines.h"
 #include "core/image/tones/tone_look.h"
@@ -78,7 +79,7 @@ cv::Mat1b solidsOf(const PencilPage& page, const cv::Mat1b& shaded, const cv::Ma
   lineLevel.convertTo(level, CV_32F);
   cv::Mat1b dark = shaded & ((255.0 - ground > kMostOfLines * (255.0 - level)) | (ground < 255.0 - kDarkestTone));
   cv::morphologyEx(dark, dark, cv::MORPH_OPEN, disc(static_cast<int>(std::lround(page.widthPx))));
-  const cv::Mat1f calm = blurredTone(page.level, page.widthPx);
+  const cv::Mat1f calm = gaussianMean(page.level, page.widthPx);
   cv::Mat1f darkest, brightest;
   cv::erode(calm, darkest, disc(page.brush));
   cv::dilate(calm, brightest, disc(page.brush));
@@ -186,7 +187,7 @@ cv::Mat1f gainOf(const PencilPage& page, const cv::Mat1b& ground, const cv::Mat1
   ofLines = cv::min(cv::max(ofLines, kLeastLineGain), kMostLineGain);
   gain.setTo(1.0f, grownMask(solids, static_cast<int>(std::ceil(kSolidRim * page.widthPx))));
   ofLines.copyTo(gain, lines);
-  return blurredTone(gain, kGainSigmaWidths * page.widthPx);
+  return gaussianMean(gain, kGainSigmaWidths * page.widthPx);
 }
 
 std::vector<std::uint8_t> bytesOf(const cv::Mat1b& picture) { return {picture.begin(), picture.end()}; }
@@ -223,7 +224,7 @@ std::optional<ToneAreas> findPencilTones(const ToneCopy& copy, const RunContext&
   if (context.isCancelled() || cv::countNonZero(lines) == 0) return std::nullopt;
   const cv::Mat1b lineLevel = levelOfLines(*look, lines);
   const cv::Mat1b unlined = grownMask(lines, static_cast<int>(std::ceil(kBesideLines * look->widthPx))) == 0;
-  const cv::Mat1f grain = cv::abs(look->level - blurredTone(look->level, look->widthPx));
+  const cv::Mat1f grain = cv::abs(look->level - gaussianMean(look->level, look->widthPx));
   const FilledAreas filled = filledAreas(*look, shaded, unlined, grain);
   const cv::Mat1b solids = solidsOf(*look, shaded, lineLevel) | filled.all;
   const cv::Mat1b tones = tonesOf(*look, shaded & (solids == 0), lines, unlined, grain);
