@@ -20,11 +20,13 @@ constexpr double kSharedWidth = 1.1;      // of a single stroke
 constexpr double kTwoStrokesWidth = 1.4;  // of a single stroke: between 1 where two cross and 2 where they part
 constexpr double kTouchingShare = 1.5;    // how much longer than lines that cross do those that touch lie together
 constexpr double kCrossingEdges = 1.5;    // of what they share: shorter edges are those of a bundle
-constexpr double kLeavingWidths = 4.0;    // [stroke widths] over which the direction of an edge is taken
-constexpr double kOnwardCos = 0.7;        // 45 degrees: what turns more at a link does not go on through it
-constexpr double kOneJunction = 1.5;      // of the radii of two junctions: nearer ones are one crossing
-constexpr double kFaceRadii = 0.6;        // [median radii] of paper: narrower is a fault in the ink, not a face
-constexpr double kWithinDisc = 1.1;       // of its radius: what stays within is part of the junction
+// [mean radii] Of shared ink, off its chord: where it bends more, what leads straight through it would leave it.
+constexpr double kMostSag = 1.0;
+constexpr double kLeavingWidths = 4.0;  // [stroke widths] over which the direction of an edge is taken
+constexpr double kOnwardCos = 0.7;      // 45 degrees: what turns more at a link does not go on through it
+constexpr double kOneJunction = 1.5;    // of the radii of two junctions: nearer ones are one crossing
+constexpr double kFaceRadii = 0.6;      // [median radii] of paper: narrower is a fault in the ink, not a face
+constexpr double kWithinDisc = 1.1;     // of its radius: what stays within is part of the junction
 
 class JunctionMerger {
  public:
@@ -80,7 +82,7 @@ double JunctionMerger::sharedLength(int link) const {
     }
   }
   // Of strokes that cross alone, from border to border: the middle of an even number of pixels lies half a pixel off.
-  const double width = isFree ? 2.0 * others + 1.0 : 2.0 * graph_.medianRadius();
+  const double own = 2.0 * others + 1.0, width = isFree ? own : std::min(own, 2.0 * graph_.medianRadius());
   for (int side = 0; side < 2; ++side) {
     const SkeletonNode& n = graph_.node(*l.node[side]);
     const double reach = kLeavingWidths * width + n.radius;
@@ -102,6 +104,18 @@ double JunctionMerger::sharedLength(int link) const {
   constexpr double kLeast = 0.2, kMost = 1.05;  // 12 and 60 degrees
   const double touching = isFree && graph_.meanRadius(link) >= kTwoStrokesWidth * others ? kTouchingShare : 1.0;
   return angle > kMost ? 0.0 : touching * 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
+}
+
+// [px] Farthest from the chord.
+double sagOf(const SkeletonEdge& edge) {
+  const Vec2& from = edge.points.front().at;
+  const Vec2 chord = edge.points.back().at - from;
+  double sag = 0.0;
+  for (const StrokePathPoint& p : edge.points) {
+    const double along = chord.squaredNorm() > 0.0 ? (p.at - from).dot(chord) / chord.squaredNorm() : 0.0;
+    sag = std::max(sag, (p.at - from - std::clamp(along, 0.0, 1.0) * chord).norm());
+  }
+  return sag;
 }
 
 bool isWithin(const SkeletonEdge& edge, const JunctionDisc& disc) {
@@ -177,7 +191,8 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks() {
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
     if (isInTangle_[*l.node[0]] || isInTangle_[*l.node[1]]) continue;
     shared_[i] = isOfBundles() ? std::nullopt : findSharedInk(graph_, i);
-    isLink_[i] = shared_[i] || liesInDiscs(l, a, b) || l.length <= sharedLength(i);
+    const bool mayBeShared = l.length <= sharedLength(i) && sagOf(l) <= kMostSag * graph_.meanRadius(i);
+    isLink_[i] = shared_[i] || liesInDiscs(l, a, b) || mayBeShared;
     if (isLink_[i]) links.emplace_back(l.length, i);
   }
   std::sort(links.begin(), links.end());
