@@ -299,7 +299,7 @@ class FinishedFit {
     auto nurbs = placed(curve->toNurbs(start, end), piece_, in_);
     if (!nurbs) return false;
     report_.fullControlPoints = nurbs->controlPointCount();
-    if (auto fewer = withFewerKnots(posterior, *curve, start, end)) nurbs = std::move(*fewer);
+    if (auto fewer = withKnotsRemoved(posterior, *curve, start, end)) nurbs = std::move(*fewer);
     report_.why = found.limited ? Termination::IterationLimit : Termination::Converged;
     noteExtrema(found, *curve, circleCost);
     noteNoise(posterior, *curve);
@@ -310,8 +310,8 @@ class FinishedFit {
   }
 
   /// The same curve with fewer control points, as far as the noise of the edge allows.
-  std::optional<Result<NurbsCurve>> withFewerKnots(const FairPosterior& posterior, const UniformQuintic& curve,
-                                                   const Vec2& start, const Vec2& end) {
+  std::optional<Result<NurbsCurve>> withKnotsRemoved(const FairPosterior& posterior, const UniformQuintic& curve,
+                                                     const Vec2& start, const Vec2& end) {
     if (!(options_.knotRemovalTolerance > 0.0) || frame_.pointCount == 0 || context_.isCancelled()) return std::nullopt;
     const int stations = kChecksPerSpan * curve.knots().spans + (piece_.data.closed ? 0 : 1);
     const int stride = checkStride(stations);
