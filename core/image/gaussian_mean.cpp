@@ -21,4 +21,12 @@ cv::Mat1f gaussianMean(const cv::Mat1f& picture, double sigmaPx) {
   return out;
 }
 
+cv::Mat1f meanOfMasked(const cv::Mat1f& picture, const cv::Mat1b& mask, double sigmaPx) {
+  cv::Mat1f weight;
+  mask.convertTo(weight, CV_32F, 1.0 / 255.0);
+  const cv::Mat1f sum = gaussianMean(picture.mul(weight), sigmaPx);
+  constexpr double kHardlyAny = 1e-3;
+  return sum / cv::max(gaussianMean(weight, sigmaPx), kHardlyAny);
+}
+
 }  // namespace batten

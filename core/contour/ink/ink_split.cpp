@@ -54,11 +54,7 @@ class PencilPieces {
     return found == byPiece_.end() ? page_.isPencil() : found->second.isPencil();
   }
   bool any() const { return page_.pencil > 0.0; }
-  std::optional<int> pieceOf(const StrokePath& path) const {
-    if (path.points.empty()) return std::nullopt;
-    const Vec2& at = path.points[path.points.size() / 2].at;
-    return pieceAt(pieces_, static_cast<int>(at.x()), static_cast<int>(at.y()));
-  }
+  std::optional<int> pieceOf(const StrokePath& path) const { return pieceOfPath(pieces_, path); }
 
  private:
   RunPieces pieces_;
@@ -270,7 +266,7 @@ Result<InkSplit> splitByLabel(const BitImage& ink, const GreyImage& grey, const 
     voteInRows({pencil.pieces(), split.known->paths, labelled, ofPencil}, split.strokes, split.shapes, context);
   };
   if (!pencil.any()) {
-    vote(BitImage(split.shapes), nullptr);
+    vote(split.shapes, nullptr);
     return split;
   }
   Result<StrokeSplit> byPiece = splitStrokes(ink, context);

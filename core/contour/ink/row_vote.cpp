@@ -45,11 +45,12 @@ Measured measure(const InkPieces& ink, const BitImage& shapes) {
   const RunPieces& runs = ink.pieces;
   Measured measured;
   measured.numberOfRun.resize(runs.runs.size());
+  const std::vector<PieceBox> boxes = boxesOfPieces(runs);
   for (int i = 0; i < std::ssize(runs.runs); ++i) {
     const InkRun& run = runs.runs[i];
     if (runs.piece[i] == i) {
       measured.numberOfRun[i] = static_cast<int>(measured.pieces.size());
-      measured.pieces.push_back({.firstRun = i});
+      measured.pieces.push_back({.firstRun = i, .box = boxes[i]});
       measured.pieces.back().isPencil = ink.pencil != nullptr && ink.pencil->at(run.x0, run.y);
     }
     const int number = measured.numberOfRun[i] = measured.numberOfRun[runs.piece[i]];
@@ -57,16 +58,10 @@ Measured measure(const InkPieces& ink, const BitImage& shapes) {
     piece.areaPx += run.x1 - run.x0;
     piece.shapePx += countBits(shapes, run);
     piece.labelledPx += countBits(ink.labelled, run);
-    piece.box.x0 = std::min(piece.box.x0, run.x0);
-    piece.box.y0 = std::min(piece.box.y0, run.y);
-    piece.box.x1 = std::max(piece.box.x1, run.x1);
-    piece.box.y1 = std::max(piece.box.y1, run.y + 1);
   }
   std::vector<std::vector<std::pair<double, double>>> widths(measured.pieces.size());  // and lengths
   for (const StrokePath& path : ink.paths) {
-    if (path.points.empty()) continue;
-    const Vec2& middle = path.points[path.points.size() / 2].at;
-    const auto first = pieceAt(runs, static_cast<int>(middle.x()), static_cast<int>(middle.y()));
+    const std::optional<int> first = pieceOfPath(runs, path);
     if (!first) continue;
     PieceInRow& piece = measured.pieces[measured.numberOfRun[*first]];
     const double lengthPx = path.length();
@@ -148,6 +143,12 @@ struct Row {
 };
 
 }  // namespace
+
+std::optional<int> pieceOfPath(const RunPieces& pieces, const StrokePath& path) {
+  if (path.points.empty()) return std::nullopt;
+  const Vec2& middle = path.points[path.points.size() / 2].at;
+  return pieceAt(pieces, static_cast<int>(middle.x()), static_cast<int>(middle.y()));
+}
 
 void voteInRows(const InkPieces& ink, BitImage& strokes, BitImage& shapes, const RunContext& context) {
   if (shapes.count() == 0) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -10,11 +11,14 @@
 
 namespace batten {
 
+/// The piece of ink that the middle of a stroke path lies in, as its first run.
+std::optional<int> pieceOfPath(const RunPieces&, const StrokePath&);
+
 /// The pieces of ink of a page, and what is known of them.
 struct InkPieces {
   const RunPieces& pieces;               ///< Of all ink.
   const std::vector<StrokePath>& paths;  ///< Of all its strokes.
-  const BitImage& labelled;              ///< What labelInk() takes for shapes, of all ink.
+  const BitImage& labelled;              ///< What labelInk() takes for shapes, of all ink; may be those voted on.
   const BitImage* pencil;                ///< What a pencil drew, whole pieces; absent: pens drew all.
 };
 

@@ -88,17 +88,11 @@ class BarePaper {
  public:
   BarePaper(const cv::Mat1b& ink, double widthPx) : sigmaPx_(kPaperWindow * widthPx) {
     bare_ = grownMask(ink, static_cast<int>(std::ceil(kBesideInk * widthPx))) == 0;
-    bare_.convertTo(weight_, CV_32F, 1.0 / 255.0);
-    share_ = cv::mean(weight_)[0];
-    weightAround_ = gaussianMean(weight_, sigmaPx_);
   }
-  bool isSeen() const { return share_ >= kLeastBare; }
-  double mean(const cv::Mat1f& of) const { return cv::mean(of.mul(weight_))[0] / share_; }
+  bool isSeen() const { return cv::countNonZero(bare_) >= kLeastBare * static_cast<double>(bare_.total()); }
+  double mean(const cv::Mat1f& of) const { return cv::mean(of, bare_)[0]; }
   /// In the surroundings of each place.
-  cv::Mat1f around(const cv::Mat1f& of) const {
-    constexpr double kHardlyAny = 1e-3;
-    return gaussianMean(of.mul(weight_), sigmaPx_) / cv::max(weightAround_, kHardlyAny);
-  }
+  cv::Mat1f around(const cv::Mat1f& of) const { return meanOfMasked(of, bare_, sigmaPx_); }
   /// What the grain around each place makes of means along lines.
   cv::Mat1f grainOf(const LineMeans& means) const {
     const cv::Mat1f squares = means.spread.mul(means.spread);
@@ -118,9 +112,8 @@ class BarePaper {
   }
 
  private:
-  double sigmaPx_, share_ = 0.0;
+  double sigmaPx_;
   cv::Mat1b bare_;
-  cv::Mat1f weight_, weightAround_;
 };
 
 // A copy half as large.

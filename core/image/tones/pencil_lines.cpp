@@ -81,14 +81,6 @@ cv::Mat1b roundedTone(const cv::Mat1f& picture) {
   return out;
 }
 
-cv::Mat1f meanOfMasked(const cv::Mat1f& picture, const cv::Mat1b& mask, double sigmaPx) {
-  cv::Mat1f weight;
-  mask.convertTo(weight, CV_32F, 1.0 / 255.0);
-  const cv::Mat1f sum = gaussianMean(picture.mul(weight), sigmaPx);
-  constexpr double kHardlyAny = 1e-3;
-  return sum / cv::max(gaussianMean(weight, sigmaPx), kHardlyAny);
-}
-
 std::optional<PencilPage> lookAtPencil(const GreyImage& searched, const RunContext& context) {
   RegionThresholds thresholds;
   const std::optional<ToneLook> look = inkOfPage(searched, context, &thresholds);

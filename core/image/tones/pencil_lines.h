@@ -30,7 +30,5 @@ cv::Mat1b linesOnTones(const PencilPage&, const cv::Mat1b& shaded, const RunCont
 cv::Mat1b levelOfLines(const PencilPage&, const cv::Mat1b& lines);
 
 cv::Mat1b roundedTone(const cv::Mat1f& picture);
-/// The mean around each place, by a Gaussian, of what the mask (255 inside) lets in.
-cv::Mat1f meanOfMasked(const cv::Mat1f& picture, const cv::Mat1b& mask, double sigmaPx);
 
 }  // namespace batten

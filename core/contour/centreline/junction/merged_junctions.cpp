@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/segment_foot.h"
 #include "core/contour/centreline/junction/shared_ink.h"
 #include "core/contour/centreline/junction/tangles.h"
 #include "core/contour/centreline/skeleton/skeleton_graph.h"
@@ -108,13 +109,9 @@ double JunctionMerger::sharedLength(int link) const {
 
 // [px] Farthest from the chord.
 double sagOf(const SkeletonEdge& edge) {
-  const Vec2& from = edge.points.front().at;
-  const Vec2 chord = edge.points.back().at - from;
   double sag = 0.0;
-  for (const StrokePathPoint& p : edge.points) {
-    const double along = chord.squaredNorm() > 0.0 ? (p.at - from).dot(chord) / chord.squaredNorm() : 0.0;
-    sag = std::max(sag, (p.at - from - std::clamp(along, 0.0, 1.0) * chord).norm());
-  }
+  for (const StrokePathPoint& p : edge.points)
+    sag = std::max(sag, footOnSegment(p.at, edge.points.front().at, edge.points.back().at).away.norm());
   return sag;
 }
 
@@ -191,8 +188,8 @@ std::vector<JunctionMerger::Link> JunctionMerger::shortLinks() {
     if (a.ends.size() < 3 || b.ends.size() < 3) continue;
     if (isInTangle_[*l.node[0]] || isInTangle_[*l.node[1]]) continue;
     shared_[i] = isOfBundles() ? std::nullopt : findSharedInk(graph_, i);
-    const bool mayBeShared = l.length <= sharedLength(i) && sagOf(l) <= kMostSag * graph_.meanRadius(i);
-    isLink_[i] = shared_[i] || liesInDiscs(l, a, b) || mayBeShared;
+    isLink_[i] = shared_[i] || liesInDiscs(l, a, b) ||
+                 (l.length <= sharedLength(i) && sagOf(l) <= kMostSag * graph_.meanRadius(i));
     if (isLink_[i]) links.emplace_back(l.length, i);
   }
   std::sort(links.begin(), links.end());
